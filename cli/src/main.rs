@@ -1,0 +1,3 @@
+//! The `chamfer` command line.
+
+fn main() {}

@@ -1,0 +1,25 @@
+//! Softens all hard edges of a triangle mesh in the layout of a game engine.
+//!
+//! At a hard edge the vertices exist twice: same position, different normals. They are pulled
+//! apart inside their own faces, and the gap is closed with a strip that shades smoothly from
+//! one face normal to the other. The method is that of Diana Algma, *Edge Chamfering Algorithm*
+//! (Tartu 2018); `docs/pipeline.md` says where this library goes on from there.
+
+pub mod shapes;
+
+mod error;
+mod mesh;
+mod options;
+mod pipeline;
+mod report;
+mod smoothing;
+
+pub use error::{Error, Stream};
+pub use mesh::{Mesh, MeshBuffers, UV_CHANNELS, Uv, UvBuffer};
+pub use options::{ChamferSubmesh, Options, Verify, Width};
+pub use pipeline::{chamfer, chamfer_with_progress};
+pub use report::{
+    Blend, Chamfered, EdgeVerdict, Outcome, Reason, Totals, TriangleKind, TriangleSource,
+    VertexSource,
+};
+pub use smoothing::{Smoothed, split_by_angle};

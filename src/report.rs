@@ -1,0 +1,156 @@
+//! What a call returns: the mesh, where each element came from, and what became of each edge.
+
+use crate::mesh::MeshBuffers;
+
+/// A chamfered mesh with its provenance and verdicts.
+#[derive(Clone, Debug, Default)]
+pub struct Chamfered {
+    /// The mesh. Source vertices keep their indices and source triangles their order; what is new
+    /// stands behind them, per submesh.
+    pub mesh: MeshBuffers,
+    /// `#vertices`: what each vertex was re-sampled from.
+    pub vertex_sources: Vec<VertexSource>,
+    /// `#triangles`: what each triangle came from.
+    pub triangle_sources: Vec<TriangleSource>,
+    /// `#hard edges` with two sides: what became of each.
+    pub verdicts: Vec<EdgeVerdict>,
+    /// The width asked for, in mesh units.
+    pub width: f32,
+    /// Sums over the verdicts.
+    pub totals: Totals,
+}
+
+/// A weighted mean of up to three source vertices. Unused places have weight 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Blend {
+    /// Source vertex indices.
+    pub vertices: [u32; 3],
+    /// Their weights, of sum 1. A weight may be negative where the vertex moved past a triangle.
+    pub weights: [f32; 3],
+}
+
+impl Blend {
+    /// One source vertex, unblended.
+    pub fn one(vertex: u32) -> Blend {
+        Blend { vertices: [vertex; 3], weights: [1.0, 0.0, 0.0] }
+    }
+}
+
+/// Where an output vertex came from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VertexSource {
+    /// For what belongs to the surface: position, normal, skin weights, morph targets.
+    pub surface: Blend,
+    /// For what belongs to the texture chart: UV channels, tangent, colour.
+    pub chart: Blend,
+}
+
+/// What an output triangle came from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TriangleSource {
+    /// What the index counts.
+    pub kind: TriangleKind,
+    /// A source triangle, a verdict, or a source vertex: see [`TriangleKind`].
+    pub index: u32,
+}
+
+/// What [`TriangleSource::index`] counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TriangleKind {
+    /// The triangle is the source triangle of that index.
+    Source,
+    /// The triangle chamfers the hard edge whose verdict has that index.
+    Edge,
+    /// The triangle fills the corner at the source vertex of that index.
+    Corner,
+}
+
+/// What became of one hard edge.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EdgeVerdict {
+    /// The source vertices at its ends, on the side of the first triangle that uses it.
+    pub vertices: [u32; 2],
+    /// What became of it.
+    pub outcome: Outcome,
+    /// Why it is not at full width.
+    pub reason: Reason,
+    /// At each end, the mean of the distances from the old edge to its two pulled sides, in mesh
+    /// units.
+    pub widths: [f32; 2],
+}
+
+/// What became of a hard edge.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    /// Chamfered at the width asked for (an end inside a smooth area tapers to a point).
+    Full,
+    /// Chamfered, but narrower somewhere.
+    Narrowed,
+    /// Left as it was.
+    Skipped,
+}
+
+/// Why a hard edge is narrower than asked for, or not chamfered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Reason {
+    /// It has full width.
+    None,
+    /// A face beside it has no room: it would fold or lose its area.
+    NoRoom,
+    /// The strip, or the fill at an end, would fold.
+    Folds,
+    /// The chamfer would cut through the mesh.
+    Intersects,
+    /// Nothing can be pulled at either end: both lie inside smooth areas or on borders.
+    NoEnd,
+    /// The faces beside it lie back to back.
+    ZeroThickness,
+    /// A triangle beside it has no area.
+    NoArea,
+    /// The width is too small for the precision of the positions here.
+    TooFine,
+}
+
+impl Reason {
+    /// Every reason, in the order of their numbers.
+    pub const ALL: [Reason; 8] = [
+        Reason::None,
+        Reason::NoRoom,
+        Reason::Folds,
+        Reason::Intersects,
+        Reason::NoEnd,
+        Reason::ZeroThickness,
+        Reason::NoArea,
+        Reason::TooFine,
+    ];
+
+    /// A short name in lower case with underscores, for reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Reason::None => "none",
+            Reason::NoRoom => "no_room",
+            Reason::Folds => "folds",
+            Reason::Intersects => "intersects",
+            Reason::NoEnd => "no_end",
+            Reason::ZeroThickness => "zero_thickness",
+            Reason::NoArea => "no_area",
+            Reason::TooFine => "too_fine",
+        }
+    }
+}
+
+/// Sums over the verdicts of a mesh.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Totals {
+    /// Hard edges with two sides.
+    pub hard_edges: u32,
+    /// Those at full width.
+    pub chamfered: u32,
+    /// Those chamfered, but narrower somewhere.
+    pub narrowed: u32,
+    /// Those left as they were, by reason (indexed by [`Reason`] as a number).
+    pub skipped: [u32; Reason::ALL.len()],
+    /// Mean width of the hard edges, as a share (0 to 1) of the width asked for, weighted by edge
+    /// length; 0 without hard edges.
+    pub mean_width: f32,
+}

@@ -1,0 +1,1 @@
+//! Small models made by code, for demonstrations and tests.
