@@ -99,6 +99,8 @@ pub enum Reason {
     NoRoom,
     /// The strip, or the fill at an end, would fold.
     Folds,
+    /// An end lies in a corner so sharp that the full distance would shoot out as a spike.
+    Miter,
     /// The chamfer would cut through the mesh.
     Intersects,
     /// Nothing can be pulled at either end: both lie inside smooth areas or on borders.
@@ -113,10 +115,11 @@ pub enum Reason {
 
 impl Reason {
     /// Every reason, in the order of their numbers.
-    pub const ALL: [Reason; 8] = [
+    pub const ALL: [Reason; 9] = [
         Reason::None,
         Reason::NoRoom,
         Reason::Folds,
+        Reason::Miter,
         Reason::Intersects,
         Reason::NoEnd,
         Reason::ZeroThickness,
@@ -130,6 +133,7 @@ impl Reason {
             Reason::None => "none",
             Reason::NoRoom => "no_room",
             Reason::Folds => "folds",
+            Reason::Miter => "miter",
             Reason::Intersects => "intersects",
             Reason::NoEnd => "no_end",
             Reason::ZeroThickness => "zero_thickness",

@@ -1,3 +1,5 @@
 //! The `chamfer` command line.
 
+mod document;
+
 fn main() {}

@@ -1,0 +1,51 @@
+//! A model file as the command line sees it: meshes to chamfer, and all the rest to keep.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::Result;
+use chamfer::{Chamfered, MeshBuffers};
+
+/// One mesh of a file, in the layout of the core.
+pub struct SourceMesh {
+    /// As the file calls it, or its kind and number.
+    pub name: String,
+    /// Its streams; submeshes are the file's primitives, groups or materials.
+    pub mesh: MeshBuffers,
+}
+
+/// One placed mesh of a file's scene, for pictures.
+pub struct Instance {
+    /// Index into [`Document::meshes`].
+    pub mesh: usize,
+    /// Column-major, from mesh to scene.
+    pub transform: [[f32; 4]; 4],
+}
+
+/// A file to be written: nothing is on disk before every file of a document is encoded.
+pub struct OutputFile {
+    /// Where it goes.
+    pub path: PathBuf,
+    /// What it holds.
+    pub bytes: Vec<u8>,
+}
+
+/// How to read a file.
+pub struct ReadOptions {
+    /// For models without normals: faces that meet at up to this angle, in degrees, shade as one.
+    pub smoothing_angle: f32,
+}
+
+/// A model file that was read.
+pub trait Document {
+    /// The meshes to chamfer.
+    fn meshes(&self) -> &[SourceMesh];
+
+    /// Where the meshes stand in the scene.
+    fn instances(&self) -> Vec<Instance>;
+
+    /// The file with `chamfered[i]` in the place of mesh `i`, in the format that `output` names.
+    ///
+    /// # Errors
+    /// Where the result does not fit the format.
+    fn encode(&self, output: &Path, chamfered: &[Chamfered]) -> Result<Vec<OutputFile>>;
+}
