@@ -7,12 +7,31 @@
 
 pub mod shapes;
 
+mod attributes;
+mod corners;
+mod edges;
 mod error;
+mod ids;
+mod limits;
+mod math;
 mod mesh;
+mod offsets;
 mod options;
+mod output;
 mod pipeline;
+mod placement;
+mod plan;
 mod report;
+mod resample;
+mod seams;
+mod sectors;
 mod smoothing;
+mod strips;
+mod topology;
+mod validity;
+mod verdicts;
+mod view;
+mod weld;
 
 pub use error::{Error, Stream};
 pub use mesh::{Mesh, MeshBuffers, UV_CHANNELS, Uv, UvBuffer};

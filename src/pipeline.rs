@@ -2,10 +2,20 @@
 
 use std::ops::ControlFlow;
 
+use crate::attributes::attributes;
+use crate::edges::edges;
 use crate::error::Error;
+use crate::limits::limits;
 use crate::mesh::Mesh;
+use crate::offsets::offsets;
 use crate::options::Options;
-use crate::report::{Blend, Chamfered, TriangleKind, TriangleSource, VertexSource};
+use crate::output::output;
+use crate::plan::Plan;
+use crate::report::Chamfered;
+use crate::sectors::sectors;
+use crate::topology::topology;
+use crate::view::view;
+use crate::weld::weld;
 
 /// Chamfers all hard edges of a mesh.
 ///
@@ -21,22 +31,27 @@ pub fn chamfer(mesh: &Mesh, options: &Options) -> Result<Chamfered, Error> {
 /// As [`chamfer`]; [`Error::Cancelled`] where `progress` breaks.
 pub fn chamfer_with_progress(
     mesh: &Mesh,
-    _options: &Options,
+    options: &Options,
     progress: &mut dyn FnMut(f32) -> ControlFlow<()>,
 ) -> Result<Chamfered, Error> {
-    if progress(1.0).is_break() {
-        return Err(Error::Cancelled);
-    }
-    let vertices = mesh.positions.len() as u32;
-    let triangles = mesh.indices.len() as u32 / 3;
-    Ok(Chamfered {
-        mesh: mesh.to_buffers(),
-        vertex_sources: (0..vertices)
-            .map(|v| VertexSource { surface: Blend::one(v), chart: Blend::one(v) })
-            .collect(),
-        triangle_sources: (0..triangles)
-            .map(|index| TriangleSource { kind: TriangleKind::Source, index })
-            .collect(),
-        ..Chamfered::default()
-    })
+    let mut done = |share: f32| match progress(share) {
+        ControlFlow::Continue(()) => Ok(()),
+        ControlFlow::Break(()) => Err(Error::Cancelled),
+    };
+    let view = view(mesh, options)?;
+    let weld = weld(mesh);
+    done(0.1)?;
+    let topology = topology(&view, &weld);
+    let edges = edges(&view, &topology);
+    done(0.3)?;
+    let sectors = sectors(&topology, &edges);
+    let offsets = offsets(&view, &topology, &sectors);
+    done(0.4)?;
+    let plan = Plan { view, topology, edges, sectors, offsets };
+    let limits = limits(&plan);
+    done(0.8)?;
+    let attributes = attributes(&plan, &limits.placement);
+    let chamfered = output(&plan, &limits, attributes, options.chamfer_submesh);
+    done(1.0)?;
+    Ok(chamfered)
 }

@@ -1,4 +1,17 @@
-//! Normals for models that have none: faces that meet at a small angle shade as one surface.
+//! Smoothing: normals for models that have none.
+//!
+//! Faces that meet at a small angle shade as one surface: each corner gets the mean normal of the
+//! faces around it that it can reach over such edges, weighted by their corner angles (Thürmer and
+//! Wüthrich, "Computing Vertex Normals from Polygonal Facets", 1998).
+
+use glam::DVec3;
+
+use crate::ids::{Corner, Id, IdVec, Triangle, Vertex};
+use crate::math::{area_vector, unit};
+use crate::mesh::Mesh;
+use crate::topology::{Topology, topology};
+use crate::view::{View, resolution, wide};
+use crate::weld::weld;
 
 /// A mesh with normals, its vertices split where normals differ.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -14,12 +27,197 @@ pub struct Smoothed {
 /// Gives each corner the angle-weighted mean normal of the faces around its position that are
 /// joined to its own face by edges of at most `angle_degrees`.
 ///
-/// `positions` are `#vertices by 3`, `indices` `#triangles by 3` (in range, flattened). Positions
-/// are welded bit for bit first, so that triangle soups work.
-pub fn split_by_angle(positions: &[[f32; 3]], indices: &[u32], _angle_degrees: f32) -> Smoothed {
-    Smoothed {
+/// `positions` are `#vertices by 3`, finite; `indices` `#triangles by 3`, flattened, in range.
+/// Positions are welded bit for bit first, so that triangle soups work. A triangle without area
+/// takes the normal of the face behind its longest side.
+pub fn split_by_angle(positions: &[[f32; 3]], indices: &[u32], angle_degrees: f32) -> Smoothed {
+    let mut smoothed = Smoothed {
         source_of: (0..positions.len() as u32).collect(),
-        normals: vec![[0.0, 0.0, 1.0]; positions.len()],
+        normals: vec![UNSET; positions.len()],
         indices: indices.to_vec(),
+    };
+    let counts = [indices.len() as u32];
+    // Where parts touch, topology looks at normals; zero for all says nothing.
+    let normals = vec![[0.0; 3]; positions.len()];
+    let mesh = Mesh {
+        positions,
+        normals: &normals,
+        indices,
+        submesh_index_counts: &counts,
+        ..Mesh::default()
+    };
+    let view = View { mesh, width: 0.0, resolution: resolution(&mesh) };
+    let topology = topology(&view, &weld(&mesh));
+    let faces = face_normals(&view, &topology);
+    let cosine = libm::cos(f64::from(angle_degrees).to_radians());
+    let is_smooth = |side: Corner| {
+        let twin = topology.twin[side];
+        twin.is_some() && faces[side.triangle()].dot(faces[twin.triangle()]) >= cosine
+    };
+    let mut variants = Variants { next: vec![Vertex::NONE; positions.len()] };
+    for corner in (0..indices.len()).map(Corner::new) {
+        let normal = corner_normal(&view, &topology, &faces, &is_smooth, corner);
+        let vertex = variants.of(view.vertex_at(corner), normal, &mut smoothed);
+        smoothed.indices[corner.index()] = vertex.0;
+    }
+    // Vertices that no triangle uses still need a normal.
+    for normal in smoothed.normals.iter_mut().filter(|normal| **normal == UNSET) {
+        *normal = [0.0, 0.0, 1.0];
+    }
+    smoothed
+}
+
+/// No unit normal looks like this.
+const UNSET: [f32; 3] = [0.0; 3];
+
+/// `#triangles`, unit.
+fn face_normals(view: &View, topology: &Topology) -> IdVec<Triangle, DVec3> {
+    let own: Vec<DVec3> = view.triangles().map(|t| flat_normal(view, t)).collect();
+    let own: IdVec<Triangle, DVec3> = IdVec::from_vec(own);
+    let borrowed = view.triangles().map(|triangle| {
+        if own[triangle] != DVec3::ZERO {
+            return own[triangle];
+        }
+        let length =
+            |side: &Corner| view.position_at(*side).distance(view.position_at(side.next()));
+        let longest = triangle
+            .corners()
+            .into_iter()
+            .max_by(|one, other| length(one).total_cmp(&length(other)));
+        let behind = longest.map_or(Corner::NONE, |side| topology.twin[side]);
+        if behind.is_some() { own[behind.triangle()] } else { DVec3::ZERO }
+    });
+    IdVec::from_vec(borrowed.collect())
+}
+
+/// Zero where the triangle is lower than single precision can tell.
+fn flat_normal(view: &View, triangle: Triangle) -> DVec3 {
+    let points = view.triangle(triangle);
+    let area = area_vector(points);
+    let longest = (0..3).map(|k| points[k].distance(points[(k + 1) % 3])).fold(0.0, f64::max);
+    if area.length() > longest * view.resolution { unit(area) } else { DVec3::ZERO }
+}
+
+/// The mean over the fan of corners that smooth edges join to this one.
+fn corner_normal(
+    view: &View,
+    topology: &Topology,
+    faces: &IdVec<Triangle, DVec3>,
+    is_smooth: &impl Fn(Corner) -> bool,
+    corner: Corner,
+) -> [f32; 3] {
+    let mut first = corner;
+    while is_smooth(first) {
+        first = topology.twin[first].next();
+        if first == corner {
+            break;
+        }
+    }
+    let mut sum = DVec3::ZERO;
+    let mut at = first;
+    loop {
+        sum += faces[at.triangle()] * corner_angle(view, at);
+        if !is_smooth(at.prev()) {
+            break;
+        }
+        at = topology.twin[at.prev()];
+        if at == first {
+            break;
+        }
+    }
+    let own = faces[corner.triangle()];
+    let normal = [unit(sum), own].into_iter().find(|normal| *normal != DVec3::ZERO);
+    normal.unwrap_or(DVec3::Z).as_vec3().to_array()
+}
+
+fn corner_angle(view: &View, corner: Corner) -> f64 {
+    let at = view.position_at(corner);
+    let to_next = view.position_at(corner.next()) - at;
+    let to_prev = view.position_at(corner.prev()) - at;
+    libm::atan2(to_next.cross(to_prev).length(), to_next.dot(to_prev))
+}
+
+/// The vertices that one source vertex became, as linked lists.
+struct Variants {
+    /// `#vertices`: another vertex of the same source vertex.
+    next: Vec<Vertex>,
+}
+
+impl Variants {
+    /// The vertex with this normal: the source vertex if it has none yet, or a copy.
+    fn of(&mut self, source: Vertex, normal: [f32; 3], smoothed: &mut Smoothed) -> Vertex {
+        let mut vertex = source;
+        loop {
+            let stored = &mut smoothed.normals[vertex.index()];
+            if *stored == UNSET {
+                *stored = normal;
+            }
+            if is_equal(*stored, normal) {
+                return vertex;
+            }
+            let next = self.next[vertex.index()];
+            if next.is_none() {
+                break;
+            }
+            vertex = next;
+        }
+        let copy = Vertex::new(smoothed.normals.len());
+        smoothed.normals.push(normal);
+        smoothed.source_of.push(source.0);
+        self.next[vertex.index()] = copy;
+        self.next.push(Vertex::NONE);
+        copy
+    }
+}
+
+/// The same fan summed from another corner differs in the last bits.
+fn is_equal(one: [f32; 3], other: [f32; 3]) -> bool {
+    wide(one).distance_squared(wide(other)) < 1e-12
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two squares that meet at the edge 1-2 at the given angle: 0 is flat.
+    ///
+    /// ```text
+    /// 3---2---5
+    /// |   |   |
+    /// 0---1---4
+    /// ```
+    fn fold(degrees: f64) -> Smoothed {
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        let (x, z) = (1.0 + cos as f32, -sin as f32);
+        let positions = [
+            [0.0, 0.0, 0.0],
+            [1.0, 0.0, 0.0],
+            [1.0, 1.0, 0.0],
+            [0.0, 1.0, 0.0],
+            [x, 0.0, z],
+            [x, 1.0, z],
+        ];
+        split_by_angle(&positions, &[0, 1, 2, 0, 2, 3, 1, 4, 5, 1, 5, 2], 30.0)
+    }
+
+    #[test]
+    fn a_small_angle_is_smooth_and_a_large_one_hard() {
+        assert_eq!(fold(20.0).normals.len(), 6);
+        let hard = fold(40.0);
+        assert_eq!(hard.source_of[6..], [1, 2], "both ends of the fold are split");
+        assert_eq!(hard.normals[1], [0.0, 0.0, 1.0]);
+    }
+
+    #[test]
+    fn a_smooth_normal_lies_between_those_of_its_faces() {
+        let normal = fold(20.0).normals[1];
+        let half = 10.0_f32.to_radians();
+        assert!((normal[0] - half.sin()).abs() < 1e-6 && (normal[2] - half.cos()).abs() < 1e-6);
+    }
+
+    #[test]
+    fn soups_are_welded_and_lone_vertices_get_some_normal() {
+        let soup = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [9.0; 3]];
+        assert_eq!(split_by_angle(&soup, &[0, 1, 2], 30.0).normals, [[0.0, 0.0, 1.0]; 4]);
     }
 }

@@ -1,0 +1,186 @@
+//! The vertex streams of the result, and how a blend of source vertices is evaluated in each.
+
+use glam::DVec3;
+
+use crate::ids::{Id, Vertex};
+use crate::math::unit;
+use crate::mesh::{MeshBuffers, UV_CHANNELS};
+use crate::plan::Plan;
+use crate::report::{Blend, VertexSource};
+use crate::resample::{blended_normal, weighted_sum};
+use crate::view::wide;
+
+/// UV channels as bits.
+pub type Channels = u8;
+
+/// Vertex streams that grow, with the provenance of each vertex.
+pub struct Streams {
+    /// The streams; the indices of the buffers stay empty.
+    pub vertices: MeshBuffers,
+    /// `#vertices`.
+    pub sources: Vec<VertexSource>,
+    /// Per colour component, the least and the greatest value that a blend may have.
+    color_range: [[f32; 2]; 4],
+}
+
+impl Streams {
+    /// The streams of the source as they are.
+    pub fn of_source(plan: &Plan) -> Streams {
+        let mesh = crate::mesh::Mesh { indices: &[], submesh_index_counts: &[], ..plan.view.mesh };
+        let count = mesh.positions.len() as u32;
+        let untouched = |v| VertexSource { surface: Blend::one(v), chart: Blend::one(v) };
+        Streams {
+            vertices: mesh.to_buffers(),
+            sources: (0..count).map(untouched).collect(),
+            color_range: color_range(mesh.colors),
+        }
+    }
+
+    pub fn count(&self) -> u32 {
+        self.vertices.positions.len() as u32
+    }
+
+    /// Appends a copy of an output vertex.
+    pub fn append(&mut self, vertex: Vertex) -> u32 {
+        let from = vertex.index();
+        let vertices = &mut self.vertices;
+        vertices.positions.push(vertices.positions[from]);
+        vertices.normals.push(vertices.normals[from]);
+        if !vertices.tangents.is_empty() {
+            vertices.tangents.push(vertices.tangents[from]);
+        }
+        if !vertices.colors.is_empty() {
+            vertices.colors.push(vertices.colors[from]);
+        }
+        for uv in &mut vertices.uvs {
+            let components = uv.components as usize;
+            uv.values.extend_from_within(from * components..(from + 1) * components);
+        }
+        self.sources.push(self.sources[from]);
+        self.count() - 1
+    }
+
+    /// Takes back the vertex that was appended last.
+    pub fn pop(&mut self) {
+        let vertices = &mut self.vertices;
+        vertices.positions.pop();
+        vertices.normals.pop();
+        vertices.tangents.pop();
+        vertices.colors.pop();
+        for uv in &mut vertices.uvs {
+            uv.values.truncate(uv.values.len() - uv.components as usize);
+        }
+        self.sources.pop();
+    }
+
+    /// Whether two output vertices are equal in every stream.
+    pub fn are_equal(&self, one: u32, other: u32) -> bool {
+        let (a, b) = (one as usize, other as usize);
+        let v = &self.vertices;
+        v.positions[a] == v.positions[b]
+            && v.normals[a] == v.normals[b]
+            && (v.tangents.is_empty() || v.tangents[a] == v.tangents[b])
+            && (v.colors.is_empty() || v.colors[a] == v.colors[b])
+            && v.uvs.iter().all(|uv| {
+                let components = uv.components as usize;
+                (0..components)
+                    .all(|k| uv.values[a * components + k] == uv.values[b * components + k])
+            })
+    }
+
+    /// Sets a vertex to a place on the source surface.
+    pub fn resample(&mut self, plan: &Plan, vertex: u32, position: DVec3, source: VertexSource) {
+        let place = vertex as usize;
+        self.vertices.positions[place] = position.as_vec3().to_array();
+        let normal = blended_normal(plan, &source.surface);
+        self.vertices.normals[place] = normal.as_vec3().to_array();
+        if !plan.view.mesh.colors.is_empty() {
+            self.vertices.colors[place] = self.color(plan, &source.chart);
+        }
+        self.rechart(plan, vertex, &source.chart, Channels::MAX);
+        self.sources[place] = source;
+    }
+
+    /// Sets a vertex's tangent and some of its UV channels to a place in a chart.
+    pub fn rechart(&mut self, plan: &Plan, vertex: u32, chart: &Blend, channels: Channels) {
+        let place = vertex as usize;
+        self.sources[place].chart = *chart;
+        if !plan.view.mesh.tangents.is_empty() {
+            let normal = wide(self.vertices.normals[place]);
+            self.vertices.tangents[place] = tangent(plan, chart, normal);
+        }
+        for channel in (0..UV_CHANNELS).filter(|channel| channels & (1 << channel) != 0) {
+            self.set_uv(plan, place, chart, channel);
+        }
+    }
+
+    pub fn set_position_and_normal(&mut self, vertex: u32, position: DVec3, normal: DVec3) {
+        self.vertices.positions[vertex as usize] = position.as_vec3().to_array();
+        self.vertices.normals[vertex as usize] = normal.as_vec3().to_array();
+    }
+
+    fn set_uv(&mut self, plan: &Plan, place: usize, chart: &Blend, channel: usize) {
+        let source = &plan.view.mesh.uvs[channel];
+        let components = source.components as usize;
+        let target = &mut self.vertices.uvs[channel].values;
+        for k in 0..components {
+            let at = |vertex: u32| source.values[vertex as usize * components + k];
+            target[place * components + k] = blend_value(chart, chart.vertices.map(at));
+        }
+    }
+
+    fn color(&self, plan: &Plan, chart: &Blend) -> [f32; 4] {
+        let colors = chart.vertices.map(|vertex| plan.view.mesh.colors[vertex as usize]);
+        std::array::from_fn(|k| {
+            let [least, greatest] = self.color_range[k];
+            blend_value(chart, colors.map(|color| color[k])).clamp(least, greatest)
+        })
+    }
+}
+
+/// Equal values stay equal to the bit, whatever the weights.
+fn blend_value(blend: &Blend, values: [f32; 3]) -> f32 {
+    if values[0] == values[1] && values[0] == values[2] {
+        return values[0];
+    }
+    let terms = [0, 1, 2].map(|k| f64::from(blend.weights[k]) * f64::from(values[k]));
+    (terms[0] + terms[1] + terms[2]) as f32
+}
+
+/// A blend may reach past its triangle: it stays within 0 to 1, or what the source goes up to.
+fn color_range(colors: &[[f32; 4]]) -> [[f32; 2]; 4] {
+    let mut range = [[0.0_f32, 1.0_f32]; 4];
+    for color in colors {
+        for (bounds, &value) in range.iter_mut().zip(color) {
+            *bounds = [bounds[0].min(value), bounds[1].max(value)];
+        }
+    }
+    range
+}
+
+/// Unit, orthogonal to the normal, with the handedness of the chart.
+fn tangent(plan: &Plan, chart: &Blend, normal: DVec3) -> [f32; 4] {
+    let tangents = plan.view.mesh.tangents;
+    let own = tangents[chart.vertices[0] as usize];
+    let is_constant = chart.vertices.iter().all(|&vertex| tangents[vertex as usize] == own);
+    let is_orthogonal = wide([own[0], own[1], own[2]]).dot(normal).abs() < ORTHOGONAL;
+    if is_constant && is_orthogonal {
+        return own;
+    }
+    let directions = chart.vertices.map(|vertex| {
+        let [x, y, z, _] = tangents[vertex as usize];
+        wide([x, y, z])
+    });
+    let mixed = weighted_sum(chart, directions);
+    let across = |direction: DVec3| unit(direction - normal * direction.dot(normal));
+    let direction = [mixed, directions[0], normal.any_orthonormal_vector()]
+        .into_iter()
+        .map(across)
+        .find(|direction| *direction != DVec3::ZERO)
+        .unwrap_or(DVec3::X);
+    let [x, y, z] = direction.as_vec3().to_array();
+    [x, y, z, own[3]]
+}
+
+/// A stored tangent that is orthogonal up to the rounding of its components needs no repair.
+const ORTHOGONAL: f64 = 1e-6;

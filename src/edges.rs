@@ -1,0 +1,137 @@
+//! Edges: which of them are hard, and which of those are chamfered.
+
+use crate::ids::{Corner, Edge, IdVec};
+use crate::math::{area_vector, unit};
+use crate::report::Reason;
+use crate::topology::Topology;
+use crate::view::View;
+
+/// Normals that differ by less than a degree are one normal: importers quantize them.
+pub const HARD_COSINE: f64 = 0.999_847_695_156_391_2;
+
+/// Two faces back to back: their normals are opposite to within a tenth of a degree. Between them
+/// there is nothing to cut off.
+const BACK_TO_BACK_COSINE: f64 = -0.999_998_476_913_288;
+
+/// A hard edge with two sides.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HardEdge {
+    /// The half-edge of the first triangle that uses the edge, and its twin.
+    pub sides: [Corner; 2],
+    /// Why it is not chamfered. Such an edge does not separate sectors: both its sides move
+    /// together.
+    pub skipped: Option<Reason>,
+}
+
+pub struct Edges {
+    /// `#hard edges`, in the order of their first half-edges.
+    pub hard: IdVec<Edge, HardEdge>,
+    /// `#corners`: the edge that the half-edge is a side of, where it is to be chamfered.
+    pub chamfered_at: IdVec<Corner, Edge>,
+}
+
+pub fn edges(view: &View, topology: &Topology) -> Edges {
+    let mut hard = IdVec::default();
+    let mut chamfered_at = IdVec::filled(Edge::NONE, view.corner_count());
+    for corner in topology.twin.ids() {
+        let twin = topology.twin[corner];
+        if twin.is_none() || twin < corner || !is_hard(view, corner, twin) {
+            continue;
+        }
+        let skipped = obstacle(view, corner, twin);
+        let edge = hard.push(HardEdge { sides: [corner, twin], skipped });
+        if skipped.is_none() {
+            chamfered_at[corner] = edge;
+            chamfered_at[twin] = edge;
+        }
+    }
+    Edges { hard, chamfered_at }
+}
+
+fn is_hard(view: &View, side: Corner, other: Corner) -> bool {
+    let differ = |one: Corner, other: Corner| {
+        let (one, other) = (view.vertex_at(one), view.vertex_at(other));
+        one != other && {
+            let (one, other) = (view.normal(one), view.normal(other));
+            one.dot(other) < HARD_COSINE * (one.length_squared() * other.length_squared()).sqrt()
+        }
+    };
+    differ(side, other.next()) || differ(side.next(), other)
+}
+
+/// What keeps a hard edge from being chamfered whatever the width.
+fn obstacle(view: &View, side: Corner, other: Corner) -> Option<Reason> {
+    let [one, other] = [side, other].map(|half_edge| {
+        let points = view.triangle(half_edge.triangle());
+        let longest = (0..3).map(|k| points[k].distance(points[(k + 1) % 3])).fold(0.0, f64::max);
+        let area = area_vector(points);
+        (unit(area), area.length() <= longest * view.resolution)
+    });
+    if one.1 || other.1 {
+        Some(Reason::NoArea)
+    } else if one.0.dot(other.0) < BACK_TO_BACK_COSINE {
+        Some(Reason::ZeroThickness)
+    } else {
+        None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::Mesh;
+    use crate::options::Options;
+    use crate::topology::topology;
+    use crate::view::view;
+    use crate::weld::weld;
+
+    /// A roof of two triangles over the edge 0-1, with the given normals and far corners.
+    ///
+    /// ```text
+    ///    2
+    ///  /   \
+    /// 0-----1   and 3 on the other side
+    /// ```
+    fn roof(normals: [[f32; 3]; 2], far: [f32; 3]) -> Vec<Option<Reason>> {
+        let positions = [
+            [0.0, 0.0, 0.0],
+            [1.0, 0.0, 0.0],
+            [0.5, 1.0, 0.0],
+            [1.0, 0.0, 0.0],
+            [0.0, 0.0, 0.0],
+            far,
+        ];
+        let [one, other] = normals;
+        let mesh = Mesh {
+            positions: &positions,
+            normals: &[one, one, one, other, other, other],
+            indices: &[0, 1, 2, 3, 4, 5],
+            submesh_index_counts: &[6],
+            ..Mesh::default()
+        };
+        let view = view(&mesh, &Options::default()).unwrap();
+        let edges = edges(&view, &topology(&view, &weld(&mesh)));
+        edges.hard.iter().map(|edge| edge.skipped).collect()
+    }
+
+    const UP: [f32; 3] = [0.0, 0.0, 1.0];
+    const DOWN: [f32; 3] = [0.0, 0.0, -1.0];
+
+    #[test]
+    fn normals_decide_what_is_hard() {
+        let far = [0.5, -1.0, 0.0];
+        assert_eq!(roof([UP, UP], far), []);
+        assert_eq!(roof([UP, [0.0, 0.01, 1.0]], far), [], "less than a degree");
+        assert_eq!(roof([UP, [0.0, -0.6, 0.8]], far), [None]);
+    }
+
+    #[test]
+    fn back_to_back_faces_are_hard_but_have_no_width() {
+        assert_eq!(roof([UP, DOWN], [0.5, 0.8, 0.0]), [Some(Reason::ZeroThickness)]);
+    }
+
+    #[test]
+    fn a_triangle_without_area_is_left_alone() {
+        assert_eq!(roof([UP, [0.0, -0.6, 0.8]], [0.5, 0.0, 0.0]), [Some(Reason::NoArea)]);
+    }
+}

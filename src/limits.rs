@@ -1,0 +1,226 @@
+//! Limits: how much of its offset each sector may take.
+//!
+//! Full offsets overlap wherever a feature is narrower than the chamfer, so each sector is limited
+//! by what happens around it, and by nothing else: bound it by the room that its own triangles
+//! leave, build strips and fills, shrink the sectors of whatever fails, and give back what is safe.
+//! A ring that still fails keeps its old position, so the result is never worse than the source.
+
+mod room;
+
+use crate::corners;
+use crate::ids::{Corner, Edge, IdVec, Ring, Sector, Triangle};
+use crate::math::unit;
+use crate::placement::Placement;
+use crate::plan::Plan;
+use crate::report::Reason;
+use crate::strips;
+use crate::validity::survives;
+
+/// How much a sector that takes part in something bad keeps in each round.
+const SHRINK: f64 = 0.5;
+
+/// After so many rounds a share is down to a sixteenth; what is still bad gets no offset at all.
+const SHRINK_ROUNDS: usize = 4;
+
+/// Steps of bisection when width is given back: the rest is within 2 % of what would fit.
+const GROW_STEPS: usize = 6;
+
+/// A neighbour's growth can make room, or take it: twice around settles nearly everything.
+const GROW_PASSES: usize = 2;
+
+/// What each sector gets.
+pub struct Limits {
+    pub placement: Placement,
+    /// `#sectors`: why it did not get all.
+    pub reason: IdVec<Sector, Reason>,
+}
+
+pub fn limits(plan: &Plan) -> Limits {
+    let mut limits = bounded(plan);
+    shrink(plan, &mut limits);
+    for _ in 0..GROW_PASSES {
+        grow(plan, &mut limits);
+    }
+    limits
+}
+
+/// Every sector at the width that its own triangles leave room for.
+fn bounded(plan: &Plan) -> Limits {
+    let shares = room::room(plan);
+    let mut placement = Placement::unmoved(plan);
+    let mut reason = IdVec::filled(Reason::None, shares.len());
+    for sector in shares.ids().filter(|&sector| plan.offsets[sector].moves()) {
+        placement.set(plan, sector, shares[sector]);
+        if shares[sector] < 1.0 {
+            reason[sector] = Reason::NoRoom;
+        }
+    }
+    Limits { placement, reason }
+}
+
+/// Anything that can go bad.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Element {
+    Surface(Triangle),
+    Strip(Edge),
+    Fill(Ring),
+}
+
+fn shrink(plan: &Plan, limits: &mut Limits) {
+    let mut suspects = all_elements(plan);
+    let mut round = 0;
+    loop {
+        let mut shrunk = Vec::new();
+        for element in suspects {
+            if !is_valid(plan, &limits.placement, element) {
+                blame(plan, limits, element, round >= SHRINK_ROUNDS, &mut shrunk);
+            }
+        }
+        shrunk.sort_unstable();
+        shrunk.dedup();
+        if shrunk.is_empty() {
+            return;
+        }
+        for &sector in &shrunk {
+            let share = limits.placement.share[sector];
+            let smaller = if round < SHRINK_ROUNDS { share * SHRINK } else { 0.0 };
+            limits.placement.set(plan, sector, smaller);
+        }
+        suspects = around(plan, &shrunk);
+        round += 1;
+    }
+}
+
+fn all_elements(plan: &Plan) -> Vec<Element> {
+    let triangles = plan.view.triangles().filter(|&triangle| is_touched(plan, triangle));
+    let edges = plan.edges.hard.ids().filter(|&edge| plan.edges.hard[edge].skipped.is_none());
+    triangles
+        .map(Element::Surface)
+        .chain(edges.map(Element::Strip))
+        .chain(plan.sectors.rings.ids().map(Element::Fill))
+        .collect()
+}
+
+fn is_touched(plan: &Plan, triangle: Triangle) -> bool {
+    triangle.corners().iter().any(|&corner| plan.sectors.sector_of[corner].is_some())
+}
+
+/// Notes the sectors that a bad element depends on; in the end those of their whole rings.
+fn blame(
+    plan: &Plan,
+    limits: &mut Limits,
+    element: Element,
+    whole_rings: bool,
+    shrunk: &mut Vec<Sector>,
+) {
+    let reason = match element {
+        Element::Surface(_) => Reason::NoRoom,
+        Element::Strip(_) | Element::Fill(_) => Reason::Folds,
+    };
+    for sector in sectors_of(plan, element) {
+        let ring = plan.sectors.ring(plan.sectors.fans[sector].ring);
+        let one = [sector];
+        for &blamed in if whole_rings { ring } else { &one } {
+            if limits.placement.share[blamed] > 0.0 {
+                limits.reason[blamed] = reason;
+                shrunk.push(blamed);
+            }
+        }
+    }
+}
+
+/// The sectors that an element's corners stand on.
+fn sectors_of(plan: &Plan, element: Element) -> Vec<Sector> {
+    let sector_of = |corner: Corner| plan.sectors.sector_of[corner];
+    match element {
+        Element::Surface(triangle) => {
+            triangle.corners().into_iter().map(sector_of).filter(|s| s.is_some()).collect()
+        }
+        Element::Strip(edge) => {
+            strips::corners(&plan.edges.hard[edge]).into_iter().map(sector_of).collect()
+        }
+        Element::Fill(ring) => plan.sectors.ring(ring).to_vec(),
+    }
+}
+
+/// Everything that depends on the sectors, each once.
+fn around(plan: &Plan, sectors: &[Sector]) -> Vec<Element> {
+    let mut elements: Vec<Element> =
+        sectors.iter().flat_map(|&sector| elements_of(plan, sector)).collect();
+    elements.sort_unstable();
+    elements.dedup();
+    elements
+}
+
+/// Everything that depends on one sector.
+fn elements_of<'a>(plan: &'a Plan, sector: Sector) -> impl Iterator<Item = Element> + 'a {
+    let fan = &plan.sectors.fans[sector];
+    let surface = plan.sectors.corners(&plan.topology, sector);
+    let sides = [fan.first, fan.last.prev()].map(|side| plan.edges.chamfered_at[side]);
+    surface
+        .map(|corner| Element::Surface(corner.triangle()))
+        .chain(sides.into_iter().filter(|edge| edge.is_some()).map(Element::Strip))
+        .chain(std::iter::once(Element::Fill(fan.ring)))
+}
+
+fn is_valid(plan: &Plan, placement: &Placement, element: Element) -> bool {
+    match element {
+        Element::Surface(triangle) => surface_is_valid(plan, placement, triangle),
+        Element::Strip(edge) => strip_is_valid(plan, placement, edge),
+        Element::Fill(ring) => fill(plan, placement, ring).is_some(),
+    }
+}
+
+fn surface_is_valid(plan: &Plan, placement: &Placement, triangle: Triangle) -> bool {
+    let old = plan.view.triangle(triangle);
+    let new = triangle.corners().map(|corner| placement.position_at(plan, corner));
+    old == new || survives(old, new)
+}
+
+fn strip_is_valid(plan: &Plan, placement: &Placement, edge: Edge) -> bool {
+    let edge = &plan.edges.hard[edge];
+    let quad = strips::quad(plan, placement, edge);
+    let [from, to] = [edge.sides[0], edge.sides[0].next()].map(|c| plan.view.position_at(c));
+    strips::is_valid(&quad, strips::cut(&quad), unit(to - from), plan.view.resolution)
+}
+
+/// The fill of a ring where its sectors stand now; none if every way to fill it folds.
+pub fn fill(plan: &Plan, placement: &Placement, ring: Ring) -> Option<corners::Fill> {
+    let sectors = plan.sectors.ring(ring);
+    if sectors.len() < 3 {
+        return Some(corners::Fill::default());
+    }
+    let points: Vec<_> = sectors.iter().map(|&sector| placement.point[sector]).collect();
+    let normals: Vec<_> = sectors.iter().map(|&sector| placement.normals[sector][0]).collect();
+    corners::fill(&points, &normals, plan.view.resolution)
+}
+
+/// Gives every limited sector as much as it can take with all others where they are.
+fn grow(plan: &Plan, limits: &mut Limits) {
+    for sector in limits.placement.share.ids() {
+        let share = limits.placement.share[sector];
+        if share == 1.0 || !plan.offsets[sector].moves() {
+            continue;
+        }
+        let (mut good, mut bad) = (share, 1.0);
+        if fits(plan, &mut limits.placement, sector, 1.0) {
+            limits.reason[sector] = Reason::None;
+            continue;
+        }
+        for _ in 0..GROW_STEPS {
+            let middle = (good + bad) / 2.0;
+            if fits(plan, &mut limits.placement, sector, middle) {
+                good = middle;
+            } else {
+                bad = middle;
+            }
+        }
+        limits.placement.set(plan, sector, good);
+    }
+}
+
+/// Whether all that depends on the sector is valid at this share, which it gets.
+fn fits(plan: &Plan, placement: &mut Placement, sector: Sector, share: f64) -> bool {
+    placement.set(plan, sector, share);
+    elements_of(plan, sector).all(|element| is_valid(plan, placement, element))
+}

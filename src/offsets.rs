@@ -1,0 +1,198 @@
+//! Offsets: where each sector's vertex goes at full width (thesis 6.3).
+//!
+//! Between two chamfered edges with fan angle `a` the vertex moves along the direction at `a / 2`,
+//! measured by unfolding the fan, by `h / sin(a / 2)`: on a flat sector that is the bisector, and
+//! both pulled edges run parallel to the old ones at distance `h`. The direction lies on the
+//! surface of the triangle that contains it, so the vertex stays on the surface.
+//!
+//! Where that would bend a surface, the vertex slides along the bend instead: along the border at
+//! the end of a sector, or along the sharpest crease inside of it.
+
+use glam::DVec3;
+
+use crate::ids::{Corner, IdVec, Sector};
+use crate::math::{Turn, area_vector, unit};
+use crate::sectors::{Fan, Sectors};
+use crate::topology::Topology;
+use crate::view::View;
+
+/// No vertex moves farther than this many widths: between edges that meet at less than 11.5
+/// degrees the exact distance shoots out as a spike. The thesis gives up there (modifiers above
+/// 10); moving less far keeps a narrower chamfer.
+const MITER_LIMIT: f64 = 10.0;
+
+/// Faces that meet at more than five degrees would visibly bend if a vertex left their common
+/// edge for one of them. A round surface of 72 facets or more is smooth enough to be cut across.
+const CREASE_COSINE: f64 = 0.996_194_698_091_745_5;
+
+/// A vertex slides along a border or crease that is at least this far (as a sine, 5.7 degrees)
+/// from the direction of the chamfered edge; nearer, sliding hardly opens the edge.
+const LEAST_SLIDE_SINE: f64 = 0.1;
+
+/// Where a sector's vertex goes at full width.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Offset {
+    /// From the old position to the new one, in mesh units; zero if the vertex stays.
+    pub vector: DVec3,
+    /// The corner of the triangle that the direction lies on.
+    pub within: Corner,
+    /// The same vector in terms of the edges from `within` to its next and its previous corner.
+    pub along: [f64; 2],
+    /// Whether the distance was cut off at the miter limit.
+    pub is_capped: bool,
+}
+
+impl Offset {
+    pub fn moves(&self) -> bool {
+        self.vector != DVec3::ZERO
+    }
+}
+
+/// `#sectors`.
+pub fn offsets(view: &View, topology: &Topology, sectors: &Sectors) -> IdVec<Sector, Offset> {
+    let mut spread = Vec::new();
+    let offset = |sector| {
+        unfold(view, topology, sectors, sector, &mut spread);
+        let fan = &sectors.fans[sector];
+        let chosen = course(view, topology, fan, &spread).and_then(|course| place(view, &course));
+        chosen.unwrap_or(Offset {
+            vector: DVec3::ZERO,
+            within: fan.first,
+            along: [0.0; 2],
+            is_capped: false,
+        })
+    };
+    IdVec::from_vec(sectors.fans.ids().map(offset).collect())
+}
+
+/// A corner of a fan, unfolded into the plane.
+struct Blade {
+    corner: Corner,
+    /// The angle from the fan's first edge to the corner's first edge.
+    start: Turn,
+    /// The angle of the corner.
+    angle: Turn,
+}
+
+fn unfold(
+    view: &View,
+    topology: &Topology,
+    sectors: &Sectors,
+    sector: Sector,
+    spread: &mut Vec<Blade>,
+) {
+    spread.clear();
+    let mut start = Turn::ZERO;
+    for corner in sectors.corners(topology, sector) {
+        let [to_next, to_prev] = arms(view, corner);
+        let angle = Turn::between(to_next, to_prev);
+        spread.push(Blade { corner, start, angle });
+        start = start.plus(angle);
+    }
+}
+
+/// From a corner to the next and to the previous corner.
+fn arms(view: &View, corner: Corner) -> [DVec3; 2] {
+    let at = view.position_at(corner);
+    [view.position_at(corner.next()) - at, view.position_at(corner.prev()) - at]
+}
+
+/// A way to go: an angle inside one corner, and a distance.
+struct Course {
+    corner: Corner,
+    /// From the corner's first edge.
+    angle: Turn,
+    distance: f64,
+    is_capped: bool,
+}
+
+fn course(view: &View, topology: &Topology, fan: &Fan, spread: &[Blade]) -> Option<Course> {
+    let (first, last) = (spread.first()?, spread.last()?);
+    let total = last.start.plus(last.angle);
+    match (fan.starts_at_border, fan.ends_at_border()) {
+        (true, true) => None,
+        (true, false) => slide(view, first.corner, Turn::ZERO, &[total]),
+        (false, true) => slide(view, last.corner, last.angle, &[total]),
+        // One edge on both sides: it ends here, and its chamfer tapers to a point.
+        (false, false) if topology.twin[fan.first] == fan.last.prev() => None,
+        (false, false) => crease(view, spread)
+            .and_then(|blade| {
+                let to_end = total.minus(blade.start);
+                slide(view, blade.corner, Turn::ZERO, &[blade.start, to_end])
+            })
+            .or_else(|| bisect(view, total, spread)),
+    }
+}
+
+/// Along the direction at half the fan's angle.
+fn bisect(view: &View, total: Turn, spread: &[Blade]) -> Option<Course> {
+    let half = total.half();
+    let blade = spread.iter().find(|blade| half <= blade.start.plus(blade.angle))?;
+    let sine = half.sin();
+    let distance = (view.width / sine).min(view.width * MITER_LIMIT);
+    (sine > 0.0).then(|| Course {
+        corner: blade.corner,
+        angle: half.minus(blade.start),
+        distance,
+        is_capped: sine * MITER_LIMIT < 1.0,
+    })
+}
+
+/// Along an edge of the fan, by the distance that fits the angles to the chamfered edges best.
+fn slide(view: &View, corner: Corner, angle: Turn, to_chamfered: &[Turn]) -> Option<Course> {
+    let sines = || to_chamfered.iter().map(|turn| turn.sin());
+    let may_slide = to_chamfered.iter().all(|turn| turn.is_convex())
+        && sines().any(|sine| sine >= LEAST_SLIDE_SINE);
+    // Least squares over the distances that the pulled edges get.
+    let best = sines().sum::<f64>() / sines().map(|sine| sine * sine).sum::<f64>();
+    may_slide.then(|| Course {
+        corner,
+        angle,
+        distance: view.width * best.min(MITER_LIMIT),
+        is_capped: best > MITER_LIMIT,
+    })
+}
+
+/// The blade that begins at the sharpest crease inside the fan.
+fn crease<'a>(view: &View, spread: &'a [Blade]) -> Option<&'a Blade> {
+    if spread.len() < 2 {
+        return None;
+    }
+    let normal = |blade: &Blade| unit(area_vector(view.triangle(blade.corner.triangle())));
+    let mut sharpest = (CREASE_COSINE, None);
+    let mut before = normal(&spread[0]);
+    for blade in &spread[1..] {
+        let behind = normal(blade);
+        let cosine = before.dot(behind);
+        // A triangle without area has no normal, and makes no crease.
+        if cosine < sharpest.0 && before != DVec3::ZERO && behind != DVec3::ZERO {
+            sharpest = (cosine, Some(blade));
+        }
+        before = behind;
+    }
+    sharpest.1
+}
+
+/// The offset in space; none where the corner has no plane.
+fn place(view: &View, course: &Course) -> Option<Offset> {
+    let [to_next, to_prev] = arms(view, course.corner);
+    let corner_angle = Turn::between(to_next, to_prev);
+    let sine = corner_angle.sin();
+    let along = if course.angle == Turn::ZERO {
+        [course.distance / to_next.length(), 0.0]
+    } else if course.angle == corner_angle {
+        [0.0, course.distance / to_prev.length()]
+    } else {
+        [
+            course.distance * corner_angle.minus(course.angle).sin() / (sine * to_next.length()),
+            course.distance * course.angle.sin() / (sine * to_prev.length()),
+        ]
+    };
+    let vector = to_next * along[0] + to_prev * along[1];
+    (vector.is_finite() && along.iter().all(|share| share.is_finite())).then_some(Offset {
+        vector,
+        within: course.corner,
+        along,
+        is_capped: course.is_capped,
+    })
+}

@@ -1,0 +1,254 @@
+//! Output: the mesh, its provenance, and the verdicts.
+//!
+//! Source vertices keep their indices and source triangles their order; what is new is appended,
+//! per submesh: strips in the order of their edges, then fills in the order of their rings.
+
+use glam::DVec3;
+
+use crate::attributes::Attributes;
+use crate::corners;
+use crate::ids::{Corner, Edge, Ring, Sector, Triangle};
+use crate::limits::{self, Limits};
+use crate::math::unit;
+use crate::mesh::MeshBuffers;
+use crate::options::ChamferSubmesh;
+use crate::plan::Plan;
+use crate::report::{Chamfered, TriangleKind, TriangleSource};
+use crate::resample::{chart_foot, surface_foot};
+use crate::seams::{self, Copies, Owners};
+use crate::strips;
+use crate::verdicts::{totals, verdicts};
+
+/// The result of all stages.
+pub fn output(
+    plan: &Plan,
+    limits: &Limits,
+    attributes: Attributes,
+    target: ChamferSubmesh,
+) -> Chamfered {
+    let owners = seams::owners(plan);
+    let mut surface = Surface {
+        plan,
+        limits,
+        owners,
+        attributes,
+        copies: Copies::default(),
+        submeshes: Submeshes::new(plan, target),
+        new: Vec::new(),
+    };
+    surface.close_collapsed();
+    plan.edges.hard.ids().for_each(|edge| surface.add_strip(edge));
+    plan.sectors.rings.ids().for_each(|ring| surface.add_fill(ring));
+    surface.finish()
+}
+
+/// A new triangle and the submesh that it goes to.
+struct NewTriangle {
+    submesh: u32,
+    vertices: [u32; 3],
+    source: TriangleSource,
+}
+
+struct Surface<'a> {
+    plan: &'a Plan<'a>,
+    limits: &'a Limits,
+    owners: Owners,
+    attributes: Attributes,
+    copies: Copies,
+    submeshes: Submeshes,
+    new: Vec<NewTriangle>,
+}
+
+impl Surface<'_> {
+    /// Corners of one collapsed triangle at one position stay together, or it would open.
+    fn close_collapsed(&mut self) {
+        let topology = &self.plan.topology;
+        let collapsed = self.plan.view.triangles().filter(|&t| topology.is_collapsed(t));
+        for triangle in collapsed {
+            let corners = triangle.corners();
+            for (one, other) in [(0, 1), (1, 2), (0, 2)].map(|(a, b)| (corners[a], corners[b])) {
+                if topology.cluster_at[one] == topology.cluster_at[other] {
+                    self.attributes.vertex_at[other] = self.attributes.vertex_at[one];
+                }
+            }
+        }
+    }
+
+    fn add_strip(&mut self, edge: Edge) {
+        let (plan, placement) = (self.plan, &self.limits.placement);
+        let hard = &plan.edges.hard[edge];
+        if hard.skipped.is_some() {
+            return;
+        }
+        let cut = strips::cut(&strips::quad(plan, placement, hard));
+        if cut.is_empty() {
+            return;
+        }
+        let owner = self.owners.side[edge];
+        let vertices = seams::strip_vertices(
+            plan,
+            placement,
+            owner,
+            hard,
+            &mut self.attributes,
+            &mut self.copies,
+        );
+        let source = TriangleSource { kind: TriangleKind::Edge, index: edge.0 };
+        let submesh = self.submeshes.for_new(hard.sides[owner].triangle());
+        self.new.extend(cut.iter().map(|triangle| NewTriangle {
+            submesh,
+            vertices: triangle.map(|place| vertices[place]),
+            source,
+        }));
+    }
+
+    fn add_fill(&mut self, ring: Ring) {
+        let (plan, placement) = (self.plan, &self.limits.placement);
+        // Limits end with fills that are valid, or with rings that did not move.
+        let fill = limits::fill(plan, placement, ring).unwrap_or_default();
+        if fill.triangles.is_empty() {
+            return;
+        }
+        let sectors = plan.sectors.ring(ring);
+        let owner = seams::fill_owner(plan, placement, sectors, &self.owners);
+        let mut vertices = self.fill_vertices(ring, owner);
+        for places in &fill.middles {
+            vertices.push(self.add_middle(sectors, owner, places));
+        }
+        let first = plan.sectors.fans[sectors[owner]].first;
+        let submesh = self.submeshes.for_new(first.triangle());
+        let at = plan.view.vertex_at(plan.sectors.fans[sectors[0]].first);
+        let source = TriangleSource { kind: TriangleKind::Corner, index: at.0 };
+        self.new.extend(fill.triangles.iter().map(|triangle| NewTriangle {
+            submesh,
+            vertices: triangle.map(|place| vertices[place]),
+            source,
+        }));
+    }
+
+    /// The output vertices of a ring's sectors, in the chart of the owner.
+    fn fill_vertices(&mut self, ring: Ring, owner: usize) -> Vec<u32> {
+        let (plan, placement) = (self.plan, &self.limits.placement);
+        let sectors = plan.sectors.ring(ring);
+        let channels = seams::fill_channels(plan, ring);
+        let own = |sector: &Sector| plan.sectors.fans[*sector].first;
+        let mut vertices: Vec<u32> =
+            sectors.iter().map(|sector| self.attributes.vertex_at[own(sector)]).collect();
+        if channels != 0 {
+            for (place, chart) in seams::fill_feet(plan, placement, ring, owner) {
+                let streams = &mut self.attributes.streams;
+                vertices[place] = self.copies.get(plan, streams, vertices[place], &chart, channels);
+            }
+        }
+        vertices
+    }
+
+    /// A new vertex at the mean of some of a ring's points.
+    fn add_middle(&mut self, sectors: &[Sector], owner: usize, places: &[usize]) -> u32 {
+        let (plan, placement) = (self.plan, &self.limits.placement);
+        let points: Vec<DVec3> = sectors.iter().map(|&s| placement.point[s]).collect();
+        let normal = unit(places.iter().map(|&place| placement.normals[sectors[place]][0]).sum());
+        let sector = sectors[owner];
+        let corner = plan.sectors.fans[sector].first;
+        let share = placement.share[sector] * MIDDLE_SHARE;
+        let streams = &mut self.attributes.streams;
+        let vertex = streams.append(plan.view.vertex_at(corner));
+        let position = corners::middle(&points, places);
+        let source = crate::report::VertexSource {
+            surface: surface_foot(plan, sector, corner).blend(plan, share),
+            chart: chart_foot(plan, sector, corner).blend(plan, share),
+        };
+        streams.resample(plan, vertex, position, source);
+        streams.set_position_and_normal(vertex, position, normal);
+        streams.rechart(plan, vertex, &source.chart, u8::MAX);
+        vertex
+    }
+
+    fn finish(self) -> Chamfered {
+        let verdicts = verdicts(self.plan, self.limits);
+        let (indices, triangle_sources, submesh_index_counts) = self.triangles();
+        let streams = self.attributes.streams;
+        Chamfered {
+            mesh: MeshBuffers { indices, submesh_index_counts, ..streams.vertices },
+            vertex_sources: streams.sources,
+            triangle_sources,
+            totals: totals(self.plan, &verdicts),
+            verdicts,
+            width: self.plan.view.width as f32,
+        }
+    }
+
+    fn triangles(&self) -> (Vec<u32>, Vec<TriangleSource>, Vec<u32>) {
+        let mut indices = Vec::with_capacity(self.plan.view.corner_count() + self.new.len() * 3);
+        let mut sources = Vec::with_capacity(indices.capacity() / 3);
+        let mut counts = Vec::with_capacity(self.submeshes.count());
+        let new_of = by_submesh(&self.new, self.submeshes.count());
+        for (submesh, new) in new_of.iter().enumerate() {
+            let before = indices.len();
+            for triangle in self.submeshes.source_triangles(submesh) {
+                indices.extend(triangle.corners().map(|c: Corner| self.attributes.vertex_at[c]));
+                sources.push(TriangleSource { kind: TriangleKind::Source, index: triangle.0 });
+            }
+            for &place in new {
+                indices.extend(self.new[place].vertices);
+                sources.push(self.new[place].source);
+            }
+            counts.push((indices.len() - before) as u32);
+        }
+        (indices, sources, counts)
+    }
+}
+
+/// A middle vertex takes its texture from halfway between the old corner and the pulled one.
+const MIDDLE_SHARE: f64 = 0.5;
+
+/// The places of new triangles, for each submesh.
+fn by_submesh(new: &[NewTriangle], submeshes: usize) -> Vec<Vec<usize>> {
+    let mut places = vec![Vec::new(); submeshes];
+    for (place, triangle) in new.iter().enumerate() {
+        places[triangle.submesh as usize].push(place);
+    }
+    places
+}
+
+/// Which triangles belong to which submesh.
+struct Submeshes {
+    /// `#source submeshes + 1`: the first triangle of each, and the end.
+    starts: Vec<u32>,
+    target: ChamferSubmesh,
+}
+
+impl Submeshes {
+    fn new(plan: &Plan, target: ChamferSubmesh) -> Submeshes {
+        let mut starts = vec![0];
+        for count in plan.view.mesh.submesh_index_counts {
+            starts.push(starts[starts.len() - 1] + count / 3);
+        }
+        Submeshes { starts, target }
+    }
+
+    fn sources(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    fn count(&self) -> usize {
+        self.sources() + usize::from(self.target == ChamferSubmesh::Own)
+    }
+
+    fn source_triangles(&self, submesh: usize) -> impl Iterator<Item = Triangle> + use<> {
+        let bounds = self.starts.get(submesh).zip(self.starts.get(submesh + 1));
+        let (from, to) = bounds.map_or((0, 0), |(&from, &to)| (from, to));
+        (from..to).map(Triangle)
+    }
+
+    /// Where a new triangle goes whose owner's face is the given one.
+    fn for_new(&self, owner: Triangle) -> u32 {
+        match self.target {
+            ChamferSubmesh::Given(submesh) => submesh,
+            ChamferSubmesh::Own => self.sources() as u32,
+            ChamferSubmesh::Owner => {
+                self.starts.partition_point(|&start| start <= owner.0) as u32 - 1
+            }
+        }
+    }
+}

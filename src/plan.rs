@@ -1,0 +1,18 @@
+//! Plan: all that is known of a mesh before the limits decide how much of it is done.
+
+use crate::edges::Edges;
+use crate::ids::{IdVec, Sector};
+use crate::offsets::Offset;
+use crate::sectors::Sectors;
+use crate::topology::Topology;
+use crate::view::View;
+
+/// The values of the stages up to the offsets.
+pub struct Plan<'a> {
+    pub view: View<'a>,
+    pub topology: Topology,
+    pub edges: Edges,
+    pub sectors: Sectors,
+    /// `#sectors`: the move at full width.
+    pub offsets: IdVec<Sector, Offset>,
+}

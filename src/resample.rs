@@ -1,0 +1,144 @@
+//! Resample: what a stream is worth at a place on the source surface.
+//!
+//! A moved vertex is a sample of the surface that was there: it blends the three vertices of one
+//! source triangle, on which all streams agree (thesis 6.3, sub-step 5 and appendix I).
+
+use glam::DVec3;
+
+use crate::edges::HARD_COSINE;
+use crate::ids::{Corner, Sector, Vertex};
+use crate::math::{area_vector, unit};
+use crate::plan::Plan;
+use crate::report::Blend;
+
+/// A place in the plane of a source triangle, as seen from one of its corners.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Foot {
+    pub corner: Corner,
+    /// In terms of the edges to the next and to the previous corner.
+    pub along: [f64; 2],
+}
+
+impl Foot {
+    /// The blend of the triangle's vertices at a share of the way from the corner to the foot.
+    pub fn blend(&self, plan: &Plan, share: f64) -> Blend {
+        let [to_next, to_prev] = self.along.map(|along| along * share);
+        Blend {
+            vertices: [self.corner, self.corner.next(), self.corner.prev()]
+                .map(|corner| plan.view.vertex_at(corner).0),
+            weights: [1.0 - to_next - to_prev, to_next, to_prev].map(|weight| weight as f32),
+        }
+    }
+}
+
+/// Where a sector's full offset takes one of its corners on the surface: the triangle that the
+/// offset lies on, or one of the corner's own vertex if the surface breaks between the two.
+pub fn surface_foot(plan: &Plan, sector: Sector, corner: Corner) -> Foot {
+    let agree = |one: Vertex, other: Vertex| {
+        let (one, other) = (plan.view.normal(one), plan.view.normal(other));
+        one.dot(other) >= HARD_COSINE * (one.length_squared() * other.length_squared()).sqrt()
+    };
+    foot(plan, sector, corner, agree)
+}
+
+/// As [`surface_foot`], within the corner's own texture chart.
+pub fn chart_foot(plan: &Plan, sector: Sector, corner: Corner) -> Foot {
+    foot(plan, sector, corner, |one, other| same_chart(plan, one, other))
+}
+
+fn foot(
+    plan: &Plan,
+    sector: Sector,
+    corner: Corner,
+    agree: impl Fn(Vertex, Vertex) -> bool,
+) -> Foot {
+    let offset = &plan.offsets[sector];
+    let vertex = plan.view.vertex_at(corner);
+    let at_offset = plan.view.vertex_at(offset.within);
+    if vertex == at_offset || agree(vertex, at_offset) {
+        return Foot { corner: offset.within, along: offset.along };
+    }
+    project(plan, nearest_own(plan, sector, vertex, &agree), offset.vector)
+}
+
+/// The corner of the sector, of those that agree with the vertex, that is fewest steps round the
+/// fan from the one that the offset lies on.
+fn nearest_own(
+    plan: &Plan,
+    sector: Sector,
+    vertex: Vertex,
+    agree: &impl Fn(Vertex, Vertex) -> bool,
+) -> Corner {
+    let within = plan.offsets[sector].within;
+    let mut before = None;
+    let mut has_passed = false;
+    for (step, corner) in plan.sectors.corners(&plan.topology, sector).enumerate() {
+        has_passed |= corner == within;
+        let own = plan.view.vertex_at(corner);
+        if own == vertex || agree(vertex, own) {
+            if !has_passed {
+                before = Some((step, corner));
+                continue;
+            }
+            let middle = plan.sectors.corners(&plan.topology, sector).position(|c| c == within);
+            let middle = middle.unwrap_or(0);
+            return match before {
+                Some((earlier, nearer)) if middle - earlier <= step - middle => nearer,
+                _ => corner,
+            };
+        }
+    }
+    before.map_or(within, |(_, corner)| corner)
+}
+
+/// The vector's projection onto the plane of a corner's triangle.
+fn project(plan: &Plan, corner: Corner, vector: DVec3) -> Foot {
+    let at = plan.view.position_at(corner);
+    let to_next = plan.view.position_at(corner.next()) - at;
+    let to_prev = plan.view.position_at(corner.prev()) - at;
+    let normal = to_next.cross(to_prev);
+    let area = normal.length_squared();
+    if area == 0.0 {
+        return Foot { corner, along: [0.0; 2] };
+    }
+    let along =
+        [vector.cross(to_prev).dot(normal) / area, to_next.cross(vector).dot(normal) / area];
+    let is_sound = along.iter().all(|share| share.is_finite());
+    Foot { corner, along: if is_sound { along } else { [0.0; 2] } }
+}
+
+/// Whether two vertices at one position belong to one chart: equal in all that a chart carries.
+pub fn same_chart(plan: &Plan, one: Vertex, other: Vertex) -> bool {
+    let mesh = &plan.view.mesh;
+    let (a, b) = (one.0 as usize, other.0 as usize);
+    one == other
+        || (mesh.tangents.is_empty() || mesh.tangents[a] == mesh.tangents[b])
+            && (mesh.colors.is_empty() || mesh.colors[a] == mesh.colors[b])
+            && mesh.uvs.iter().all(|uv| uv_at(uv, a) == uv_at(uv, b))
+}
+
+/// One vertex's value in a UV channel; empty where the channel is absent.
+pub fn uv_at<'a>(uv: &crate::mesh::Uv<'a>, vertex: usize) -> &'a [f32] {
+    let components = uv.components as usize;
+    &uv.values[vertex * components..(vertex + 1) * components]
+}
+
+/// The unit normal of a blend of source vertices; exactly theirs where they are all equal.
+pub fn blended_normal(plan: &Plan, blend: &Blend) -> DVec3 {
+    let normals = blend.vertices.map(|vertex| plan.view.normal(Vertex(vertex)));
+    if normals[0] == normals[1] && normals[0] == normals[2] {
+        return normals[0];
+    }
+    let mixed = weighted_sum(blend, normals);
+    if mixed == DVec3::ZERO { normals[0] } else { unit(mixed) }
+}
+
+pub fn weighted_sum(blend: &Blend, values: [DVec3; 3]) -> DVec3 {
+    let [a, b, c] = blend.weights.map(f64::from);
+    values[0] * a + values[1] * b + values[2] * c
+}
+
+/// The unit normal of a source triangle's plane; zero without area.
+pub fn face_normal(plan: &Plan, corner: Corner) -> DVec3 {
+    unit(area_vector(plan.view.triangle(corner.triangle())))
+}

@@ -1,0 +1,128 @@
+//! Strips: two triangles for each chamfered edge, one where an end does not open (thesis 6.5).
+//!
+//! ```text
+//!   a1 ----- b1      side one, pulled into its face
+//!   |  strip  |
+//!   a2 ----- b2      side two
+//! ```
+
+use glam::DVec3;
+
+use crate::edges::HardEdge;
+use crate::ids::Corner;
+use crate::math::{area_vector, unit};
+use crate::placement::Placement;
+use crate::plan::Plan;
+use crate::validity::faces_out;
+
+/// Two diagonals fold alike if their cosines differ by less than rounding can explain.
+const EQUAL_FOLD: f64 = 1e-6;
+
+/// The corners of a strip in the order b1, a1, a2, b2: counter-clockwise seen from outside.
+pub fn corners(edge: &HardEdge) -> [Corner; 4] {
+    let [one, two] = edge.sides;
+    [one.next(), one, two.next(), two]
+}
+
+/// A strip's four corners in space.
+#[derive(Clone, Copy, Debug)]
+pub struct Quad {
+    /// b1, a1, a2, b2.
+    pub points: [DVec3; 4],
+    /// The vertex normals there.
+    pub normals: [DVec3; 4],
+}
+
+/// The triangles of a strip, as places in its four corners.
+pub type Cut = &'static [[usize; 3]];
+
+const CLOSED: Cut = &[];
+const OPEN_AT_B: Cut = &[[0, 1, 3]];
+const OPEN_AT_A: Cut = &[[0, 1, 2]];
+const FROM_B1: Cut = &[[0, 1, 2], [0, 2, 3]];
+const FROM_A1: Cut = &[[0, 1, 3], [1, 2, 3]];
+
+pub fn quad(plan: &Plan, placement: &Placement, edge: &HardEdge) -> Quad {
+    let corners = corners(edge);
+    Quad {
+        points: corners.map(|corner| placement.position_at(plan, corner)),
+        normals: corners.map(|corner| placement.normal_at(plan, corner)),
+    }
+}
+
+/// Cuts the strip by the diagonal that folds less.
+pub fn cut(quad: &Quad) -> Cut {
+    let [b1, a1, a2, b2] = quad.points;
+    match (a1 == a2, b1 == b2) {
+        (true, true) => CLOSED,
+        (true, false) => OPEN_AT_B,
+        (false, true) => OPEN_AT_A,
+        (false, false) => {
+            let (from_b1, from_a1) = (fold(quad, FROM_B1), fold(quad, FROM_A1));
+            let is_longer = b1.distance_squared(a2) > a1.distance_squared(b2);
+            let folds_more = from_b1 < from_a1 - EQUAL_FOLD;
+            let folds_alike = (from_b1 - from_a1).abs() <= EQUAL_FOLD;
+            if folds_more || (folds_alike && is_longer) { FROM_A1 } else { FROM_B1 }
+        }
+    }
+}
+
+/// Whether all triangles of the cut strip face outwards, and neither pulled edge runs backwards.
+pub fn is_valid(quad: &Quad, cut: Cut, edge: DVec3, resolution: f64) -> bool {
+    let [b1, a1, a2, b2] = quad.points;
+    let runs_along = |from: DVec3, to: DVec3| (to - from).dot(edge) > 0.0;
+    let faces = |triangle: &[usize; 3]| {
+        faces_out(triangle.map(|k| quad.points[k]), triangle.map(|k| quad.normals[k]), resolution)
+    };
+    runs_along(a1, b1) && runs_along(a2, b2) && cut.iter().all(faces)
+}
+
+/// The cosine between the two triangles' normals.
+fn fold(quad: &Quad, cut: Cut) -> f64 {
+    let normal = |triangle: [usize; 3]| unit(area_vector(triangle.map(|k| quad.points[k])));
+    normal(cut[0]).dot(normal(cut[1]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const UP: [DVec3; 4] = [DVec3::Z; 4];
+
+    fn quad(points: [[f64; 3]; 4]) -> Quad {
+        Quad { points: points.map(DVec3::from), normals: UP }
+    }
+
+    // a1 (0,1)   b1 (4,1)
+    // a2 (0,0)   b2 (4,0)
+    const FLAT: [[f64; 3]; 4] =
+        [[4.0, 1.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 0.0], [4.0, 0.0, 0.0]];
+
+    #[test]
+    fn an_open_strip_is_two_triangles_that_face_out() {
+        let quad = quad(FLAT);
+        assert_eq!(cut(&quad).len(), 2);
+        assert!(is_valid(&quad, cut(&quad), DVec3::X, 1e-6));
+        assert!(!is_valid(&quad, cut(&quad), DVec3::NEG_X, 1e-6), "the pulled edges are reversed");
+    }
+
+    #[test]
+    fn an_end_that_does_not_open_leaves_one_triangle() {
+        let [b1, a1, a2, b2] = FLAT;
+        assert_eq!(cut(&quad([b1, a1, a1, b2])), OPEN_AT_B);
+        assert_eq!(cut(&quad([b1, a1, a2, b1])), OPEN_AT_A);
+        assert_eq!(cut(&quad([b1, a1, a1, b1])), CLOSED);
+    }
+
+    #[test]
+    fn the_diagonal_that_folds_less_is_taken() {
+        let [b1, a1, a2, b2] = FLAT;
+        let shifted = quad([b1, [1.0, 1.0, 0.0], a2, b2]);
+        assert_eq!(cut(&shifted), FROM_A1, "flat: the shorter diagonal");
+        let [mut low_b1, a1_again] = [b1, a1];
+        low_b1[2] = -0.5;
+        let twisted = quad([low_b1, a1_again, a2, b2]);
+        let folds = [fold(&twisted, FROM_B1), fold(&twisted, FROM_A1)];
+        assert_eq!(cut(&twisted) == FROM_A1, folds[1] >= folds[0]);
+    }
+}

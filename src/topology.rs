@@ -1,0 +1,200 @@
+//! Topology: half-edges and their twins over welded positions.
+//!
+//! Two opposite half-edges over the same two clusters are twins. Welding by position also joins
+//! parts that merely touch, so an edge can carry four or more half-edges; only there do stored
+//! vertices, normals and positions have a say in who belongs to whom.
+
+mod crowded;
+
+use crate::ids::{Cluster, Corner, Id, IdVec, Triangle};
+use crate::view::View;
+use crate::weld::Weld;
+
+/// Half-edges over clusters.
+pub struct Topology {
+    /// `#corners`: the cluster of each corner's vertex.
+    pub cluster_at: IdVec<Corner, Cluster>,
+    /// `#corners`: the opposite half-edge, or none at a border and in collapsed triangles.
+    pub twin: IdVec<Corner, Corner>,
+}
+
+impl Topology {
+    /// Whether two corners of the triangle stand at one position. Such a triangle has no edges.
+    #[inline]
+    pub fn is_collapsed(&self, triangle: Triangle) -> bool {
+        is_collapsed(&self.cluster_at, triangle)
+    }
+}
+
+pub fn topology(view: &View, weld: &Weld) -> Topology {
+    let corners = (0..view.corner_count()).map(Corner::new);
+    let cluster_at = IdVec::from_vec(
+        corners.map(|corner| weld.cluster_of[view.vertex_at(corner)]).collect::<Vec<_>>(),
+    );
+    let twin = twins(view, &cluster_at, weld.first_vertex.len());
+    Topology { cluster_at, twin }
+}
+
+fn is_collapsed(cluster_at: &IdVec<Corner, Cluster>, triangle: Triangle) -> bool {
+    let [a, b, c] = triangle.corners().map(|corner| cluster_at[corner]);
+    a == b || b == c || c == a
+}
+
+/// A half-edge in the bucket of its lower cluster.
+#[derive(Clone, Copy)]
+struct Spoke {
+    /// The cluster at the other end.
+    far: Cluster,
+    half_edge: Corner,
+}
+
+fn twins(
+    view: &View,
+    cluster_at: &IdVec<Corner, Cluster>,
+    clusters: usize,
+) -> IdVec<Corner, Corner> {
+    let (starts, mut spokes) = buckets(view, cluster_at, clusters);
+    let mut twin = IdVec::filled(Corner::NONE, view.corner_count());
+    for bounds in starts.windows(2) {
+        let bucket = &mut spokes[bounds[0] as usize..bounds[1] as usize];
+        bucket.sort_unstable_by_key(|spoke| (spoke.far, spoke.half_edge));
+        for edge in bucket.chunk_by(|one, other| one.far == other.far) {
+            join(view, cluster_at, edge, &mut twin);
+        }
+    }
+    twin
+}
+
+/// All half-edges, sorted by the lower of their two clusters (counting sort).
+fn buckets(
+    view: &View,
+    cluster_at: &IdVec<Corner, Cluster>,
+    clusters: usize,
+) -> (Vec<u32>, Vec<Spoke>) {
+    let half_edges = || {
+        let whole = view.triangles().filter(|&triangle| !is_collapsed(cluster_at, triangle));
+        whole.flat_map(|triangle| triangle.corners()).map(|corner| {
+            let (from, to) = (cluster_at[corner], cluster_at[corner.next()]);
+            (from.min(to), Spoke { far: from.max(to), half_edge: corner })
+        })
+    };
+    let mut starts = vec![0_u32; clusters + 1];
+    half_edges().for_each(|(near, _)| starts[near.index()] += 1);
+    let mut total = 0;
+    for start in &mut starts {
+        total += *start;
+        *start = total;
+    }
+    // Filled from the back of each bucket: afterwards every start is where its bucket begins.
+    let mut spokes = vec![Spoke { far: Cluster::NONE, half_edge: Corner::NONE }; total as usize];
+    half_edges().for_each(|(near, spoke)| {
+        starts[near.index()] -= 1;
+        spokes[starts[near.index()] as usize] = spoke;
+    });
+    (starts, spokes)
+}
+
+/// Pairs the half-edges of one edge.
+fn join(
+    view: &View,
+    cluster_at: &IdVec<Corner, Cluster>,
+    edge: &[Spoke],
+    twin: &mut IdVec<Corner, Corner>,
+) {
+    match *edge {
+        [_] => {}
+        [one, other] => {
+            if cluster_at[one.half_edge] != cluster_at[other.half_edge] {
+                marry(twin, one.half_edge, other.half_edge);
+            }
+        }
+        _ => {
+            let near = cluster_at[edge[0].half_edge].min(edge[0].far);
+            let (forth, back): (Vec<_>, Vec<_>) = edge
+                .iter()
+                .map(|spoke| spoke.half_edge)
+                .partition(|&half_edge| cluster_at[half_edge] == near);
+            for (one, other) in crowded::pairs(view, forth, back) {
+                marry(twin, one, other);
+            }
+        }
+    }
+}
+
+fn marry(twin: &mut IdVec<Corner, Corner>, one: Corner, other: Corner) {
+    twin[one] = other;
+    twin[other] = one;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::Mesh;
+    use crate::options::Options;
+    use crate::view::view;
+    use crate::weld::weld;
+
+    fn twins_of(positions: &[[f32; 3]], normals: &[[f32; 3]], indices: &[u32]) -> Vec<Option<u32>> {
+        let mesh = Mesh {
+            positions,
+            normals,
+            indices,
+            submesh_index_counts: &[indices.len() as u32],
+            ..Mesh::default()
+        };
+        let view = view(&mesh, &Options::default()).unwrap();
+        let topology = topology(&view, &weld(&mesh));
+        topology.twin.iter().map(|twin| twin.is_some().then_some(twin.0)).collect()
+    }
+
+    const SQUARE: [[f32; 3]; 4] =
+        [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+    const UP: [[f32; 3]; 6] = [[0.0, 0.0, 1.0]; 6];
+
+    // 3---2
+    // | / |
+    // 0---1
+    #[test]
+    fn the_diagonal_of_a_square_has_twins_and_the_rest_is_border() {
+        let twins = twins_of(&SQUARE, &UP[..4], &[0, 1, 2, 0, 2, 3]);
+        assert_eq!(twins, [None, None, Some(3), Some(2), None, None]);
+    }
+
+    #[test]
+    fn a_winding_flip_leaves_both_half_edges_without_twin() {
+        let twins = twins_of(&SQUARE, &UP[..4], &[0, 1, 2, 2, 0, 3]);
+        assert!(twins.iter().all(Option::is_none));
+    }
+
+    #[test]
+    fn a_collapsed_triangle_has_no_edges() {
+        let twins = twins_of(&SQUARE, &UP[..4], &[0, 1, 2, 0, 2, 2, 0, 2, 3]);
+        assert_eq!(twins[2], Some(6));
+        assert_eq!(twins[3..6], [None, None, None]);
+    }
+
+    // Two wedges that touch along the edge 0-1, seen along it: each is solid between its faces.
+    //
+    //  A \ # / B
+    //     \ /
+    //      0
+    //     / \
+    //  D / # \ C
+    #[test]
+    fn touching_parts_are_paired_on_their_solid_sides() {
+        let positions = [
+            [0.0, 0.0, 0.0],
+            [0.0, 0.0, 1.0],
+            [-1.0, 1.0, 0.0],
+            [1.0, 1.0, 0.0],
+            [1.0, -1.0, 0.0],
+            [-1.0, -1.0, 0.0],
+        ];
+        // Normals that differ at every face, and vertices shared by all faces: position decides.
+        let (a, b, c, d) = ([0, 1, 2], [1, 0, 3], [0, 1, 4], [1, 0, 5]);
+        let indices: Vec<u32> = [a, b, c, d].concat();
+        let mesh_twins = twins_of(&positions, &UP, &indices);
+        assert_eq!(mesh_twins[0], Some(3), "A with B, over the upper wedge");
+        assert_eq!(mesh_twins[6], Some(9), "C with D, over the lower wedge");
+    }
+}

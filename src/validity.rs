@@ -1,0 +1,91 @@
+//! Validity: when a triangle of the result is as good as the source.
+//!
+//! Positions are the rounded ones that will be stored; differences of them are exact enough in
+//! double precision that no sign depends on the order of operations.
+
+use glam::DVec3;
+
+use crate::math::{area_vector, unit};
+
+/// A source triangle keeps at least this share of its area: less is a needle that shades badly.
+const LEAST_AREA_SHARE: f64 = 0.01;
+
+/// A source triangle may lean by at most 72 degrees from its old plane, so that it cannot flip.
+const LEAST_UPRIGHT_COSINE: f64 = 0.3;
+
+/// A new triangle faces its vertex normals by at least this cosine (87 degrees): the chamfer of a
+/// knife's edge is that steep, and anything beyond would face inwards.
+const LEAST_FACING_COSINE: f64 = 0.05;
+
+/// Twice the area of a triangle is more than this share of its longest side squared, or single
+/// precision cannot tell its normal.
+const LEAST_SLENDERNESS: f64 = 1e-7;
+
+/// Whether a source triangle may become the new one.
+pub fn survives(old: [DVec3; 3], new: [DVec3; 3]) -> bool {
+    let (old_area, new_area) = (area_vector(old), area_vector(new));
+    if old_area == DVec3::ZERO {
+        // Nothing can be said of a triangle that had no area, except that it may stay so.
+        return true;
+    }
+    let facing = old_area.dot(new_area);
+    let share = new_area.length() / old_area.length();
+    let is_upright = facing >= LEAST_UPRIGHT_COSINE * old_area.length() * new_area.length();
+    share >= LEAST_AREA_SHARE && is_upright && keeps_direction(old, new)
+}
+
+/// A triangle whose corners all passed each other has its old normal again, but its sides are
+/// reversed.
+fn keeps_direction(old: [DVec3; 3], new: [DVec3; 3]) -> bool {
+    let side = |points: [DVec3; 3], k: usize| points[(k + 1) % 3] - points[k];
+    (0..3).map(|k| side(old, k).dot(side(new, k))).sum::<f64>() > 0.0
+}
+
+/// Whether a new triangle has area and faces the way its vertex normals point. `resolution` is
+/// the least height that counts.
+pub fn faces_out(points: [DVec3; 3], normals: [DVec3; 3], resolution: f64) -> bool {
+    facing(points, normals, resolution).is_some()
+}
+
+/// The cosine between a new triangle's normal and the sum of its vertex normals; none if the
+/// triangle may not be.
+pub fn facing(points: [DVec3; 3], normals: [DVec3; 3], resolution: f64) -> Option<f64> {
+    let area = area_vector(points);
+    let longest = longest_side(points);
+    let has_area = area.length() > longest * (longest * LEAST_SLENDERNESS).max(resolution);
+    let cosine = unit(area).dot(unit(normals[0] + normals[1] + normals[2]));
+    (has_area && cosine >= LEAST_FACING_COSINE).then_some(cosine)
+}
+
+fn longest_side([a, b, c]: [DVec3; 3]) -> f64 {
+    let squares = [(b - a), (c - b), (a - c)].map(|side| side.length_squared());
+    squares.into_iter().fold(0.0, f64::max).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const OLD: [DVec3; 3] = [DVec3::ZERO, DVec3::X, DVec3::Y];
+    const UP: [DVec3; 3] = [DVec3::Z; 3];
+
+    #[test]
+    fn a_shrunk_triangle_survives_and_a_flipped_one_does_not() {
+        assert!(survives(OLD, OLD.map(|point| point * 0.5)));
+        assert!(!survives(OLD, [DVec3::ZERO, DVec3::X, -DVec3::Y]));
+        assert!(!survives(OLD, OLD.map(|point| point * 0.01)), "hardly any area is left");
+    }
+
+    #[test]
+    fn a_triangle_turned_inside_out_does_not_survive() {
+        assert!(!survives(OLD, OLD.map(|point| -point)));
+    }
+
+    #[test]
+    fn new_triangles_face_their_normals_and_have_area() {
+        assert!(faces_out(OLD, UP, 1e-6));
+        assert!(!faces_out([OLD[0], OLD[2], OLD[1]], UP, 1e-6));
+        assert!(!faces_out([OLD[0], OLD[1], DVec3::X * 0.5], UP, 1e-6));
+        assert!(!faces_out(OLD, UP, 2.0), "lower than the resolution");
+    }
+}

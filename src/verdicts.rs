@@ -1,0 +1,82 @@
+//! Verdicts: what became of each hard edge, measured on the result.
+
+use crate::edges::HardEdge;
+use crate::ids::{Edge, Sector};
+use crate::limits::Limits;
+use crate::math::unit;
+use crate::plan::Plan;
+use crate::report::{EdgeVerdict, Outcome, Reason, Totals};
+use crate::strips;
+
+/// `#hard edges`.
+pub fn verdicts(plan: &Plan, limits: &Limits) -> Vec<EdgeVerdict> {
+    plan.edges.hard.ids().map(|edge| verdict(plan, limits, edge)).collect()
+}
+
+fn verdict(plan: &Plan, limits: &Limits, edge: Edge) -> EdgeVerdict {
+    let edge = &plan.edges.hard[edge];
+    let ends = [edge.sides[0], edge.sides[0].next()];
+    let left = |reason| (Outcome::Skipped, reason, [0.0; 2]);
+    let (outcome, reason, widths) = match edge.skipped {
+        Some(reason) => left(reason),
+        None => {
+            let sectors = strips::corners(edge).map(|corner| plan.sectors.sector_of[corner]);
+            let reason = worst_reason(plan, limits, sectors);
+            if !is_open(plan, limits, edge) {
+                left(reason.unwrap_or(unopened(plan)))
+            } else {
+                let outcome = if reason.is_some() { Outcome::Narrowed } else { Outcome::Full };
+                (outcome, reason.unwrap_or(Reason::None), widths(plan, limits, edge))
+            }
+        }
+    };
+    EdgeVerdict { vertices: ends.map(|end| plan.view.vertex_at(end).0), outcome, reason, widths }
+}
+
+fn is_open(plan: &Plan, limits: &Limits, edge: &HardEdge) -> bool {
+    !strips::cut(&strips::quad(plan, &limits.placement, edge)).is_empty()
+}
+
+/// Why an edge did not open though nothing limited it.
+fn unopened(plan: &Plan) -> Reason {
+    if plan.view.width <= plan.view.resolution { Reason::TooFine } else { Reason::NoEnd }
+}
+
+/// What limited the sector that got least of its offset; none if all got everything.
+fn worst_reason(plan: &Plan, limits: &Limits, sectors: [Sector; 4]) -> Option<Reason> {
+    let share = |sector: &Sector| limits.placement.share[*sector];
+    let limited = sectors
+        .into_iter()
+        .filter(|&sector| plan.offsets[sector].moves() && share(&sector) < 1.0)
+        .min_by(|one, other| share(one).total_cmp(&share(other)));
+    let is_capped = sectors.into_iter().any(|sector| plan.offsets[sector].is_capped);
+    limited.map(|sector| limits.reason[sector]).or(is_capped.then_some(Reason::Miter))
+}
+
+/// At each end, the mean distance of the two pulled vertices from the line of the old edge.
+fn widths(plan: &Plan, limits: &Limits, edge: &HardEdge) -> [f32; 2] {
+    let [from, to] = [edge.sides[0], edge.sides[0].next()].map(|c| plan.view.position_at(c));
+    let along = unit(to - from);
+    let [b1, a1, a2, b2] = strips::quad(plan, &limits.placement, edge).points;
+    let distance = |point: glam::DVec3| (point - from).cross(along).length();
+    [(a1, a2), (b1, b2)].map(|(one, two)| ((distance(one) + distance(two)) / 2.0) as f32)
+}
+
+pub fn totals(plan: &Plan, verdicts: &[EdgeVerdict]) -> Totals {
+    let mut totals = Totals { hard_edges: verdicts.len() as u32, ..Totals::default() };
+    let (mut whole, mut got) = (0.0, 0.0);
+    for (verdict, edge) in verdicts.iter().zip(plan.edges.hard.iter()) {
+        match verdict.outcome {
+            Outcome::Full => totals.chamfered += 1,
+            Outcome::Narrowed => totals.narrowed += 1,
+            Outcome::Skipped => totals.skipped[verdict.reason as usize] += 1,
+        }
+        let [from, to] = [edge.sides[0], edge.sides[0].next()].map(|c| plan.view.position_at(c));
+        let length = from.distance(to);
+        let share = |width: f32| (f64::from(width) / plan.view.width).min(1.0);
+        whole += length;
+        got += length * (share(verdict.widths[0]) + share(verdict.widths[1])) / 2.0;
+    }
+    totals.mean_width = if whole > 0.0 { (got / whole) as f32 } else { 0.0 };
+    totals
+}

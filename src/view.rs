@@ -1,0 +1,251 @@
+//! View: the caller's arrays, validated and borrowed.
+//!
+//! Later stages index without checks of their own, so every rule on the input is tested here.
+
+use glam::DVec3;
+
+use crate::error::{Error, Stream};
+use crate::ids::{Corner, Id, Triangle, Vertex};
+use crate::mesh::{Mesh, UV_CHANNELS, Uv};
+use crate::options::{ChamferSubmesh, Options, Width};
+
+/// New elements are fewer than eight for each source corner, so ids stay within 32 bits.
+const MAX_CORNERS: usize = u32::MAX as usize / 8;
+
+/// Positions are single precision: two points closer than this many steps of the largest
+/// coordinate cannot be told apart reliably.
+const RESOLUTION_STEPS: f64 = 4.0;
+
+/// A mesh that keeps all rules.
+pub struct View<'a> {
+    pub mesh: Mesh<'a>,
+    /// The width asked for, in mesh units.
+    pub width: f64,
+    /// The shortest length that single precision can tell from zero on this mesh.
+    pub resolution: f64,
+}
+
+/// Validates a mesh and the options that go with it.
+pub fn view<'a>(mesh: &Mesh<'a>, options: &Options) -> Result<View<'a>, Error> {
+    check_lengths(mesh)?;
+    check_indices(mesh)?;
+    check_finite(mesh)?;
+    if let ChamferSubmesh::Given(submesh) = options.chamfer_submesh {
+        let submeshes = mesh.submesh_index_counts.len() as u32;
+        if submesh >= submeshes {
+            return Err(Error::SubmeshRange { submesh, submeshes });
+        }
+    }
+    Ok(View {
+        mesh: *mesh,
+        width: width_in_units(mesh, options.width)?,
+        resolution: resolution(mesh),
+    })
+}
+
+impl View<'_> {
+    #[inline]
+    pub fn vertex_at(&self, corner: Corner) -> Vertex {
+        Vertex(self.mesh.indices[corner.index()])
+    }
+
+    #[inline]
+    pub fn position(&self, vertex: Vertex) -> DVec3 {
+        wide(self.mesh.positions[vertex.index()])
+    }
+
+    #[inline]
+    pub fn normal(&self, vertex: Vertex) -> DVec3 {
+        wide(self.mesh.normals[vertex.index()])
+    }
+
+    #[inline]
+    pub fn position_at(&self, corner: Corner) -> DVec3 {
+        self.position(self.vertex_at(corner))
+    }
+
+    #[inline]
+    pub fn normal_at(&self, corner: Corner) -> DVec3 {
+        self.normal(self.vertex_at(corner))
+    }
+
+    pub fn triangle(&self, triangle: Triangle) -> [DVec3; 3] {
+        triangle.corners().map(|corner| self.position_at(corner))
+    }
+
+    pub fn corner_count(&self) -> usize {
+        self.mesh.indices.len()
+    }
+
+    pub fn triangles(&self) -> impl Iterator<Item = Triangle> + use<> {
+        (0..self.mesh.indices.len() / 3).map(Triangle::new)
+    }
+}
+
+#[inline]
+pub fn wide(value: [f32; 3]) -> DVec3 {
+    DVec3::new(f64::from(value[0]), f64::from(value[1]), f64::from(value[2]))
+}
+
+fn width_in_units(mesh: &Mesh, width: Width) -> Result<f64, Error> {
+    let (given, unit) = match width {
+        Width::Units(units) => (units, 1.0),
+        Width::PercentOfExtent(percent) => (percent, f64::from(mesh.extent()) / 100.0),
+    };
+    if given.is_finite() && given >= 0.0 {
+        Ok(f64::from(given) * unit)
+    } else {
+        Err(Error::BadWidth(given))
+    }
+}
+
+/// The shortest length that single precision can tell from zero on a mesh.
+pub fn resolution(mesh: &Mesh) -> f64 {
+    let largest = mesh.positions.as_flattened().iter().fold(0.0_f32, |m, x| m.max(x.abs()));
+    f64::from(largest) * f64::from(f32::EPSILON) * RESOLUTION_STEPS
+}
+
+fn check_lengths(mesh: &Mesh) -> Result<(), Error> {
+    let vertices = mesh.positions.len();
+    if mesh.normals.is_empty() && vertices > 0 {
+        return Err(Error::MissingNormals);
+    }
+    check_length(Stream::Normals, vertices * 3, mesh.normals.len() * 3)?;
+    if !mesh.tangents.is_empty() {
+        check_length(Stream::Tangents, vertices * 4, mesh.tangents.len() * 4)?;
+    }
+    if !mesh.colors.is_empty() {
+        check_length(Stream::Colors, vertices * 4, mesh.colors.len() * 4)?;
+    }
+    for channel in 0..UV_CHANNELS as u32 {
+        check_uv(channel, mesh.uvs[channel as usize], vertices)?;
+    }
+    Ok(())
+}
+
+fn check_uv(channel: u32, uv: Uv, vertices: usize) -> Result<(), Error> {
+    match uv.components {
+        0 if uv.values.is_empty() => Ok(()),
+        components @ 2..=4 => {
+            check_length(Stream::Uv(channel), vertices * components as usize, uv.values.len())
+        }
+        components => Err(Error::UvComponents { channel, components }),
+    }
+}
+
+fn check_length(stream: Stream, expected: usize, found: usize) -> Result<(), Error> {
+    if expected == found {
+        Ok(())
+    } else {
+        Err(Error::StreamLength { stream, expected: expected as u64, found: found as u64 })
+    }
+}
+
+fn check_indices(mesh: &Mesh) -> Result<(), Error> {
+    let counts = mesh.submesh_index_counts;
+    if let Some(submesh) = counts.iter().position(|count| count % 3 != 0) {
+        return Err(Error::IndexCount { submesh: submesh as u32, count: counts[submesh] });
+    }
+    let expected: u64 = counts.iter().map(|&count| u64::from(count)).sum();
+    if expected != mesh.indices.len() as u64 {
+        return Err(Error::IndexTotal { expected, found: mesh.indices.len() as u64 });
+    }
+    if mesh.indices.len() > MAX_CORNERS || mesh.positions.len() > MAX_CORNERS {
+        return Err(Error::TooLarge);
+    }
+    let vertices = mesh.positions.len() as u32;
+    match mesh.indices.iter().position(|&index| index >= vertices) {
+        None => Ok(()),
+        Some(place) => {
+            Err(Error::IndexRange { place: place as u32, index: mesh.indices[place], vertices })
+        }
+    }
+}
+
+fn check_finite(mesh: &Mesh) -> Result<(), Error> {
+    check_stream(Stream::Positions, mesh.positions.as_flattened(), 3)?;
+    check_stream(Stream::Normals, mesh.normals.as_flattened(), 3)?;
+    check_stream(Stream::Tangents, mesh.tangents.as_flattened(), 4)?;
+    check_stream(Stream::Colors, mesh.colors.as_flattened(), 4)?;
+    for (channel, uv) in mesh.uvs.iter().enumerate() {
+        check_stream(Stream::Uv(channel as u32), uv.values, uv.components as usize)?;
+    }
+    Ok(())
+}
+
+fn check_stream(stream: Stream, values: &[f32], components: usize) -> Result<(), Error> {
+    // A plain pass over all values is much faster than a search, and nearly always enough.
+    if values.iter().fold(true, |all, value| all & value.is_finite()) {
+        return Ok(());
+    }
+    let place = values.iter().position(|value| !value.is_finite()).unwrap_or(0);
+    Err(Error::NotFinite { stream, vertex: (place / components) as u32 })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const POSITIONS: [[f32; 3]; 3] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    const NORMALS: [[f32; 3]; 3] = [[0.0, 0.0, 1.0]; 3];
+
+    fn triangle() -> Mesh<'static> {
+        Mesh {
+            positions: &POSITIONS,
+            normals: &NORMALS,
+            indices: &[0, 1, 2],
+            submesh_index_counts: &[3],
+            ..Mesh::default()
+        }
+    }
+
+    fn error_of(mesh: Mesh) -> Error {
+        view(&mesh, &Options::default()).err().expect("the mesh breaks a rule")
+    }
+
+    #[test]
+    fn a_sound_mesh_is_taken_and_the_width_resolved() {
+        let options = Options { width: Width::PercentOfExtent(5.0), ..Options::default() };
+        let view = view(&triangle(), &options).unwrap();
+        assert!((view.width - 0.05).abs() < 1e-9);
+    }
+
+    #[test]
+    fn each_broken_rule_names_its_element() {
+        assert_eq!(error_of(Mesh { normals: &[], ..triangle() }), Error::MissingNormals);
+        assert_eq!(
+            error_of(Mesh { normals: &NORMALS[..2], ..triangle() }),
+            Error::StreamLength { stream: Stream::Normals, expected: 9, found: 6 }
+        );
+        assert_eq!(
+            error_of(Mesh { indices: &[0, 1, 3], ..triangle() }),
+            Error::IndexRange { place: 2, index: 3, vertices: 3 }
+        );
+        assert_eq!(
+            error_of(Mesh { indices: &[0, 1], submesh_index_counts: &[2], ..triangle() }),
+            Error::IndexCount { submesh: 0, count: 2 }
+        );
+        assert_eq!(
+            error_of(Mesh { submesh_index_counts: &[], ..triangle() }),
+            Error::IndexTotal { expected: 0, found: 3 }
+        );
+        let broken = [[0.0; 3], [0.0; 3], [0.0, f32::NAN, 0.0]];
+        assert_eq!(
+            error_of(Mesh { positions: &broken, ..triangle() }),
+            Error::NotFinite { stream: Stream::Positions, vertex: 2 }
+        );
+    }
+
+    #[test]
+    fn uv_channels_are_two_to_four_wide() {
+        let mut mesh = triangle();
+        mesh.uvs[3] = Uv { components: 1, values: &[0.0; 3] };
+        assert_eq!(error_of(mesh), Error::UvComponents { channel: 3, components: 1 });
+    }
+
+    #[test]
+    fn a_negative_width_is_refused() {
+        let options = Options { width: Width::Units(-1.0), ..Options::default() };
+        assert_eq!(view(&triangle(), &options).err(), Some(Error::BadWidth(-1.0)));
+    }
+}
