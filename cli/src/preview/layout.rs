@@ -133,3 +133,66 @@ fn camera(scenes: &[Scene; 2], zoom: Option<Zoom>, samples: usize) -> Option<Cam
 fn nearest(camera: &Camera, scene: &Scene) -> Option<glam::DVec3> {
     scene.corners().min_by(|&a, &b| camera.depth(a).total_cmp(&camera.depth(b)))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::Placed;
+    use super::*;
+
+    const IDENTITY: [[f32; 4]; 4] =
+        [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
+
+    fn triangle() -> Vec<Placed<'static>> {
+        let mesh = chamfer::Mesh {
+            positions: &[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+            indices: &[0, 1, 2],
+            ..chamfer::Mesh::default()
+        };
+        vec![Placed { mesh, transform: IDENTITY }]
+    }
+
+    fn panel() -> Panel<'static> {
+        Panel { caption: "a triangle".into(), before: triangle(), ..Panel::default() }
+    }
+
+    #[test]
+    fn the_same_panel_gives_the_same_bytes() {
+        assert_eq!(before_after(&panel()), before_after(&panel()));
+    }
+
+    #[test]
+    fn an_empty_panel_is_background() {
+        assert_eq!(before_after(&Panel::default()).dimensions(), (1202, 656));
+        assert_eq!(contact_sheet(&[]).dimensions(), (642, 376));
+    }
+
+    #[test]
+    fn a_long_sheet_has_two_columns() {
+        let panels = |count| (0..count).map(|_| Panel::default()).collect::<Vec<_>>();
+        assert_eq!(contact_sheet(&panels(2)).dimensions(), (642, 754));
+        assert_eq!(contact_sheet(&panels(5)).dimensions(), (1286, 1132));
+    }
+
+    #[test]
+    fn both_tiles_share_a_view() {
+        let both = Panel { after: triangle(), ..panel() };
+        let drawn = Drawn::new(&both, 40);
+        assert_eq!(drawn.tiles[0], drawn.tiles[1]);
+        assert_eq!(drawn.captions, ["before: 1 triangle", "after: 1 triangle"]);
+    }
+
+    #[test]
+    fn a_zoom_fills_the_tile() {
+        let corner = |zoom| *Drawn::new(&Panel { zoom, ..panel() }, 40).tiles[0].get_pixel(0, 39);
+        let focus = Some([0.3, 0.3, 0.0]);
+        let (whole, close) = (corner(None), corner(Some(Zoom { factor: 30.0, focus })));
+        assert_ne!(whole, close);
+        assert_eq!(whole, corner(Some(Zoom { factor: f32::NAN, focus })));
+        assert_ne!(close, corner(Some(Zoom { factor: 30.0, focus: None })));
+    }
+
+    #[test]
+    fn numbers_are_grouped_by_thousands() {
+        assert_eq!([0, 999, 1000, 1234567].map(grouped), ["0", "999", "1,000", "1,234,567"]);
+    }
+}

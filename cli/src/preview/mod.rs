@@ -1,7 +1,7 @@
 //! Pictures of a model before and after, drawn in software: no window, no graphics card.
 //!
-//! [`scene`] gathers the placed meshes, [`camera`] frames them, [`raster`] and [`lines`] find what
-//! each sample sees, [`shade`] lights it, [`tile`] averages the samples, [`layout`] puts the tiles
+//! `scene` gathers the placed meshes, `camera` frames them, `raster` and `lines` find what
+//! each sample sees, `shade` lights it, `tile` averages the samples, `layout` puts the tiles
 //! side by side. Both tiles of a panel are seen by the same camera. The same panel gives the same
 //! bytes; what cannot be drawn (no triangles, no extent, values that are not finite) is left out.
 
@@ -36,9 +36,9 @@ pub struct Panel<'a> {
     pub before: Vec<Placed<'a>>,
     /// The right tile.
     pub after: Vec<Placed<'a>>,
-    /// Drawn over the left tile.
+    /// Drawn over the left tile; they do not count for the framing.
     pub before_lines: Vec<Line>,
-    /// Drawn over the right tile.
+    /// Drawn over the right tile, likewise.
     pub after_lines: Vec<Line>,
     /// What the model seems to be made of.
     pub surface: Surface<'a>,

@@ -101,3 +101,60 @@ impl NormalTransform {
         (self.cofactors * Vec3::from(normal).as_dvec3()).normalize_or_zero().as_vec3()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const IDENTITY: [[f32; 4]; 4] =
+        [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
+
+    const MESH: chamfer::Mesh = chamfer::Mesh {
+        positions: &[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [f32::NAN, 0.0, 0.0]],
+        normals: &[[0.0, 0.6, 0.8]; 4],
+        indices: &[0, 1, 2, 0, 1, 3, 0, 1, 4],
+        tangents: &[],
+        colors: &[],
+        uvs: [chamfer::Uv { components: 0, values: &[] }; chamfer::UV_CHANNELS],
+        submesh_index_counts: &[9],
+    };
+
+    fn scene(transform: [[f32; 4]; 4]) -> Scene {
+        Scene::gather(&[Placed { mesh: MESH, transform }])
+    }
+
+    #[test]
+    fn triangles_without_finite_corners_are_left_out() {
+        assert_eq!(scene(IDENTITY).triangles, [[0, 1, 2]]);
+    }
+
+    #[test]
+    fn a_transform_that_is_not_finite_leaves_its_mesh_out() {
+        let mut transform = IDENTITY;
+        transform[3][1] = f32::INFINITY;
+        assert!(scene(transform).triangles.is_empty());
+    }
+
+    #[test]
+    fn a_second_mesh_refers_to_its_own_vertices() {
+        let placed = || Placed { mesh: MESH, transform: IDENTITY };
+        assert_eq!(Scene::gather(&[placed(), placed()]).triangles, [[0, 1, 2], [4, 5, 6]]);
+    }
+
+    #[test]
+    fn a_mirroring_transform_keeps_normals_outward_and_reverses_the_winding() {
+        let mut transform = IDENTITY;
+        transform[0][0] = -1.0;
+        let scene = scene(transform);
+        assert_eq!(scene.triangles, [[0, 2, 1]]);
+        assert_eq!(scene.vertices[0].normal, Vec3::new(0.0, 0.6, 0.8));
+    }
+
+    #[test]
+    fn normals_stay_perpendicular_where_a_transform_stretches() {
+        let mut transform = IDENTITY;
+        transform[1][1] = 2.0;
+        let normal = scene(transform).vertices[0].normal;
+        assert!((normal - Vec3::new(0.0, 0.3, 0.8).normalize()).length() < 1e-6);
+    }
+}

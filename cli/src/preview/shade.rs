@@ -1,7 +1,7 @@
-//! Light on a surface.
+//! Light on a surface: matte clay, with small glints.
 //!
-//! The lights stand where the three edges between the visible sides of an upright box mirror
-//! them to the eye: a chamfer there catches a highlight, a flat side does not.
+//! The lamps behind the glints stand where the edges between the three visible sides of an
+//! upright box mirror them to the eye: a chamfer there catches one, a flat side does not.
 
 use glam::{Vec2, Vec3};
 use image::RgbImage;
@@ -10,7 +10,7 @@ use super::camera::TOWARD_EYE;
 use super::color;
 
 /// The neutral material.
-pub(super) const CLAY: Vec3 = Vec3::new(0.50, 0.485, 0.465);
+pub(super) const CLAY: Vec3 = Vec3::new(0.40, 0.388, 0.372);
 
 /// Backs are darker and violet, so that holes and flipped triangles stand out.
 const BACK: Vec3 = Vec3::new(0.34, 0.22, 0.38);
@@ -25,16 +25,24 @@ const RIM: f32 = 0.10;
 /// Checks per unit of UV.
 const CHECKS: f32 = 16.0;
 
-struct Light {
+/// A lamp at infinity that clay scatters.
+struct Lamp {
     toward: Vec3,
-    /// Light on clay that faces it.
-    diffuse: Vec3,
-    /// Light that a highlight adds.
-    specular: f32,
+    /// Light on a surface that faces the lamp.
+    light: Vec3,
 }
 
-/// The lights of a picture, all at infinity.
-pub(super) struct Lights([Light; 3]);
+/// A lamp at infinity that is only seen as a glint.
+struct Glint {
+    toward: Vec3,
+    strength: f32,
+}
+
+/// The lights of a picture.
+pub(super) struct Lights {
+    lamps: [Lamp; 2],
+    glints: [Glint; 3],
+}
 
 /// What is seen at a sample.
 pub(super) struct SurfacePoint {
@@ -49,43 +57,53 @@ pub(super) struct SurfacePoint {
 }
 
 impl Lights {
-    /// Key light from the upper left, fill light from the lower right, rim light from behind.
-    pub fn three_point() -> Self {
-        Lights([
-            Light {
-                toward: mirrored_by(Vec3::new(0.0, 1.0, 1.0)),
-                diffuse: Vec3::new(0.78, 0.75, 0.70),
-                specular: 0.50,
-            },
-            Light {
-                toward: mirrored_by(Vec3::new(1.0, 0.0, 1.0)),
-                diffuse: Vec3::new(0.20, 0.22, 0.25),
-                specular: 0.36,
-            },
-            Light {
-                toward: mirrored_by(Vec3::new(1.0, 1.0, 0.0)),
-                diffuse: Vec3::new(0.20, 0.21, 0.22),
-                specular: 0.42,
-            },
-        ])
+    /// Key light from the upper left, fill light from the right, a glint for each edge direction
+    /// of a box.
+    pub fn studio() -> Self {
+        // Each glint is off the middle of its edge, or it would bleach the many flat faces at 45
+        // degrees that models have.
+        Lights {
+            lamps: [
+                Lamp {
+                    toward: Vec3::new(-0.35, 0.78, 0.52).normalize(),
+                    light: Vec3::new(1.0, 0.965, 0.92),
+                },
+                Lamp {
+                    toward: Vec3::new(0.9, 0.1, 0.3).normalize(),
+                    light: Vec3::new(0.15, 0.165, 0.185),
+                },
+            ],
+            glints: [
+                Glint { toward: mirrored_by(Vec3::new(0.0, 0.5, 0.87)), strength: 0.54 },
+                Glint { toward: mirrored_by(Vec3::new(0.87, 0.0, 0.5)), strength: 0.46 },
+                Glint { toward: mirrored_by(Vec3::new(0.87, 0.5, 0.0)), strength: 0.46 },
+            ],
+        }
     }
 
     /// The light that a point sends to the eye.
     pub fn shade(&self, point: &SurfacePoint) -> Vec3 {
-        let normal = if point.is_back { -point.normal } else { point.normal };
-        let mut diffuse = GROUND.lerp(SKY, normal.y * 0.5 + 0.5);
-        let mut specular = 0.0;
-        for light in &self.0 {
-            diffuse += light.diffuse * normal.dot(light.toward).max(0.0);
-            let half = (light.toward + point.toward_eye).normalize_or_zero();
-            specular += light.specular * highlight(normal.dot(half));
-        }
         if point.is_back {
-            return diffuse * BACK * point.albedo;
+            return self.scattered(-point.normal) * BACK * point.albedo;
         }
-        let turned_away = 1.0 - normal.dot(point.toward_eye).clamp(0.0, 1.0);
+        let turned_away = 1.0 - point.normal.dot(point.toward_eye).clamp(0.0, 1.0);
         let rim = RIM * turned_away * turned_away * turned_away;
-        diffuse * point.albedo + Vec3::splat(specular + rim)
+        self.scattered(point.normal) * point.albedo + Vec3::splat(self.mirrored(point) + rim)
+    }
+
+    fn scattered(&self, normal: Vec3) -> Vec3 {
+        let ambient = GROUND.lerp(SKY, normal.y * 0.5 + 0.5);
+        self.lamps
+            .iter()
+            .fold(ambient, |sum, lamp| sum + lamp.light * normal.dot(lamp.toward).max(0.0))
+    }
+
+    fn mirrored(&self, point: &SurfacePoint) -> f32 {
+        let glint = |glint: &Glint| {
+            let half = (glint.toward + point.toward_eye).normalize_or_zero();
+            glint.strength * highlight(point.normal.dot(half))
+        };
+        self.glints.iter().map(glint).sum()
     }
 }
 
@@ -126,4 +144,58 @@ pub(super) fn texture(image: &RgbImage, uv: Vec2) -> Vec3 {
     let top = texel(0, 0).lerp(texel(1, 0), share.x);
     let bottom = texel(0, 1).lerp(texel(1, 1), share.x);
     top.lerp(bottom, share.y)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use image::Rgb;
+
+    fn brightness(normal: Vec3, is_back: bool) -> f32 {
+        let point = SurfacePoint {
+            normal: normal.normalize(),
+            toward_eye: TOWARD_EYE.normalize().as_vec3(),
+            albedo: CLAY,
+            is_back,
+        };
+        Lights::studio().shade(&point).element_sum()
+    }
+
+    #[test]
+    fn a_chamfer_has_a_normal_that_is_brighter_than_both_of_its_sides() {
+        for (a, b) in [(Vec3::X, Vec3::Y), (Vec3::Y, Vec3::Z), (Vec3::Z, Vec3::X)] {
+            let across = (1..10).map(|step| brightness(a.lerp(b, step as f32 / 10.0), false));
+            let sides = brightness(a, false).max(brightness(b, false));
+            assert!(across.fold(0.0, f32::max) > sides * 1.4, "{a} {b}");
+        }
+    }
+
+    #[test]
+    fn the_visible_sides_of_a_box_differ() {
+        let [top, front, side] = [Vec3::Y, Vec3::Z, Vec3::X].map(|n| brightness(n, false));
+        assert!(top > front * 1.2 && front > side * 1.2);
+    }
+
+    #[test]
+    fn a_back_is_darker_than_any_front() {
+        for normal in [Vec3::X, Vec3::Y, Vec3::Z] {
+            assert!(brightness(-normal, true) < brightness(Vec3::X, false) * 0.9);
+        }
+    }
+
+    #[test]
+    fn a_texture_is_mixed_between_texels_and_repeated() {
+        let image = RgbImage::from_fn(2, 1, |x, _| Rgb([255 * x as u8; 3]));
+        assert_eq!(texture(&image, Vec2::new(0.25, 0.5)), Vec3::ZERO);
+        assert_eq!(texture(&image, Vec2::new(-1.25, 7.5)), Vec3::ONE);
+        assert_eq!(texture(&image, Vec2::new(0.5, 0.5)), Vec3::splat(0.5));
+        assert_eq!(texture(&RgbImage::new(0, 0), Vec2::ZERO), CLAY);
+    }
+
+    #[test]
+    fn neighboring_checks_differ() {
+        let check = |x: f32, y: f32| checker(Vec2::new(x, y) / CHECKS).element_sum();
+        assert!(check(0.5, 0.5) > 2.0 * check(1.5, 0.5));
+        assert!(check(1.5, 1.5) > 2.0 * check(-0.5, 0.5));
+    }
 }

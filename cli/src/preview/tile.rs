@@ -64,7 +64,7 @@ impl<'a> Drawing<'a> {
             camera,
             projected: tile.scene.vertices.iter().map(|v| camera.project(v.position)).collect(),
             seen: Visibility::new(tile.pixels * SAMPLES),
-            lights: Lights::three_point(),
+            lights: Lights::studio(),
         };
         for item in 0..tile.scene.triangles.len() {
             if let Some(triangle) = drawing.screen_triangle(item) {
@@ -185,4 +185,109 @@ impl Facet<'_> {
 
 fn blend([u, v, w]: [f32; 3], [a, b, c]: [Vec3; 3]) -> Vec3 {
     a * u + b * v + c * w
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Placed;
+    use super::super::camera::TOWARD_EYE;
+    use super::*;
+    use chamfer::MeshBuffers;
+    use image::Rgb;
+
+    /// A square that faces the eye, `forward` nearer to it than the origin.
+    fn square(size: f32, forward: f32) -> MeshBuffers {
+        let back = TOWARD_EYE.normalize().as_vec3();
+        let right = Vec3::Y.cross(back).normalize() * size;
+        let up = back.cross(right);
+        let corners = [-right - up, right - up, right + up, up - right];
+        MeshBuffers {
+            positions: corners.map(|corner| (corner + back * forward).to_array()).to_vec(),
+            normals: vec![back.to_array(); 4],
+            indices: vec![0, 1, 2, 0, 2, 3],
+            ..MeshBuffers::default()
+        }
+    }
+
+    fn render(meshes: &[&MeshBuffers], lines: &[Line], surface: Surface) -> RgbImage {
+        let transform = glam::Mat4::IDENTITY.to_cols_array_2d();
+        let placed = meshes.iter().map(|mesh| Placed { mesh: mesh.as_mesh(), transform });
+        let scene = Scene::gather(&placed.collect::<Vec<_>>());
+        let camera = Camera::frame(scene.corners(), 20 * SAMPLES);
+        Tile { scene: &scene, lines, surface, camera: camera.as_ref(), pixels: 20 }.render()
+    }
+
+    fn middle(image: &RgbImage) -> Rgb<u8> {
+        *image.get_pixel(10, 10)
+    }
+
+    #[test]
+    fn a_square_that_faces_the_eye_covers_the_middle_and_not_the_margin() {
+        let (empty, drawn) =
+            (render(&[], &[], Surface::Clay), render(&[&square(1.0, 0.0)], &[], Surface::Clay));
+        for (x, y, pixel) in drawn.enumerate_pixels() {
+            let inside = (2..18).contains(&x) && (2..18).contains(&y);
+            let margin = x == 0 || x == 19 || y == 0 || y == 19;
+            assert!(!inside || pixel != empty.get_pixel(x, y));
+            assert!(!margin || pixel == empty.get_pixel(x, y));
+        }
+    }
+
+    #[test]
+    fn the_nearer_square_hides_the_other() {
+        let (near, far) = (square(0.5, 0.5), square(1.0, 0.0));
+        let mut colored = near.clone();
+        colored.colors = vec![[1.0, 0.0, 0.0, 1.0]; 4];
+        for order in [[&colored, &far], [&far, &colored]] {
+            let Rgb([red, green, _]) = middle(&render(&order, &[], Surface::VertexColors));
+            assert!(red > 2 * green);
+        }
+    }
+
+    #[test]
+    fn a_flipped_triangle_is_darker() {
+        let mut flipped = square(1.0, 0.0);
+        flipped.indices = vec![0, 2, 1, 0, 3, 2];
+        let front = middle(&render(&[&square(1.0, 0.0)], &[], Surface::Clay));
+        let back = middle(&render(&[&flipped], &[], Surface::Clay));
+        assert!(u32::from(back.0[1]) * 2 < u32::from(front.0[1]));
+    }
+
+    #[test]
+    fn without_normals_a_face_is_flat() {
+        let mut bare = square(1.0, 0.0);
+        bare.normals.clear();
+        let [smooth, flat] =
+            [&square(1.0, 0.0), &bare].map(|mesh| middle(&render(&[mesh], &[], Surface::Clay)));
+        assert!(smooth.0.iter().zip(flat.0).all(|(a, b)| a.abs_diff(b) <= 1));
+    }
+
+    #[test]
+    fn a_line_crosses_the_square_in_its_color() {
+        let color = [255, 0, 255];
+        let mesh = square(1.0, 0.0);
+        let line = Line { ends: [mesh.positions[0], mesh.positions[2]], color };
+        let drawn = render(&[&mesh], &[line], Surface::Clay);
+        assert!(drawn.pixels().any(|&pixel| pixel == Rgb(color)));
+    }
+
+    #[test]
+    fn surfaces_that_need_uvs_are_clay_without_them() {
+        let mesh = square(1.0, 0.0);
+        let clay = render(&[&mesh], &[], Surface::Clay);
+        let image = RgbImage::new(1, 1);
+        assert_eq!(render(&[&mesh], &[], Surface::Checker), clay);
+        assert_eq!(render(&[&mesh], &[], Surface::Texture(&image)), clay);
+    }
+
+    #[test]
+    fn a_texture_shows_where_the_uvs_say() {
+        let mut mesh = square(1.0, 0.0);
+        let values = vec![0.0, 1.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0];
+        mesh.uvs[0] = chamfer::UvBuffer { components: 2, values };
+        let halves = RgbImage::from_fn(8, 8, |_, y| Rgb([0, if y < 4 { 255 } else { 0 }, 0]));
+        let drawn = render(&[&mesh], &[], Surface::Texture(&halves));
+        let is_green = |y| drawn.get_pixel(10, y).0[1] > 2 * drawn.get_pixel(10, y).0[0];
+        assert!(is_green(5) && !is_green(14));
+    }
 }
