@@ -1,0 +1,79 @@
+//! Pictures of a model before and after, drawn in software: no window, no graphics card.
+//!
+//! `scene` gathers the placed meshes, `camera` frames them, `raster` and `lines` find what
+//! each sample sees, `shade` lights it, `tile` averages the samples, `layout` puts the tiles
+//! side by side. Both tiles of a panel are seen by the same camera. The same panel gives the same
+//! bytes; what cannot be drawn (no triangles, no extent, values that are not finite) is left out.
+
+mod camera;
+mod caption;
+mod color;
+mod layout;
+mod lines;
+mod raster;
+mod scene;
+mod shade;
+mod tile;
+
+use image::RgbImage;
+
+pub use layout::{before_after, contact_sheet};
+
+/// A mesh and where it stands in the scene, whose up is +y.
+pub struct Placed<'a> {
+    /// The mesh. Without normals it is drawn flat.
+    pub mesh: chamfer::Mesh<'a>,
+    /// Column-major, from mesh to scene. It may mirror.
+    pub transform: [[f32; 4]; 4],
+}
+
+/// One model, before and after.
+#[derive(Default)]
+pub struct Panel<'a> {
+    /// What the model is called.
+    pub caption: String,
+    /// The left tile.
+    pub before: Vec<Placed<'a>>,
+    /// The right tile.
+    pub after: Vec<Placed<'a>>,
+    /// Drawn over the left tile; they do not count for the framing.
+    pub before_lines: Vec<Line>,
+    /// Drawn over the right tile, likewise.
+    pub after_lines: Vec<Line>,
+    /// What the model seems to be made of.
+    pub surface: Surface<'a>,
+    /// A close-up instead of the whole model.
+    pub zoom: Option<Zoom>,
+}
+
+/// What a model seems to be made of.
+#[derive(Clone, Copy, Default)]
+pub enum Surface<'a> {
+    /// Neutral matte clay.
+    #[default]
+    Clay,
+    /// Clay multiplied by the vertex colors, which are linear.
+    VertexColors,
+    /// A checker of UV channel 0, for seeing where textures stretch. Clay where it is absent.
+    Checker,
+    /// This image by UV channel 0, repeated; v = 0 is its first row. Clay where it is absent.
+    Texture(&'a RgbImage),
+}
+
+/// A colored segment in the scene. What is in front of it hides it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Line {
+    /// Where it starts and ends, in scene units.
+    pub ends: [[f32; 3]; 2],
+    /// Red, green and blue as in an image file.
+    pub color: [u8; 3],
+}
+
+/// A close-up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Zoom {
+    /// How many times larger than the whole model; ignored unless finite and above 0.
+    pub factor: f32,
+    /// What to center, in scene units; otherwise the vertex of the left tile nearest to the eye.
+    pub focus: Option<[f32; 3]>,
+}
