@@ -5,9 +5,12 @@
 //! one face normal to the other. The method is that of Diana Algma, *Edge Chamfering Algorithm*
 //! (Tartu 2018); `docs/pipeline.md` says where this library goes on from there.
 
+pub mod check;
 pub mod shapes;
 
+mod bvh;
 mod error;
+mod intersect;
 mod mesh;
 mod options;
 mod pipeline;
