@@ -5,13 +5,16 @@
 //! one face normal to the other. The method is that of Diana Algma, *Edge Chamfering Algorithm*
 //! (Tartu 2018); `docs/pipeline.md` says where this library goes on from there.
 
+pub mod check;
 pub mod shapes;
 
 mod attributes;
+mod bvh;
 mod corners;
 mod edges;
 mod error;
 mod ids;
+mod intersect;
 mod limits;
 mod math;
 mod mesh;

@@ -1,0 +1,129 @@
+//! What is flat between hard edges stays in its plane and keeps its normal.
+
+use glam::DVec3;
+
+use super::groups::Groups;
+use super::origins::Origins;
+use super::rules::{Element, Findings, Rule};
+use super::surface::Surface;
+use super::triangles::normal_with_area;
+use super::values::is_unit;
+
+/// How far, relative to the extent, corners may be off a plane that counts as flat.
+const FLAT_TOLERANCE: f64 = 1e-6;
+
+/// How far, relative to the extent, a pulled corner may be off the plane it was in.
+const PLANE_TOLERANCE: f64 = 1e-5;
+
+/// How far off it may be by rounding alone, relative to the largest coordinate: a few of the
+/// smallest steps of single precision.
+const ROUNDING: f64 = 4.0 * f32::EPSILON as f64;
+
+/// How much a normal may change where all around it are the same: rounding when it is made unit
+/// length again.
+const NORMAL_TOLERANCE: f64 = 1e-6;
+
+/// The triangles that meet at one cluster between two hard edges.
+#[derive(Clone, Copy, Default)]
+struct Fan {
+    /// A point and the unit normal of the largest triangle, and twice the area of that.
+    plane: Option<(DVec3, DVec3, f64)>,
+    /// How far the fan's corners are off the plane.
+    off_plane: f64,
+    /// The normal that all corners have, while they do.
+    normal: Option<DVec3>,
+    has_uneven_normals: bool,
+}
+
+/// Corners of source triangles against the fan that they belong to in the source.
+pub(super) fn check_flatness(
+    before: &Surface,
+    after: &Surface,
+    origins: &Origins,
+    findings: &mut Findings,
+) {
+    let fan_of = fans(before);
+    let fans = measure(before, &fan_of);
+    let extent = f64::from(before.mesh.extent());
+    let tolerance = (PLANE_TOLERANCE * extent).max(ROUNDING * largest_coordinate(before));
+    for (triangle, source) in (0u32..).zip(&origins.triangles) {
+        let Some(source) = source else { continue };
+        let corners = [0, 1, 2].map(|side| {
+            (&fans[fan_of[(3 * source + side) as usize] as usize], 3 * triangle + side)
+        });
+        if corners.iter().any(|(fan, corner)| {
+            fan.off_plane <= FLAT_TOLERANCE * extent
+                && fan.distance(after.position(*corner)) > tolerance
+        }) {
+            findings.note(Rule::FlatFace, Element::Triangle(triangle));
+        }
+        if corners.iter().any(|(fan, corner)| fan.bends(after.normal(*corner))) {
+            findings.note(Rule::FlatNormal, Element::Triangle(triangle));
+        }
+    }
+}
+
+/// `#corners`: the first corner of the fan that each is in.
+fn fans(surface: &Surface) -> Vec<u32> {
+    let mut fans = Groups::singles(surface.mesh.indices.len());
+    for (forward, backward) in surface.edges() {
+        for (a, b) in forward.iter().flat_map(|a| backward.iter().map(move |b| (a, b))) {
+            if surface.is_soft(a, b) {
+                fans.join(a.corners[0], b.corners[1]);
+                fans.join(a.corners[1], b.corners[0]);
+            }
+        }
+    }
+    fans.labels()
+}
+
+/// `#corners`, by the first corner of each fan.
+fn measure(surface: &Surface, fan_of: &[u32]) -> Vec<Fan> {
+    let mut fans = vec![Fan::default(); fan_of.len()];
+    for (corner, &fan) in (0u32..).zip(fan_of) {
+        let triangle = corner / 3;
+        fans[fan as usize].add_plane(surface.triangle(triangle));
+        for side in 0..3 {
+            fans[fan as usize].add_normal(surface.normal(3 * triangle + side));
+        }
+    }
+    for (corner, &fan) in (0u32..).zip(fan_of) {
+        for point in surface.triangle(corner / 3) {
+            let distance = fans[fan as usize].distance(point);
+            let off_plane = &mut fans[fan as usize].off_plane;
+            *off_plane = off_plane.max(distance);
+        }
+    }
+    fans
+}
+
+impl Fan {
+    fn add_plane(&mut self, triangle: [DVec3; 3]) {
+        let Some(normal) = normal_with_area(triangle) else { return };
+        let area = normal.length();
+        if self.plane.is_none_or(|(_, _, largest)| area > largest) {
+            self.plane = Some((triangle[0], normal / area, area));
+        }
+    }
+
+    fn add_normal(&mut self, normal: DVec3) {
+        let first = *self.normal.get_or_insert(normal);
+        self.has_uneven_normals |= first != normal;
+    }
+
+    /// How far a point is off the plane; 0 without one.
+    fn distance(&self, point: DVec3) -> f64 {
+        self.plane.map_or(0.0, |(origin, normal, _)| normal.dot(point - origin).abs())
+    }
+
+    /// Whether a normal differs from the one that the whole fan had.
+    fn bends(&self, normal: DVec3) -> bool {
+        let kept = self.normal.filter(|&kept| !self.has_uneven_normals && is_unit(kept));
+        kept.is_some_and(|kept| kept.normalize().distance(normal.normalize()) > NORMAL_TOLERANCE)
+    }
+}
+
+fn largest_coordinate(surface: &Surface) -> f64 {
+    let largest = surface.mesh.positions.as_flattened().iter().map(|along| along.abs());
+    f64::from(largest.fold(0.0, f32::max))
+}

@@ -1,0 +1,41 @@
+//! Parts that cut through themselves.
+
+use super::origins::Origins;
+use super::rules::{Element, Findings, Rule};
+use super::surface::Surface;
+use crate::intersect::self_intersections;
+
+/// No part cuts through itself that did not in the source.
+pub(super) fn check_intersections(
+    before: &Surface,
+    after: &Surface,
+    origins: &Origins,
+    findings: &mut Findings,
+) {
+    let [parts_before, parts_after] = [before.components(), after.components()];
+    let [pairs_before, pairs_after] =
+        [intersections_within(before, &parts_before), intersections_within(after, &parts_after)];
+    findings.before.self_intersections = Some(pairs_before.len());
+    findings.after.self_intersections = Some(pairs_after.len());
+    let mut cut_before = vec![false; parts_before.len()];
+    for &(triangle, _) in &pairs_before {
+        cut_before[parts_before[triangle as usize] as usize] = true;
+    }
+    let mut may_cut = vec![false; parts_after.len()];
+    for (triangle, source) in origins.triangles.iter().enumerate() {
+        if source.is_some_and(|source| cut_before[parts_before[source as usize] as usize]) {
+            may_cut[parts_after[triangle] as usize] = true;
+        }
+    }
+    for (a, b) in pairs_after {
+        if !may_cut[parts_after[a as usize] as usize] {
+            findings.note(Rule::SelfIntersection, Element::Triangles(a, b));
+        }
+    }
+}
+
+fn intersections_within(surface: &Surface, parts: &[u32]) -> Vec<(u32, u32)> {
+    let triangles: Vec<[u32; 3]> =
+        surface.mesh.indices.chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect();
+    self_intersections(surface.mesh.positions, &triangles, parts, |_| true)
+}

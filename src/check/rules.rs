@@ -1,0 +1,201 @@
+//! What is checked, and what was found.
+
+use std::fmt;
+
+/// How many offending elements a [`Breach`] names.
+const NAMED_ELEMENTS: usize = 5;
+
+/// Something that a chamfered mesh must keep.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rule {
+    /// The source itself can be walked: lengths fit, indices are in range, values finite.
+    Source,
+    /// The same streams as the source, each with a value per vertex; counts add up.
+    Streams,
+    /// Indices point at vertices.
+    IndexRange,
+    /// Every value is finite.
+    Finite,
+    /// No source vertex is missing, every source triangle is there once, in its submesh and in
+    /// its order, and the provenance points into the source.
+    Origins,
+    /// Normals are unit length where the source's are.
+    Normals,
+    /// Tangents are unit length, orthogonal to the normal and of handedness +1 or -1 where the
+    /// source's are.
+    Tangents,
+    /// Colours stay in the range of the source's.
+    Colors,
+    /// Where each welded edge of the source is used equally often in both directions, each of the
+    /// result is.
+    Balance,
+    /// As many border loops as in the source. Not checked where the source has a border that
+    /// touches a non-manifold edge: its loops are then a matter of opinion.
+    BorderLoops,
+    /// No more edges with more than two sides than in the source.
+    NonManifold,
+    /// No source triangle turns over, and no new one faces away from its vertex normals.
+    Flipped,
+    /// No triangle without area that had some in the source, and no new one.
+    Degenerate,
+    /// What was flat between hard edges stays in its plane.
+    FlatFace,
+    /// Where normals were all the same between hard edges, they stay so.
+    FlatNormal,
+    /// No edge-connected component cuts through itself that did not in the source.
+    SelfIntersection,
+}
+
+impl Rule {
+    /// A short name in lower case, for reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Rule::Source => "malformed source",
+            Rule::Streams => "streams",
+            Rule::IndexRange => "index out of range",
+            Rule::Finite => "not finite",
+            Rule::Origins => "origins",
+            Rule::Normals => "normal not unit",
+            Rule::Tangents => "tangent not right",
+            Rule::Colors => "colour out of range",
+            Rule::Balance => "unbalanced edge",
+            Rule::BorderLoops => "border loops",
+            Rule::NonManifold => "non-manifold edge",
+            Rule::Flipped => "flipped triangle",
+            Rule::Degenerate => "triangle without area",
+            Rule::FlatFace => "flat face bent",
+            Rule::FlatNormal => "flat normal bent",
+            Rule::SelfIntersection => "self-intersection",
+        }
+    }
+}
+
+/// An element of the chamfered mesh that breaks a rule.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Element {
+    /// The mesh as a whole.
+    Mesh,
+    /// A place in the index array.
+    Index(u32),
+    /// A vertex.
+    Vertex(u32),
+    /// A triangle.
+    Triangle(u32),
+    /// A welded edge, by one vertex at either end.
+    Edge(u32, u32),
+    /// Two triangles.
+    Triangles(u32, u32),
+}
+
+impl fmt::Display for Element {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Element::Mesh => f.write_str("mesh"),
+            Element::Index(place) => write!(f, "index {place}"),
+            Element::Vertex(vertex) => write!(f, "vertex {vertex}"),
+            Element::Triangle(triangle) => write!(f, "triangle {triangle}"),
+            Element::Edge(a, b) => write!(f, "edge {a}-{b}"),
+            Element::Triangles(a, b) => write!(f, "triangles {a} and {b}"),
+        }
+    }
+}
+
+/// A broken rule.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Breach {
+    /// The rule.
+    pub rule: Rule,
+    /// How many elements break it.
+    pub count: usize,
+    /// The first few of them.
+    pub first: Vec<Element>,
+}
+
+/// What can be said of one mesh, welded by bit-equal position.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Facts {
+    /// Vertices.
+    pub vertices: usize,
+    /// Triangles.
+    pub triangles: usize,
+    /// Parts that are connected across edges.
+    pub components: usize,
+    /// Half-edges without an opposite; 0 where the mesh is balanced.
+    pub border_half_edges: usize,
+    /// Loops that these form.
+    pub border_loops: usize,
+    /// Edges with more than two half-edges.
+    pub non_manifold_edges: usize,
+    /// Edges whose normals differ by more than about one degree at either end.
+    pub hard_edges: usize,
+    /// Pairs of triangles that cut each other; none where that was not asked for.
+    pub self_intersections: Option<usize>,
+}
+
+/// What [`check`](super::check) found.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Findings {
+    /// The source.
+    pub before: Facts,
+    /// The chamfered mesh.
+    pub after: Facts,
+    /// The rules that the chamfered mesh breaks, each once.
+    pub breaches: Vec<Breach>,
+}
+
+impl Findings {
+    /// Whether no rule is broken.
+    pub fn is_sound(&self) -> bool {
+        self.breaches.is_empty()
+    }
+
+    /// How many elements break a rule.
+    pub fn count(&self, rule: Rule) -> usize {
+        self.breaches.iter().find(|breach| breach.rule == rule).map_or(0, |breach| breach.count)
+    }
+
+    pub(super) fn note(&mut self, rule: Rule, element: Element) {
+        let known = self.breaches.iter().position(|breach| breach.rule == rule);
+        let place = known.unwrap_or_else(|| {
+            self.breaches.push(Breach { rule, count: 0, first: Vec::new() });
+            self.breaches.len() - 1
+        });
+        let breach = &mut self.breaches[place];
+        breach.count += 1;
+        if breach.first.len() < NAMED_ELEMENTS {
+            breach.first.push(element);
+        }
+    }
+}
+
+impl fmt::Display for Findings {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        writeln!(f, "{:<22}{:>10}{:>10}", "", "before", "after")?;
+        for (name, fact) in FACT_ROWS {
+            let [before, after] = [&self.before, &self.after].map(fact);
+            if let (Some(before), Some(after)) = (before, after) {
+                writeln!(f, "{name:<22}{before:>10}{after:>10}")?;
+            }
+        }
+        for breach in &self.breaches {
+            let named: Vec<String> = breach.first.iter().map(Element::to_string).collect();
+            let more = if breach.count > named.len() { ", ..." } else { "" };
+            let name = breach.rule.name();
+            writeln!(f, "{name:<22}{:>20}: {}{more}", breach.count, named.join(", "))?;
+        }
+        if self.is_sound() { writeln!(f, "sound") } else { Ok(()) }
+    }
+}
+
+type Fact = fn(&Facts) -> Option<usize>;
+
+const FACT_ROWS: [(&str, Fact); 8] = [
+    ("vertices", |facts| Some(facts.vertices)),
+    ("triangles", |facts| Some(facts.triangles)),
+    ("components", |facts| Some(facts.components)),
+    ("border half-edges", |facts| Some(facts.border_half_edges)),
+    ("border loops", |facts| Some(facts.border_loops)),
+    ("non-manifold edges", |facts| Some(facts.non_manifold_edges)),
+    ("hard edges", |facts| Some(facts.hard_edges)),
+    ("self-intersections", |facts| facts.self_intersections),
+];

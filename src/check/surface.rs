@@ -1,0 +1,189 @@
+//! A mesh welded by position: its edges, borders and connected parts.
+
+use super::groups::Groups;
+use super::rules::{Element, Facts, Findings, Rule};
+use super::values::vector;
+use crate::mesh::Mesh;
+use glam::DVec3;
+
+/// The cosine of the angle by which normals may differ across an edge that is not hard: one degree
+/// is what quantized normals differ by, and half of one more keeps this limit clear of any other
+/// near it.
+const SOFT_COSINE: f64 = 0.999_657;
+
+/// One side of a triangle.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct HalfEdge {
+    /// The clusters at its ends, the smaller first.
+    pub clusters: [u32; 2],
+    /// Whether it runs from the greater to the smaller.
+    pub reversed: bool,
+    /// The corners (three times the triangle, plus 0 to 2) that it starts and ends at.
+    pub corners: [u32; 2],
+}
+
+/// A mesh, welded.
+pub(super) struct Surface<'a> {
+    /// The mesh; each corner in range.
+    pub mesh: &'a Mesh<'a>,
+    /// `#vertices`: the first vertex at the same position.
+    cluster_of: Vec<u32>,
+    /// Sorted, so that those of one edge stand together.
+    half_edges: Vec<HalfEdge>,
+}
+
+impl<'a> Surface<'a> {
+    pub fn new(mesh: &'a Mesh<'a>) -> Surface<'a> {
+        let cluster_of = weld(mesh.positions);
+        let mut half_edges = Vec::with_capacity(mesh.indices.len());
+        for corner in 0..mesh.indices.len() as u32 {
+            let next = if corner % 3 == 2 { corner - 2 } else { corner + 1 };
+            let [a, b] =
+                [corner, next].map(|corner| cluster_of[mesh.indices[corner as usize] as usize]);
+            // A triangle with two corners in one place is a line: that side is no edge.
+            if a != b {
+                let clusters = [a.min(b), a.max(b)];
+                half_edges.push(HalfEdge { clusters, reversed: a > b, corners: [corner, next] });
+            }
+        }
+        half_edges.sort_unstable();
+        Surface { mesh, cluster_of, half_edges }
+    }
+
+    /// The half-edges of each welded edge: first those in one direction, then the others.
+    pub fn edges(&self) -> impl Iterator<Item = (&[HalfEdge], &[HalfEdge])> {
+        self.half_edges
+            .chunk_by(|a, b| a.clusters == b.clusters)
+            .map(|edge| edge.split_at(edge.partition_point(|half_edge| !half_edge.reversed)))
+    }
+
+    /// The position of a corner.
+    pub fn position(&self, corner: u32) -> DVec3 {
+        vector(&self.mesh.positions[self.mesh.indices[corner as usize] as usize])
+    }
+
+    /// The normal of a corner.
+    pub fn normal(&self, corner: u32) -> DVec3 {
+        vector(&self.mesh.normals[self.mesh.indices[corner as usize] as usize])
+    }
+
+    /// The corners of a triangle, as positions.
+    pub fn triangle(&self, triangle: u32) -> [DVec3; 3] {
+        [0, 1, 2].map(|side| self.position(3 * triangle + side))
+    }
+
+    /// Whether two opposite half-edges have the same normals at both ends.
+    pub fn is_soft(&self, a: &HalfEdge, b: &HalfEdge) -> bool {
+        [(a.corners[0], b.corners[1]), (a.corners[1], b.corners[0])].iter().all(|&(a, b)| {
+            let [a, b] = [a, b].map(|corner| self.normal(corner));
+            a.dot(b) >= SOFT_COSINE * a.length() * b.length()
+        })
+    }
+
+    /// `#triangles`: the first triangle of the part that each is connected to across edges.
+    pub fn components(&self) -> Vec<u32> {
+        let mut parts = Groups::singles(self.mesh.indices.len() / 3);
+        for edge in self.half_edges.chunk_by(|a, b| a.clusters == b.clusters) {
+            for pair in edge.windows(2) {
+                parts.join(pair[0].corners[0] / 3, pair[1].corners[0] / 3);
+            }
+        }
+        parts.labels()
+    }
+
+    pub fn facts(&self) -> Facts {
+        let is_first = |(place, &label): (usize, &u32)| place as u32 == label;
+        Facts {
+            vertices: self.mesh.positions.len(),
+            triangles: self.mesh.indices.len() / 3,
+            components: self.components().iter().enumerate().filter(|&part| is_first(part)).count(),
+            border_half_edges: self.edges().map(|(a, b)| a.len().abs_diff(b.len())).sum(),
+            border_loops: self.border_loops(),
+            non_manifold_edges: self.edges().filter(is_non_manifold).count(),
+            hard_edges: self.edges().filter(|edge| self.is_hard(edge)).count(),
+            self_intersections: None,
+        }
+    }
+
+    fn is_hard(&self, (forward, backward): &(&[HalfEdge], &[HalfEdge])) -> bool {
+        let has_soft_partner = |a: &HalfEdge| backward.iter().any(|b| self.is_soft(a, b));
+        !backward.is_empty() && !forward.iter().all(has_soft_partner)
+    }
+
+    /// Border half-edges follow each other where a fan of triangles leads from one to the next, so
+    /// that loops which only touch count apart.
+    fn border_loops(&self) -> usize {
+        let mut loops = Groups::singles(self.mesh.indices.len());
+        for edge in self.edges() {
+            if let ([a], [b]) = edge {
+                loops.join(a.corners[0], b.corners[1]);
+                loops.join(a.corners[1], b.corners[0]);
+            }
+        }
+        let border = || self.edges().filter(is_border).flat_map(|(a, b)| [a, b].concat());
+        for half_edge in border() {
+            loops.join(half_edge.corners[0], half_edge.corners[1]);
+        }
+        let mut firsts: Vec<u32> = border().map(|h| loops.first_of(h.corners[0])).collect();
+        firsts.sort_unstable();
+        firsts.dedup();
+        firsts.len()
+    }
+
+    /// Whether no border touches a non-manifold edge.
+    fn has_clear_borders(&self) -> bool {
+        let mut on_border = vec![false; self.cluster_of.len()];
+        for (a, b) in self.edges().filter(|(a, b)| a.len() != b.len()) {
+            for cluster in a.iter().chain(b).flat_map(|half_edge| half_edge.clusters) {
+                on_border[cluster as usize] = true;
+            }
+        }
+        let touches =
+            |half_edge: &HalfEdge| half_edge.clusters.iter().any(|&c| on_border[c as usize]);
+        !self.edges().filter(is_non_manifold).any(|(a, b)| a.iter().chain(b).any(touches))
+    }
+}
+
+fn is_non_manifold((a, b): &(&[HalfEdge], &[HalfEdge])) -> bool {
+    a.len() + b.len() > 2
+}
+
+fn is_border((a, b): &(&[HalfEdge], &[HalfEdge])) -> bool {
+    a.is_empty() || b.is_empty()
+}
+
+/// `#vertices`: the first vertex at the same position, bit for bit (-0 = +0).
+fn weld(positions: &[[f32; 3]]) -> Vec<u32> {
+    // Adding zero makes one zero of the two.
+    let key = |vertex: u32| positions[vertex as usize].map(|along| (along + 0.0).to_bits());
+    let mut order: Vec<u32> = (0..positions.len() as u32).collect();
+    order.sort_unstable_by_key(|&vertex| (key(vertex), vertex));
+    let mut cluster_of = vec![0; positions.len()];
+    for cluster in order.chunk_by(|&a, &b| key(a) == key(b)) {
+        for &vertex in cluster {
+            cluster_of[vertex as usize] = cluster[0];
+        }
+    }
+    cluster_of
+}
+
+/// Balance, border loops and non-manifold edges, as in the source.
+pub(super) fn check_edges(before: &Surface, after: &Surface, findings: &mut Findings) {
+    let [source, result] = [findings.before, findings.after];
+    let element = |(a, b): (&[HalfEdge], &[HalfEdge])| {
+        let clusters = a.first().or(b.first()).map_or([0; 2], |half_edge| half_edge.clusters);
+        Element::Edge(clusters[0], clusters[1])
+    };
+    if source.border_half_edges == 0 {
+        for edge in after.edges().filter(|(a, b)| a.len() != b.len()) {
+            findings.note(Rule::Balance, element(edge));
+        }
+    }
+    if source.border_loops != result.border_loops && before.has_clear_borders() {
+        findings.note(Rule::BorderLoops, Element::Mesh);
+    }
+    let added = result.non_manifold_edges.saturating_sub(source.non_manifold_edges);
+    for edge in after.edges().filter(is_non_manifold).take(added) {
+        findings.note(Rule::NonManifold, element(edge));
+    }
+}

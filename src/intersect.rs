@@ -1,0 +1,268 @@
+//! Which triangles of a mesh cut each other.
+//!
+//! Two triangles cut each other where their insides cross: not in one plane, each reaches to both
+//! sides of the other and they have more than a point in common; in one plane, they overlap in
+//! more than a line. So triangles that merely touch, or share a corner or an edge, do not cut,
+//! however the mesh is indexed. All decisions are signs of determinants, evaluated exactly
+//! (Shewchuk's predicates), in the manner of Guigue and Devillers, *Fast and Robust
+//! Triangle-Triangle Overlap Test Using Orientation Predicates* (2003).
+
+use glam::DVec3;
+use robust::{Coord, Coord3D, orient2d, orient3d};
+
+use crate::bvh::{Aabb, Bvh};
+
+type Triangle = [[f32; 3]; 3];
+
+/// The pairs of triangles that cut each other, the smaller number first, in ascending order.
+///
+/// `positions` are `#vertices by 3`, finite; `triangles` `#triangles by 3`, in range. Only pairs
+/// in one part (`part_of: #triangles`) count, and only those of which at least one is `suspect`.
+pub(crate) fn self_intersections(
+    positions: &[[f32; 3]],
+    triangles: &[[u32; 3]],
+    part_of: &[u32],
+    suspect: impl Fn(u32) -> bool,
+) -> Vec<(u32, u32)> {
+    let corners = |triangle: u32| triangles[triangle as usize].map(|v| positions[v as usize]);
+    let numbers = 0..triangles.len() as u32;
+    let boxes: Vec<Aabb> = numbers.clone().map(|t| Aabb::around(&corners(t))).collect();
+    let tree = Bvh::new(&boxes);
+    let mut pairs = Vec::new();
+    for a in numbers.filter(|&triangle| suspect(triangle)) {
+        tree.visit_overlapping(&boxes[a as usize], |b| {
+            let is_second_visit = b < a && suspect(b);
+            if a != b
+                && !is_second_visit
+                && part_of[a as usize] == part_of[b as usize]
+                && cut_each_other(&corners(a), &corners(b))
+            {
+                pairs.push((a.min(b), a.max(b)));
+            }
+        });
+    }
+    pairs.sort_unstable();
+    pairs
+}
+
+/// Whether the insides of two triangles cross. Triangles without area have none.
+pub(crate) fn cut_each_other(a: &Triangle, b: &Triangle) -> bool {
+    let b_sides = b.map(|point| side(a, point));
+    if b_sides == [0; 3] {
+        return overlap_in_plane(a, b);
+    }
+    if !straddle(b_sides) {
+        return false;
+    }
+    let a_sides = a.map(|point| side(b, point));
+    straddle(a_sides) && overlap_on_line(*a, a_sides, *b, b_sides)
+}
+
+/// 1 where a point is on the side of a triangle's plane that its normal points to, -1 on the
+/// other, 0 in the plane.
+fn side([a, b, c]: &Triangle, point: [f32; 3]) -> i8 {
+    let coord = |[x, y, z]: [f32; 3]| Coord3D { x, y, z };
+    // The predicate is positive below the plane.
+    -sign(orient3d(coord(*a), coord(*b), coord(*c), coord(point)))
+}
+
+fn sign(value: f64) -> i8 {
+    i8::from(value > 0.0) - i8::from(value < 0.0)
+}
+
+fn straddle(sides: [i8; 3]) -> bool {
+    sides.contains(&1) && sides.contains(&-1)
+}
+
+/// For two triangles that straddle each other's planes: whether the pieces that they cut out of
+/// the line of both planes have more than a point in common.
+fn overlap_on_line(a: Triangle, a_sides: [i8; 3], b: Triangle, b_sides: [i8; 3]) -> bool {
+    let ([mut a, mut b], [a_lone, b_lone]) =
+        ([lone_first(a, a_sides), lone_first(b, b_sides)], [a_sides, b_sides].map(lone_side));
+    // Turn each so that the other's lone corner is on the side of its normal.
+    if a_lone < 0 {
+        b.swap(1, 2);
+    }
+    if b_lone < 0 {
+        a.swap(1, 2);
+    }
+    // Now each piece runs from one leg at the lone corner to the other: compare leg to leg.
+    side(&[a[0], a[1], b[0]], b[1]) < 0 && side(&[a[0], a[2], b[0]], b[2]) > 0
+}
+
+/// The side of the corner that is alone on its side.
+fn lone_side(sides: [i8; 3]) -> i8 {
+    let positive = sides.iter().filter(|&&side| side > 0).count();
+    if positive == 1 { 1 } else { -1 }
+}
+
+/// The triangle turned so that the corner that is alone on its side comes first.
+fn lone_first(mut triangle: Triangle, sides: [i8; 3]) -> Triangle {
+    let lone = lone_side(sides);
+    triangle.rotate_left(sides.iter().position(|&side| side == lone).unwrap_or(0));
+    triangle
+}
+
+/// For two triangles in one plane: whether they overlap in more than a line.
+fn overlap_in_plane(a: &Triangle, b: &Triangle) -> bool {
+    let axis = widest_axis(a);
+    let [a, b] = [a, b].map(|triangle| flatten(triangle, axis));
+    match (counter_clockwise(a), counter_clockwise(b)) {
+        (Some(a), Some(b)) => !is_beside(&a, &b) && !is_beside(&b, &a),
+        _ => false,
+    }
+}
+
+/// The axis along which a triangle looks widest.
+fn widest_axis(triangle: &Triangle) -> usize {
+    let [a, b, c] = triangle.map(|point| DVec3::from(point.map(f64::from)));
+    let normal = (b - a).cross(c - a).abs();
+    normal.max_position()
+}
+
+fn flatten(triangle: &Triangle, axis: usize) -> [Coord<f32>; 3] {
+    triangle.map(|point| Coord { x: point[(axis + 1) % 3], y: point[(axis + 2) % 3] })
+}
+
+/// The triangle wound counter-clockwise; none where it has no area.
+fn counter_clockwise([a, b, c]: [Coord<f32>; 3]) -> Option<[Coord<f32>; 3]> {
+    match sign(orient2d(a, b, c)) {
+        1 => Some([a, b, c]),
+        -1 => Some([a, c, b]),
+        _ => None,
+    }
+}
+
+/// Whether all of `other` is on or beyond one side of a counter-clockwise triangle.
+fn is_beside(triangle: &[Coord<f32>; 3], other: &[Coord<f32>; 3]) -> bool {
+    (0..3).any(|place| {
+        let [a, b] = [triangle[place], triangle[(place + 1) % 3]];
+        other.iter().all(|&point| orient2d(a, b, point) <= 0.0)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FLOOR: Triangle = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]];
+
+    fn cut(b: Triangle) -> bool {
+        let forms = [FLOOR, [FLOOR[1], FLOOR[2], FLOOR[0]], [FLOOR[0], FLOOR[2], FLOOR[1]]];
+        let answers: Vec<bool> = forms
+            .iter()
+            .flat_map(|a| {
+                let turned = [b[2], b[1], b[0]];
+                [cut_each_other(a, &b), cut_each_other(&b, a), cut_each_other(a, &turned)]
+            })
+            .collect();
+        assert!(answers.windows(2).all(|pair| pair[0] == pair[1]), "order must not matter");
+        answers[0]
+    }
+
+    #[test]
+    fn a_wall_through_the_floor_cuts() {
+        assert!(cut([[1.0, 1.0, -1.0], [2.0, 1.0, -1.0], [1.0, 1.0, 1.0]]));
+    }
+
+    #[test]
+    fn a_wall_on_the_floor_touches() {
+        assert!(!cut([[1.0, 1.0, 0.0], [2.0, 1.0, 0.0], [1.0, 1.0, 1.0]]));
+    }
+
+    #[test]
+    fn a_wall_beside_the_floor_does_not_cut() {
+        assert!(!cut([[5.0, 1.0, -1.0], [6.0, 1.0, -1.0], [5.0, 1.0, 1.0]]));
+        assert!(!cut([[3.0, 3.0, -1.0], [4.0, 4.0, -1.0], [3.0, 3.0, 1.0]]));
+    }
+
+    #[test]
+    fn a_shared_edge_does_not_cut() {
+        assert!(!cut([[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 0.0, 3.0]]));
+        assert!(!cut([[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, -3.0, 0.0]]));
+    }
+
+    #[test]
+    fn a_fold_onto_itself_cuts() {
+        assert!(cut([[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [3.0, 3.0, 0.0]]));
+        assert!(cut(FLOOR));
+    }
+
+    #[test]
+    fn a_shared_corner_cuts_only_beyond_it() {
+        assert!(cut([[0.0, 0.0, 0.0], [2.0, 2.0, 1.0], [2.0, 2.0, -1.0]]));
+        assert!(!cut([[0.0, 0.0, 0.0], [-2.0, -2.0, 1.0], [-2.0, -2.0, -1.0]]));
+        assert!(!cut([[0.0, 0.0, 0.0], [2.0, -2.0, 1.0], [2.0, -2.0, -1.0]]));
+    }
+
+    #[test]
+    fn crossing_only_in_a_rim_point_touches() {
+        assert!(!cut([[2.0, 2.0, -1.0], [3.0, 3.0, -1.0], [2.0, 2.0, 1.0]]));
+    }
+
+    #[test]
+    fn overlap_in_the_plane_cuts_and_contact_touches() {
+        assert!(cut([[1.0, 1.0, 0.0], [1.5, 1.0, 0.0], [1.0, 1.5, 0.0]]));
+        assert!(!cut([[4.0, 0.0, 0.0], [0.0, 4.0, 0.0], [4.0, 4.0, 0.0]]));
+        assert!(!cut([[5.0, 0.0, 0.0], [9.0, 0.0, 0.0], [5.0, 4.0, 0.0]]));
+    }
+
+    #[test]
+    fn without_area_nothing_cuts() {
+        assert!(!cut([[1.0, 1.0, -1.0], [1.0, 1.0, 0.0], [1.0, 1.0, 1.0]]));
+        assert!(!cut([[1.0, 1.0, 0.0], [1.5, 1.5, 0.0], [1.2, 1.2, 0.0]]));
+    }
+
+    /// The plain way, in double precision: clip each triangle's piece out of the common line.
+    fn cuts_by_clipping(a: &Triangle, b: &Triangle) -> bool {
+        let [a, b] = [a, b].map(|t| t.map(|point| DVec3::from(point.map(f64::from))));
+        let normal = |t: &[DVec3; 3]| (t[1] - t[0]).cross(t[2] - t[0]);
+        let along = normal(&a).cross(normal(&b));
+        let piece = |t: &[DVec3; 3], plane: &[DVec3; 3]| {
+            let height = t.map(|point| normal(plane).dot(point - plane[0]));
+            let mut ends = [f64::INFINITY, f64::NEG_INFINITY];
+            for (i, j) in [(0, 1), (1, 2), (2, 0)] {
+                if height[i] * height[j] < 0.0 {
+                    let share = height[i] / (height[i] - height[j]);
+                    let place = along.dot(t[i].lerp(t[j], share));
+                    ends = [ends[0].min(place), ends[1].max(place)];
+                }
+            }
+            ends
+        };
+        let [[a_low, a_high], [b_low, b_high]] = [piece(&a, &b), piece(&b, &a)];
+        a_low.max(b_low) < a_high.min(b_high)
+    }
+
+    #[test]
+    fn agrees_with_clipping_on_random_triangles() {
+        let mut state = 1u32;
+        let mut random = || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (state >> 8) as f32 / (1 << 24) as f32
+        };
+        let mut cutting = 0;
+        for _ in 0..20_000 {
+            let [a, b]: [Triangle; 2] =
+                [(); 2].map(|()| [[(); 3]; 3].map(|p| p.map(|()| random())));
+            let cuts = cut_each_other(&a, &b);
+            assert_eq!(cuts, cuts_by_clipping(&a, &b), "{a:?} {b:?}");
+            cutting += u32::from(cuts);
+        }
+        assert!(cutting > 1000, "{cutting}");
+    }
+
+    #[test]
+    fn only_suspects_in_one_part_are_paired() {
+        let positions = [FLOOR, [[1.0, 1.0, -1.0], [2.0, 1.0, -1.0], [1.0, 1.0, 1.0]]].concat();
+        let triangles = [[0, 1, 2], [3, 4, 5]];
+        let pairs = |part_of: [u32; 2], suspect: fn(u32) -> bool| {
+            self_intersections(&positions, &triangles, &part_of, suspect)
+        };
+        assert_eq!(pairs([0, 0], |_| true), [(0, 1)]);
+        assert_eq!(pairs([0, 0], |triangle| triangle == 0), [(0, 1)]);
+        assert_eq!(pairs([0, 0], |triangle| triangle == 1), [(0, 1)]);
+        assert!(pairs([0, 0], |_| false).is_empty());
+        assert!(pairs([0, 1], |_| true).is_empty());
+    }
+}
