@@ -1,0 +1,4 @@
+//! The model files that the command line reads and writes.
+
+pub mod document;
+pub mod gltf_file;
