@@ -1,4 +1,5 @@
-//! What the `chamfer` command line is made of: model files in and out, and pictures of them.
+//! The model files that the command line reads and writes, and pictures of them.
 
 pub mod document;
+pub mod gltf_file;
 pub mod preview;

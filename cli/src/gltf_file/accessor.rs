@@ -1,0 +1,262 @@
+//! Reads accessors. Every range is checked against the bytes that are there before anything is
+//! allocated.
+
+use std::cell::RefCell;
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use anyhow::{Context, Result, bail, ensure};
+use serde_json::Value;
+
+use super::element::{Component, ElementType, Shape, Stream};
+use super::json;
+
+/// An accessor without a buffer view is all zeros and costs the file nothing: beyond this count it
+/// is taken for an attack rather than a model.
+const MAX_ZEROS: usize = 1 << 22;
+
+/// Reads the accessors of one file; each is decoded once.
+pub struct Accessors<'a> {
+    json: &'a Value,
+    buffers: &'a [Vec<u8>],
+    decoded: RefCell<HashMap<usize, Arc<Stream>>>,
+}
+
+/// The bytes of a buffer view.
+struct View<'a> {
+    bytes: &'a [u8],
+    stride: Option<usize>,
+}
+
+impl<'a> Accessors<'a> {
+    pub fn new(json: &'a Value, buffers: &'a [Vec<u8>]) -> Accessors<'a> {
+        Accessors { json, buffers, decoded: RefCell::default() }
+    }
+
+    /// How many elements an accessor states to have, unchecked.
+    pub fn count(&self, index: usize) -> Result<usize> {
+        json::required(json::item(self.json, "accessors", index)?, "count", &path(index))
+    }
+
+    /// Whether an accessor replaces some of its elements by a sparse list.
+    pub fn is_sparse(&self, index: usize) -> bool {
+        json::list(self.json, "accessors").get(index).is_some_and(|a| a.get("sparse").is_some())
+    }
+
+    /// The values of an accessor, all finite.
+    pub fn read(&self, index: usize) -> Result<Arc<Stream>> {
+        if let Some(stream) = self.decoded.borrow().get(&index) {
+            return Ok(stream.clone());
+        }
+        let accessor = json::item(self.json, "accessors", index)?;
+        let path = path(index);
+        let stream = Arc::new(self.decode(accessor, &path)?);
+        if let Some(bad) = stream.elements().position(|e| e.iter().any(|n| !n.is_finite())) {
+            bail!("{path} has an infinite value or a NaN at element {bad}: repair the model");
+        }
+        self.decoded.borrow_mut().insert(index, stream.clone());
+        Ok(stream)
+    }
+
+    /// The values of an index accessor.
+    pub fn read_indices(&self, index: usize) -> Result<Vec<u32>> {
+        let stream = self.read(index)?;
+        let ElementType { component, shape, normalized } = stream.element;
+        let unsigned = matches!(component, Component::U8 | Component::U16 | Component::U32);
+        ensure!(
+            unsigned && shape == Shape::SCALAR && !normalized,
+            "{} is used for indices, but is not made of plain unsigned integers",
+            path(index)
+        );
+        Ok(stream.values.iter().map(|value| *value as u32).collect())
+    }
+
+    fn decode(&self, accessor: &Value, path: &str) -> Result<Stream> {
+        let element = ElementType::of_accessor(accessor, path)?;
+        let count = json::required(accessor, "count", path)?;
+        let mut values = match json::optional(accessor, "bufferView", path)? {
+            Some(_) => self.elements(accessor, path, element, count)?,
+            None => zeros(element, count, path)?,
+        };
+        if let Some(sparse) = accessor.get("sparse") {
+            self.replace_some(sparse, &format!("{path}.sparse"), element, &mut values)?;
+        }
+        Ok(Stream { element, values })
+    }
+
+    fn replace_some(
+        &self,
+        sparse: &Value,
+        path: &str,
+        element: ElementType,
+        values: &mut [f64],
+    ) -> Result<()> {
+        let count = json::required(sparse, "count", path)?;
+        let part = |key: &str| {
+            let owner = sparse.get(key).with_context(|| format!("{path}.{key} is missing"))?;
+            Ok::<_, anyhow::Error>((owner, format!("{path}.{key}")))
+        };
+        let (indices, indices_path) = part("indices")?;
+        let (replacements, values_path) = part("values")?;
+        let code = json::required(indices, "componentType", &indices_path)?;
+        let component = Component::of_code(code)
+            .with_context(|| format!("{indices_path}.componentType is {code}"))?;
+        let index = ElementType { component, shape: Shape::SCALAR, normalized: false };
+        let places = self.elements(indices, &indices_path, index, count)?;
+        let numbers = self.elements(replacements, &values_path, element, count)?;
+        let width = element.shape.components();
+        for (place, replacement) in places.iter().zip(numbers.chunks_exact(width)) {
+            let target =
+                values.chunks_exact_mut(width).nth(*place as usize).with_context(|| {
+                    format!(
+                        "{indices_path} names element {place}, which the accessor does not have"
+                    )
+                })?;
+            target.copy_from_slice(replacement);
+        }
+        Ok(())
+    }
+
+    /// The elements that `owner` (an accessor or a part of a sparse one) has in its buffer view.
+    fn elements(
+        &self,
+        owner: &Value,
+        path: &str,
+        element: ElementType,
+        count: usize,
+    ) -> Result<Vec<f64>> {
+        let view_index = json::required(owner, "bufferView", path)?;
+        let offset = json::optional(owner, "byteOffset", path)?.unwrap_or(0);
+        let view = self.view(view_index)?;
+        let stride = view.stride.unwrap_or(element.size());
+        ensure!(
+            stride >= element.size(),
+            "bufferViews[{view_index}].byteStride is {stride}, less than an element of {path}"
+        );
+        let length = count.checked_sub(1).map_or(Some(0), |gaps| {
+            gaps.checked_mul(stride)?.checked_add(element.size())?.checked_add(offset)
+        });
+        ensure!(
+            length.is_some_and(|length| length <= view.bytes.len()),
+            "{path} of {count} elements reaches past the end of bufferViews[{view_index}], \
+             which has {} bytes",
+            view.bytes.len()
+        );
+        let mut values = Vec::with_capacity(count * element.shape.components());
+        for index in 0..count {
+            element.decode(&view.bytes[offset + index * stride..], &mut values);
+        }
+        Ok(values)
+    }
+
+    fn view(&self, index: usize) -> Result<View<'a>> {
+        let view = json::item(self.json, "bufferViews", index)?;
+        let path = format!("bufferViews[{index}]");
+        let buffer = json::required(view, "buffer", &path)?;
+        let offset = json::optional(view, "byteOffset", &path)?.unwrap_or(0);
+        let length = json::required(view, "byteLength", &path)?;
+        // Some exporters write 0 for elements that stand close together.
+        let stride = json::optional(view, "byteStride", &path)?.filter(|stride| *stride > 0);
+        let bytes = self.buffers.get(buffer).with_context(|| {
+            format!("{path} lies in buffers[{buffer}], which the file does not have")
+        })?;
+        let bytes = offset
+            .checked_add(length)
+            .and_then(|end| bytes.get(offset..end))
+            .with_context(|| format!("{path} reaches past the end of buffers[{buffer}]"))?;
+        Ok(View { bytes, stride })
+    }
+}
+
+fn path(index: usize) -> String {
+    format!("accessors[{index}]")
+}
+
+fn zeros(element: ElementType, count: usize, path: &str) -> Result<Vec<f64>> {
+    ensure!(
+        count <= MAX_ZEROS,
+        "{path} has {count} elements and no buffer view: more than {MAX_ZEROS} zeros are refused"
+    );
+    Ok(vec![0.0; count * element.shape.components()])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    fn read(json: Value, bytes: &[u8]) -> Result<Vec<f64>> {
+        Ok(Accessors::new(&json, &[bytes.to_vec()]).read(0)?.values.clone())
+    }
+
+    fn message(json: Value, bytes: &[u8]) -> String {
+        format!("{:#}", read(json, bytes).unwrap_err())
+    }
+
+    #[test]
+    fn interleaved_elements_are_picked_by_stride() {
+        let json = json!({
+            "accessors": [{"bufferView": 0, "byteOffset": 1, "componentType": 5121, "count": 2, "type": "VEC2"}],
+            "bufferViews": [{"buffer": 0, "byteLength": 8, "byteOffset": 1, "byteStride": 4}],
+        });
+        let bytes = [9, 9, 1, 2, 9, 9, 3, 4, 9];
+        assert_eq!(read(json, &bytes).unwrap(), [1.0, 2.0, 3.0, 4.0]);
+    }
+
+    fn sparse(place: u8) -> (Value, [u8; 8]) {
+        let json = json!({
+            "accessors": [{"componentType": 5123, "count": 3, "type": "SCALAR", "sparse": {
+                "count": 2,
+                "indices": {"bufferView": 0, "componentType": 5121},
+                "values": {"bufferView": 0, "byteOffset": 4}
+            }}],
+            "bufferViews": [{"buffer": 0, "byteLength": 8}],
+        });
+        (json, [0, place, 0, 0, 7, 0, 8, 1])
+    }
+
+    #[test]
+    fn sparse_elements_replace_zeros() {
+        let (json, bytes) = sparse(2);
+        assert_eq!(read(json, &bytes).unwrap(), [7.0, 0.0, 264.0]);
+    }
+
+    #[test]
+    fn sparse_indices_are_checked() {
+        let (json, bytes) = sparse(3);
+        assert!(message(json, &bytes).contains("names element 3"));
+    }
+
+    #[test]
+    fn elements_past_the_end_are_refused_before_any_allocation() {
+        for count in [3u64, 1 << 40, u64::MAX] {
+            let json = json!({
+                "accessors": [{"bufferView": 0, "componentType": 5126, "count": count, "type": "SCALAR"}],
+                "bufferViews": [{"buffer": 0, "byteLength": 8}],
+            });
+            assert!(message(json, &[0; 8]).contains("past the end"), "{count}");
+        }
+        let zeros =
+            json!({"accessors": [{"componentType": 5126, "count": 1u64 << 40, "type": "MAT4"}]});
+        assert!(message(zeros, &[]).contains("refused"));
+    }
+
+    #[test]
+    fn a_view_past_its_buffer_is_refused() {
+        let json = json!({
+            "accessors": [{"bufferView": 0, "componentType": 5121, "count": 1, "type": "SCALAR"}],
+            "bufferViews": [{"buffer": 0, "byteOffset": u64::MAX, "byteLength": 2}],
+        });
+        assert!(message(json, &[0; 8]).contains("past the end"));
+    }
+
+    #[test]
+    fn a_nan_is_named() {
+        let json = json!({
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 2, "type": "SCALAR"}],
+            "bufferViews": [{"buffer": 0, "byteLength": 8}],
+        });
+        let bytes: Vec<u8> = [1.0f32, f32::NAN].iter().flat_map(|f| f.to_le_bytes()).collect();
+        assert!(message(json, &bytes).contains("element 1"));
+    }
+}

@@ -1,0 +1,115 @@
+//! Attributes that the core does not carry follow its provenance: each output vertex blends those
+//! of up to three source vertices.
+
+use chamfer::{Blend, UV_CHANNELS, VertexSource};
+
+use super::element::{ElementType, Stream};
+use super::geometry::{MeshGeometry, SourceStreams};
+
+/// Whether the core carries the attribute itself.
+pub fn is_carried_by_core(name: &str) -> bool {
+    matches!(name, "POSITION" | "NORMAL" | "TANGENT" | "COLOR_0") || uv_channel(name).is_some()
+}
+
+/// The UV channel of the core that an attribute is.
+pub fn uv_channel(name: &str) -> Option<usize> {
+    (0..UV_CHANNELS).find(|channel| name == format!("TEXCOORD_{channel}"))
+}
+
+/// Blends the attributes of one mesh.
+pub struct Follower<'a> {
+    pub geometry: &'a MeshGeometry,
+    /// `#output vertices`.
+    pub sources: &'a [VertexSource],
+}
+
+impl Follower<'_> {
+    /// An attribute of some output vertices, of a morph target or of the mesh itself, as near to
+    /// the given type as its values allow.
+    pub fn follow(
+        &self,
+        target: Option<usize>,
+        name: &str,
+        element: ElementType,
+        vertices: &[u32],
+    ) -> Stream {
+        let streams = self.geometry.streams(target, name);
+        let mut values = Vec::with_capacity(vertices.len() * element.shape.components());
+        for vertex in vertices {
+            let source = &self.sources[*vertex as usize];
+            let blend = if belongs_to_chart(name) { &source.chart } else { &source.surface };
+            let value = match is_label(name, element) {
+                true => nearest(&streams, blend),
+                false => mean(&streams, blend),
+            };
+            values.extend((0..element.shape.components()).map(|component| {
+                value.get(component).copied().unwrap_or(neutral(name, target, component))
+            }));
+        }
+        let stream = Stream { element, values };
+        if may_be_rounded(name) { stream } else { stream.exact_or_floats() }
+    }
+}
+
+fn belongs_to_chart(name: &str) -> bool {
+    name == "TANGENT" || name.starts_with("TEXCOORD_") || name.starts_with("COLOR_")
+}
+
+/// Plain integers that nothing says are quantities: numbers of joints, features, materials.
+fn is_label(name: &str, element: ElementType) -> bool {
+    let named = name.starts_with('_') || name.starts_with("JOINTS_");
+    named && element.component.is_integer() && !element.normalized
+}
+
+/// A geometric stream would step where its type is coarser than the chamfer.
+fn may_be_rounded(name: &str) -> bool {
+    !matches!(name, "POSITION" | "NORMAL" | "TANGENT") && !name.starts_with("TEXCOORD_")
+}
+
+fn neutral(name: &str, target: Option<usize>, component: usize) -> f64 {
+    let opaque = name.starts_with("COLOR_") && component == 3 && target.is_none();
+    if opaque { 1.0 } else { 0.0 }
+}
+
+/// The source vertices of a blend that count.
+pub fn parts(blend: &Blend) -> impl Iterator<Item = (usize, f64)> {
+    let parts = blend.vertices.into_iter().zip(blend.weights);
+    parts.filter(|(_, weight)| *weight != 0.0).map(|(v, weight)| (v as usize, f64::from(weight)))
+}
+
+/// The one source vertex of a blend that is none.
+pub fn single(blend: &Blend) -> Option<usize> {
+    let mut parts = parts(blend);
+    let (vertex, _) = parts.next()?;
+    parts.all(|(other, _)| other == vertex).then_some(vertex)
+}
+
+fn nearest(streams: &SourceStreams, blend: &Blend) -> Vec<f64> {
+    let mut best: Option<(f64, &[f64])> = None;
+    for (vertex, weight) in parts(blend) {
+        let Some(value) = streams.at(vertex) else { continue };
+        if best.is_none_or(|(heaviest, _)| weight > heaviest) {
+            best = Some((weight, value));
+        }
+    }
+    best.map(|(_, value)| value.to_vec()).unwrap_or_default()
+}
+
+/// The weighted mean over those source vertices that have the attribute; empty if none has.
+fn mean(streams: &SourceStreams, blend: &Blend) -> Vec<f64> {
+    if let Some(vertex) = single(blend) {
+        return streams.at(vertex).unwrap_or_default().to_vec();
+    }
+    let mut sum = Vec::new();
+    let mut total = 0.0;
+    for (vertex, weight) in parts(blend) {
+        let Some(value) = streams.at(vertex) else { continue };
+        sum.resize(sum.len().max(value.len()), 0.0);
+        sum.iter_mut().zip(value).for_each(|(sum, number)| *sum += weight * number);
+        total += weight;
+    }
+    if total != 0.0 {
+        sum.iter_mut().for_each(|number| *number /= total);
+    }
+    sum
+}

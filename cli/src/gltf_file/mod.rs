@@ -1,0 +1,245 @@
+//! Reads and writes glTF 2, as .glb or as .gltf with its buffers beside it or inside it.
+//!
+//! Triangles of one glTF mesh are one mesh of the core, its triangle primitives the submeshes.
+//! Writing changes the JSON that was read: chamfered primitives get new accessors in the places of
+//! the old, and all else, unknown extensions included, stays as it is.
+//!
+//! What is written:
+//! - A file in which no mesh changed goes out byte for byte if it keeps its format.
+//! - Otherwise all buffers are folded into one: the chunk of a .glb; for a .gltf a file named
+//!   after the output, or a data URI where the input had only those.
+//! - Images in buffers stay there. Images that are files keep their URIs; where the output goes
+//!   to another folder they are copied to the same place beside it.
+
+mod accessor;
+mod accessor_writer;
+mod container;
+mod core_mesh;
+mod element;
+mod extensions;
+mod fold;
+mod follow;
+mod geometry;
+mod json;
+mod references;
+mod resources;
+mod rewrite;
+mod scene;
+mod skin;
+mod triangles;
+mod uri;
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, bail, ensure};
+use chamfer::Chamfered;
+use serde_json::Value;
+
+use crate::document::{Document, Instance, OutputFile, ReadOptions, SourceMesh};
+use accessor_writer::AccessorWriter;
+use container::{Container, Format};
+use extensions::Mentions;
+use geometry::{GeometryReader, MeshGeometry};
+use references::Replaced;
+use rewrite::Rewrite;
+
+/// A glTF file that was read.
+pub struct GltfDocument {
+    path: PathBuf,
+    /// The file as it was.
+    bytes: Vec<u8>,
+    format: Format,
+    json: Value,
+    /// `#buffers`: their content.
+    buffers: Vec<Vec<u8>>,
+    meshes: Vec<SourceMesh>,
+    /// `#meshes`
+    geometries: Vec<MeshGeometry>,
+    instances: Vec<Instance>,
+}
+
+impl GltfDocument {
+    /// Reads a .glb or .gltf; which of the two is seen from its first bytes.
+    ///
+    /// # Errors
+    /// Where the file, or one that it refers to, cannot be read; where it breaks a rule of glTF
+    /// that its geometry or its nodes depend on; where its geometry is compressed.
+    pub fn read(path: &Path, options: &ReadOptions) -> Result<GltfDocument> {
+        let bytes = uri::read_file(path)?;
+        Self::parse(path, bytes, options).with_context(|| path.display().to_string())
+    }
+
+    fn parse(path: &Path, bytes: Vec<u8>, options: &ReadOptions) -> Result<GltfDocument> {
+        let Container { format, json, binary, .. } = container::parse(&bytes)?;
+        let json: Value = serde_json::from_slice(json).context("the JSON cannot be read")?;
+        ensure!(json.is_object(), "the JSON is not an object");
+        extensions::refuse_other_versions(&json)?;
+        extensions::refuse_unreadable(&json)?;
+        let buffers = read_buffers(&json, binary, &resources::folder(path))?;
+        let instances = scene::instances(&json)?;
+        let size = bytes.len() + buffers.iter().map(Vec::len).sum::<usize>();
+        let mut reader = GeometryReader::new(&json, &buffers, size);
+        let (mut meshes, mut geometries) = (Vec::new(), Vec::new());
+        for (index, value) in json::list(&json, "meshes").iter().enumerate() {
+            let mut geometry = reader.read(index)?;
+            let mesh = core_mesh::build(&mut geometry, options.smoothing_angle);
+            geometry.forget_core_streams();
+            let name = value.get("name").and_then(Value::as_str);
+            let name = name.map_or_else(|| format!("mesh {index}"), str::to_owned);
+            meshes.push(SourceMesh { name, mesh });
+            geometries.push(geometry);
+        }
+        let path = path.to_owned();
+        Ok(GltfDocument { path, format, json, buffers, meshes, geometries, instances, bytes })
+    }
+
+    fn is_changed(&self, mesh: usize, chamfered: &Chamfered) -> bool {
+        chamfered.mesh != self.meshes[mesh].mesh
+    }
+
+    /// The file as it was, and the files it refers to if it goes to another folder.
+    fn encode_unchanged(&self, output: &Path) -> Result<Vec<OutputFile>> {
+        let mut files = vec![OutputFile { path: output.to_owned(), bytes: self.bytes.clone() }];
+        files.extend(self.copies("buffers", output)?);
+        files.extend(resources::without_existing(self.copies("images", output)?)?);
+        Ok(files)
+    }
+
+    fn copies(&self, key: &str, output: &Path) -> Result<Vec<OutputFile>> {
+        let (from, to) = (resources::folder(&self.path), resources::folder(output));
+        resources::copies(&self.json, key, &from, &to)
+    }
+
+    /// The JSON with all chamfered meshes in it, and the content of its buffer.
+    fn rewritten(&self, chamfered: &[Chamfered]) -> Result<(Value, Vec<u8>)> {
+        let mut json = self.json.clone();
+        let mentions = Mentions::of(&json);
+        let freed = references::freed(&json, &self.replaced(chamfered), &mentions)?;
+        let mut writer = AccessorWriter::new(&json, freed);
+        for (index, result) in chamfered.iter().enumerate() {
+            if !self.is_changed(index, result) {
+                continue;
+            }
+            let rewrite = Rewrite::new(&self.geometries[index], result);
+            rewrite
+                .and_then(|rewrite| rewrite.write(&mut json["meshes"][index], &mut writer))
+                .with_context(|| format!("mesh {:?}", self.meshes[index].name))?;
+        }
+        let needed_quantization = extensions::needs_quantization(&self.json)?;
+        let bytes = fold::fold(&mut json, &self.buffers, writer.finish(), !mentions.buffers)?;
+        if needed_quantization {
+            extensions::drop_unneeded_quantization(&mut json)?;
+        }
+        Ok((json, bytes))
+    }
+
+    fn replaced(&self, chamfered: &[Chamfered]) -> BTreeSet<Replaced> {
+        let mut replaced = BTreeSet::new();
+        for (mesh, result) in chamfered.iter().enumerate() {
+            let geometry = &self.geometries[mesh];
+            if self.is_changed(mesh, result) {
+                replaced.extend(geometry.submeshes.iter().map(|submesh| Replaced {
+                    mesh,
+                    primitive: submesh.primitive,
+                    drops_tangents: geometry.blocks[submesh.block].smoothed,
+                }));
+            }
+        }
+        replaced
+    }
+
+    fn encode_glb(&self, output: &Path, json: &Value, buffer: &[u8]) -> Result<Vec<OutputFile>> {
+        let further = match self.format {
+            Format::Glb => container::parse(&self.bytes)?.further_chunks,
+            Format::Gltf => &[],
+        };
+        let bytes = container::write_glb(&serde_json::to_vec(json)?, buffer, further)?;
+        Ok(vec![OutputFile { path: output.to_owned(), bytes }])
+    }
+
+    fn encode_gltf(
+        &self,
+        output: &Path,
+        mut json: Value,
+        buffer: Vec<u8>,
+    ) -> Result<Vec<OutputFile>> {
+        let mut files = Vec::new();
+        if !buffer.is_empty() {
+            let name = output.with_extension("bin");
+            let file_name = name.file_name().and_then(|name| name.to_str());
+            let file_name = file_name.context("the output's name is not UTF-8")?;
+            json["buffers"][0]["uri"] = match self.has_only_data_uris() {
+                true => uri::write_data(&buffer).into(),
+                false => uri::write_name(file_name).into(),
+            };
+            if !self.has_only_data_uris() {
+                files.push(OutputFile { path: name, bytes: buffer });
+            }
+        }
+        let bytes = serde_json::to_vec_pretty(&json)?;
+        files.insert(0, OutputFile { path: output.to_owned(), bytes });
+        Ok(files)
+    }
+
+    fn has_only_data_uris(&self) -> bool {
+        let mut uris = json::list(&self.json, "buffers").iter().map(|buffer| buffer.get("uri"));
+        self.format == Format::Gltf
+            && uris.all(|uri| uri.and_then(Value::as_str).is_some_and(|u| u.starts_with("data:")))
+    }
+}
+
+impl Document for GltfDocument {
+    fn meshes(&self) -> &[SourceMesh] {
+        &self.meshes
+    }
+
+    fn instances(&self) -> Vec<Instance> {
+        let copy = |placed: &Instance| Instance { mesh: placed.mesh, transform: placed.transform };
+        self.instances.iter().map(copy).collect()
+    }
+
+    fn encode(&self, output: &Path, chamfered: &[Chamfered]) -> Result<Vec<OutputFile>> {
+        ensure!(
+            chamfered.len() == self.meshes.len(),
+            "{} meshes were read, but {} chamfered",
+            self.meshes.len(),
+            chamfered.len()
+        );
+        let format = Format::of_name(output)?;
+        let changed = chamfered.iter().enumerate().any(|(i, result)| self.is_changed(i, result));
+        if !changed && format == self.format {
+            return self.encode_unchanged(output);
+        }
+        let images = resources::without_existing(self.copies("images", output)?)?;
+        let (json, buffer) = self.rewritten(chamfered)?;
+        let mut files = match format {
+            Format::Glb => self.encode_glb(output, &json, &buffer)?,
+            Format::Gltf => self.encode_gltf(output, json, buffer)?,
+        };
+        files.extend(images);
+        Ok(files)
+    }
+}
+
+/// The content of all buffers.
+fn read_buffers(json: &Value, binary: Option<&[u8]>, folder: &Path) -> Result<Vec<Vec<u8>>> {
+    let mut buffers = Vec::new();
+    for (index, buffer) in json::list(json, "buffers").iter().enumerate() {
+        let path = format!("buffers[{index}]");
+        let length = json::required(buffer, "byteLength", &path)?;
+        let mut bytes = match (buffer.get("uri").and_then(Value::as_str), binary) {
+            (Some(uri), _) => uri::read(uri, folder).with_context(|| path.clone())?,
+            (None, Some(binary)) if index == 0 => binary.to_vec(),
+            _ => bail!("{path} has neither a URI nor a chunk of a .glb"),
+        };
+        ensure!(
+            bytes.len() >= length,
+            "{path} should have {length} bytes, but has {}: it is cut off",
+            bytes.len()
+        );
+        bytes.truncate(length);
+        buffers.push(bytes);
+    }
+    Ok(buffers)
+}

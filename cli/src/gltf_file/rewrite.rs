@@ -1,0 +1,238 @@
+//! Gives the primitives of a chamfered mesh their new accessors.
+
+use anyhow::{Context, Result, ensure};
+use chamfer::{Chamfered, MeshBuffers};
+use serde_json::{Map, Value};
+
+use super::accessor_writer::{AccessorWriter, Role, Usage};
+use super::element::{ElementType, Shape, Stream};
+use super::follow::{Follower, is_carried_by_core, uv_channel};
+use super::geometry::{Attribute, Block, MeshGeometry};
+use super::skin;
+
+/// Accessor numbers by attribute name.
+type Accessors = Vec<(String, usize)>;
+
+/// The new vertices of a block.
+struct BlockVertices {
+    /// `#block vertices`: their indices in the chamfered mesh.
+    vertices: Vec<u32>,
+    /// `#output vertices`: their places in the block.
+    place_of: Vec<u32>,
+}
+
+/// One chamfered mesh on its way into the file.
+pub struct Rewrite<'a> {
+    geometry: &'a MeshGeometry,
+    chamfered: &'a Chamfered,
+    /// `#submeshes`: the triangles of each.
+    submeshes: Vec<&'a [u32]>,
+}
+
+impl<'a> Rewrite<'a> {
+    /// Pairs a mesh with its chamfered form.
+    ///
+    /// # Errors
+    /// Where the one is not made of the other.
+    pub fn new(geometry: &'a MeshGeometry, chamfered: &'a Chamfered) -> Result<Rewrite<'a>> {
+        let MeshBuffers { positions, normals, indices, submesh_index_counts, .. } = &chamfered.mesh;
+        let total: usize = submesh_index_counts.iter().map(|count| *count as usize).sum();
+        let fits = normals.len() == positions.len()
+            && chamfered.vertex_sources.len() == positions.len()
+            && positions.len() >= geometry.origins.len()
+            && submesh_index_counts.len() == geometry.submeshes.len()
+            && total == indices.len()
+            && indices.iter().all(|index| (*index as usize) < positions.len());
+        ensure!(fits, "the chamfered mesh does not match the primitives of the file");
+        let mut rest = &indices[..];
+        let submeshes = submesh_index_counts.iter().map(|count| {
+            let (submesh, after) = rest.split_at(*count as usize);
+            rest = after;
+            submesh
+        });
+        Ok(Rewrite { geometry, chamfered, submeshes: submeshes.collect() })
+    }
+
+    /// Replaces what the JSON of the mesh says of its triangles.
+    ///
+    /// # Errors
+    /// Where a primitive would be left empty.
+    pub fn write(&self, mesh: &mut Value, writer: &mut AccessorWriter) -> Result<()> {
+        for (number, block) in self.geometry.blocks.iter().enumerate() {
+            let vertices = self.block_vertices(number);
+            let attributes = self.attributes(block, &vertices.vertices, writer)?;
+            let targets = self.targets(block, &vertices.vertices, writer)?;
+            for (submesh, corners) in self.geometry.submeshes.iter().zip(&self.submeshes) {
+                if submesh.block != number {
+                    continue;
+                }
+                let local: Vec<u32> =
+                    corners.iter().map(|index| vertices.place_of[*index as usize]).collect();
+                let role =
+                    submesh.indices.map_or(Role::IndicesOf(position(block)), Role::Successor);
+                let indices = writer.write_indices(role, &local)?;
+                let primitive = mesh.pointer_mut(&format!("/primitives/{}", submesh.primitive));
+                let primitive = primitive.and_then(Value::as_object_mut);
+                replace(primitive.context("a primitive is gone")?, &attributes, &targets, indices);
+            }
+        }
+        Ok(())
+    }
+
+    /// The source vertices of a block in their order, then all others that its triangles use.
+    fn block_vertices(&self, block: usize) -> BlockVertices {
+        const ABSENT: u32 = u32::MAX;
+        let mut place_of = vec![ABSENT; self.chamfered.mesh.positions.len()];
+        let origins = self.geometry.origins.iter().enumerate();
+        let own = origins.filter(|(_, origin)| origin.block as usize == block);
+        let mut vertices: Vec<u32> = own.map(|(vertex, _)| vertex as u32).collect();
+        for (place, vertex) in vertices.iter().enumerate() {
+            place_of[*vertex as usize] = place as u32;
+        }
+        let submeshes = self.geometry.submeshes.iter().zip(&self.submeshes);
+        let corners = submeshes.filter(|(submesh, _)| submesh.block == block).flat_map(|(_, c)| *c);
+        let absent = corners.copied().filter(|vertex| place_of[*vertex as usize] == ABSENT);
+        let mut further: Vec<u32> = absent.collect();
+        further.sort_unstable();
+        further.dedup();
+        for vertex in further {
+            place_of[vertex as usize] = vertices.len() as u32;
+            vertices.push(vertex);
+        }
+        BlockVertices { vertices, place_of }
+    }
+
+    fn attributes(
+        &self,
+        block: &Block,
+        vertices: &[u32],
+        writer: &mut AccessorWriter,
+    ) -> Result<Accessors> {
+        let mut accessors = self.skin(block, vertices, writer)?;
+        for attribute in &block.attributes {
+            let dropped = block.smoothed && attribute.name == "TANGENT";
+            if dropped || accessors.iter().any(|(name, _)| *name == attribute.name) {
+                continue;
+            }
+            let stream = match is_carried_by_core(&attribute.name) {
+                true => self.core_stream(&attribute.name, attribute.stream.element, vertices)?,
+                false => self.follow(None, attribute, vertices),
+            };
+            let accessor =
+                writer.write(Role::Successor(attribute.accessor), usage(attribute), &stream)?;
+            accessors.push((attribute.name.clone(), accessor));
+        }
+        if block.smoothed {
+            let stream = self.core_stream("NORMAL", ElementType::floats(Shape::VEC3), vertices)?;
+            let role = Role::NormalsOf(position(block));
+            accessors.push(("NORMAL".to_owned(), writer.write(role, Usage::Vertices, &stream)?));
+        }
+        Ok(accessors)
+    }
+
+    fn skin(
+        &self,
+        block: &Block,
+        vertices: &[u32],
+        writer: &mut AccessorWriter,
+    ) -> Result<Accessors> {
+        let skin = skin::blend(&self.follower(), block, vertices);
+        let mut accessors = Vec::new();
+        for (kind, streams) in [("JOINTS", &skin.joints), ("WEIGHTS", &skin.weights)] {
+            for (set, stream) in streams.iter().enumerate() {
+                let name = format!("{kind}_{set}");
+                let Some(attribute) = block.attribute(&name) else { continue };
+                let role = Role::Successor(attribute.accessor);
+                accessors.push((name, writer.write(role, Usage::Vertices, stream)?));
+            }
+        }
+        Ok(accessors)
+    }
+
+    fn targets(
+        &self,
+        block: &Block,
+        vertices: &[u32],
+        writer: &mut AccessorWriter,
+    ) -> Result<Vec<Accessors>> {
+        let mut targets = Vec::new();
+        for (number, target) in block.targets.iter().enumerate() {
+            let mut accessors = Vec::new();
+            for attribute in target {
+                let stream = self.follow(Some(number), attribute, vertices);
+                let role = Role::Successor(attribute.accessor);
+                let accessor = match attribute.sparse {
+                    true => writer.write_sparse(role, usage(attribute), &stream)?,
+                    false => writer.write(role, usage(attribute), &stream)?,
+                };
+                accessors.push((attribute.name.clone(), accessor));
+            }
+            targets.push(accessors);
+        }
+        Ok(targets)
+    }
+
+    fn follow(&self, target: Option<usize>, attribute: &Attribute, vertices: &[u32]) -> Stream {
+        self.follower().follow(target, &attribute.name, attribute.stream.element, vertices)
+    }
+
+    fn follower(&self) -> Follower<'_> {
+        Follower { geometry: self.geometry, sources: &self.chamfered.vertex_sources }
+    }
+
+    /// A stream that the core chamfered. Colours are rounded to their old type; what is geometry
+    /// turns into floats where the old type would move it.
+    fn core_stream(&self, name: &str, element: ElementType, vertices: &[u32]) -> Result<Stream> {
+        let mesh = &self.chamfered.mesh;
+        let stream = |flat: &[f32], width: usize| {
+            let rows = vertices.iter().map(|vertex| flat.get(*vertex as usize * width..));
+            let numbers = rows
+                .flat_map(|row| row.unwrap_or_default().iter().take(element.shape.components()));
+            Stream { element, values: numbers.map(|number| f64::from(*number)).collect() }
+        };
+        let stream = match name {
+            "POSITION" => stream(mesh.positions.as_flattened(), 3).exact_or_floats(),
+            "NORMAL" => stream(mesh.normals.as_flattened(), 3).exact_or_floats(),
+            "TANGENT" => stream(mesh.tangents.as_flattened(), 4).exact_or_floats(),
+            "COLOR_0" => stream(mesh.colors.as_flattened(), 4),
+            _ => {
+                let uv = &mesh.uvs[uv_channel(name).context("no stream of the core")?];
+                stream(&uv.values, 2).exact_or_floats()
+            }
+        };
+        ensure!(stream.count() == vertices.len(), "the chamfered mesh has lost its {name}");
+        Ok(stream)
+    }
+}
+
+fn usage(attribute: &Attribute) -> Usage {
+    if attribute.name == "POSITION" { Usage::Positions } else { Usage::Vertices }
+}
+
+/// Every block has positions: primitives without are no submeshes.
+fn position(block: &Block) -> usize {
+    block.attribute("POSITION").map_or(0, |attribute| attribute.accessor)
+}
+
+/// Sets only what changes; the material, extensions and all else of the primitive stay.
+fn replace(
+    primitive: &mut Map<String, Value>,
+    attributes: &Accessors,
+    targets: &[Accessors],
+    indices: usize,
+) {
+    if let Some(old) = primitive.get_mut("attributes").and_then(Value::as_object_mut) {
+        old.retain(|name, _| attributes.iter().any(|(known, _)| known == name));
+        old.extend(attributes.iter().map(|(name, accessor)| (name.clone(), (*accessor).into())));
+    }
+    let old_targets = primitive.get_mut("targets").and_then(Value::as_array_mut);
+    for (old, target) in old_targets.into_iter().flatten().zip(targets) {
+        if let Some(old) = old.as_object_mut() {
+            old.extend(target.iter().map(|(name, accessor)| (name.clone(), (*accessor).into())));
+        }
+    }
+    primitive.insert("indices".to_owned(), indices.into());
+    if let Some(mode) = primitive.get_mut("mode") {
+        *mode = 4.into();
+    }
+}
