@@ -32,6 +32,9 @@ Examples:
   chamfer bolt.stl -o bolt.glb --smoothing-angle 40
   chamfer demo";
 
+/// More than any machine has, and few enough to start.
+const MOST_THREADS: i64 = 1024;
+
 /// The whole command line.
 #[derive(Debug, Parser)]
 #[command(
@@ -81,6 +84,7 @@ pub struct Args {
 
     /// How many threads work [default: one a core]; results do not depend on it
     #[arg(long, value_name = "N", default_value = "0", hide_default_value = true)]
+    #[arg(value_parser = clap::value_parser!(u32).range(..=MOST_THREADS))]
     pub threads: u32,
 
     /// For models without normals: faces that meet at up to this angle shade as one surface
@@ -215,6 +219,12 @@ mod tests {
         let args = parse("chamfer ./demo").unwrap();
         assert!(args.command.is_none());
         assert_eq!(args.inputs, [PathBuf::from("./demo")]);
+    }
+
+    #[test]
+    fn a_model_behind_others_may_be_called_demo() {
+        let args = parse("chamfer a.glb demo -o out").unwrap();
+        assert_eq!(args.inputs.len(), 2);
     }
 
     #[test]

@@ -162,7 +162,7 @@ fn draw(path: &Path, portraits: &[Portrait], left_out: usize) -> Result<()> {
     }
     if left_out > 0 {
         let path = path.display();
-        warn(format_args!("{path}: note: shows the first {MOST_ROWS} models, not {left_out} more"));
+        warn(format_args!("{path}: note: {left_out} models left out after the first {MOST_ROWS}"));
     }
     pictures::draw(path, portraits)
 }
@@ -173,6 +173,7 @@ fn progress_bar(files: usize) -> ProgressBar {
     if let Ok(style) = ProgressStyle::with_template("{bar:40} {percent:>3} % {msg}") {
         bar.set_style(style);
     }
+    bar.set_message(format!("0 of {files}"));
     bar
 }
 

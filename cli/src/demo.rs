@@ -9,7 +9,7 @@ use chamfer::{Chamfered, MeshBuffers, Options, chamfer, shapes};
 
 use crate::args::DemoArgs;
 use crate::console::{say, warn};
-use crate::document::OutputFile;
+use crate::document::{IDENTITY, OutputFile};
 use crate::glb;
 use crate::pictures::write_png;
 use crate::preview::{Panel, Placed, contact_sheet};
@@ -17,8 +17,6 @@ use crate::write;
 
 /// In percent of the extent: twice the default, so that chamfers show in a small picture.
 const WIDTH_PERCENT: f32 = 2.0;
-const IDENTITY: [[f32; 4]; 4] =
-    [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
 
 struct Model {
     name: &'static str,

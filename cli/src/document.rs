@@ -13,6 +13,10 @@ pub struct SourceMesh {
     pub mesh: MeshBuffers,
 }
 
+/// The transform of a mesh that stands where its file has it; column-major.
+pub const IDENTITY: [[f32; 4]; 4] =
+    [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
+
 /// One placed mesh of a file's scene, for pictures.
 pub struct Instance {
     /// Index into [`Document::meshes`].

@@ -10,7 +10,7 @@ use std::path::Path;
 use anyhow::{Context, Result, bail};
 use chamfer::{Chamfered, MeshBuffers, split_by_angle};
 
-use crate::document::{Document, Instance, OutputFile, ReadOptions, SourceMesh};
+use crate::document::{Document, IDENTITY, Instance, OutputFile, ReadOptions, SourceMesh};
 use crate::format::Format;
 use crate::glb;
 
@@ -19,8 +19,6 @@ const HEADER_LENGTH: usize = 80;
 const PREFIX_LENGTH: usize = HEADER_LENGTH + 4;
 /// A normal, three corners and two spare bytes.
 const RECORD_LENGTH: usize = 50;
-const IDENTITY: [[f32; 4]; 4] =
-    [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
 
 type Triangle = [[f32; 3]; 3];
 

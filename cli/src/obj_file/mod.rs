@@ -5,31 +5,31 @@
 //! faces, lines and points), and they cut concave polygons as fans.
 
 mod build;
+mod materials;
 mod parse;
 mod polygon;
 mod write;
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 use chamfer::Chamfered;
 
-use crate::document::{Document, Instance, OutputFile, ReadOptions, SourceMesh};
+use crate::document::{Document, IDENTITY, Instance, OutputFile, ReadOptions, SourceMesh};
 use crate::format::Format;
 use crate::glb;
 
 use build::Origin;
 use parse::Obj;
 
-const IDENTITY: [[f32; 4]; 4] =
-    [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
-
 /// An OBJ file: all its objects are one mesh, because CAD programs put every face of a closed
 /// body into an object of its own. Each run of faces of one object, group and material is a
 /// submesh.
 pub struct ObjDocument {
     mesh: SourceMesh,
+    /// The folder that names in the file start from.
+    folder: PathBuf,
     obj: Obj,
     origin: Origin,
     /// The file as it was, where there is no face to change.
@@ -49,6 +49,7 @@ pub fn read(path: &Path, options: &ReadOptions) -> Result<ObjDocument> {
     Ok(ObjDocument {
         unchanged: mesh.indices.is_empty().then_some(bytes),
         mesh: SourceMesh { name: stem.into_owned(), mesh },
+        folder: path.parent().unwrap_or(Path::new("")).to_path_buf(),
         obj,
         origin,
     })
@@ -73,12 +74,17 @@ impl Document for ObjDocument {
 
     fn encode(&self, output: &Path, chamfered: &[Chamfered]) -> Result<Vec<OutputFile>> {
         let result = chamfered.first().context("the mesh is missing")?;
-        let bytes = match (Format::of(output), &self.unchanged) {
-            (Some(Format::Glb), _) => self.to_glb(result)?,
-            (_, Some(bytes)) => bytes.clone(),
-            _ => write::write(&self.obj, &self.mesh.mesh, &self.origin, result),
+        if Format::of(output) == Some(Format::Glb) {
+            let bytes = self.to_glb(result)?;
+            return Ok(vec![OutputFile { path: output.to_path_buf(), bytes }]);
+        }
+        let bytes = match &self.unchanged {
+            Some(bytes) => bytes.clone(),
+            None => write::write(&self.obj, &self.mesh.mesh, &self.origin, result),
         };
-        Ok(vec![OutputFile { path: output.to_path_buf(), bytes }])
+        let mut files = vec![OutputFile { path: output.to_path_buf(), bytes }];
+        files.extend(materials::companions(&self.obj, &self.folder, output)?);
+        Ok(files)
     }
 }
 
@@ -91,5 +97,52 @@ impl ObjDocument {
             *v = 1.0 - *v;
         }
         glb::encode(&self.mesh.name, &mesh, &self.obj.materials_of_runs())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MODEL: &str = "\
+mtllib a.mtl\no a\nv 0 0 0\nv 1 0 0 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.5 0.5 1\nvt 0 0\nvt 1 1 0\n
+vn 0 0 1\nusemtl m\nf 1/1/1 2/2/1 3/1/1 4/2\nf 1 2 5\nf -1// -2/1 \\\n -3\nl 1 5\np 2\n";
+
+    /// A small generator of repeatable noise (Marsaglia's xorshift).
+    fn next(state: &mut u64) -> usize {
+        *state ^= *state << 13;
+        *state ^= *state >> 7;
+        *state ^= *state << 17;
+        *state as usize
+    }
+
+    fn with_noise(state: &mut u64) -> Vec<u8> {
+        const BYTES: &[u8] = b"0123456789-/ .\n\\vfnolpe#\xff";
+        let mut bytes = MODEL.as_bytes().to_vec();
+        for _ in 0..1 + next(state) % 6 {
+            let place = next(state) % bytes.len();
+            bytes[place] = BYTES[next(state) % BYTES.len()];
+        }
+        bytes.truncate(bytes.len() - next(state) % 8);
+        bytes
+    }
+
+    #[test]
+    fn damaged_files_are_read_or_refused_and_what_is_read_is_consistent() {
+        let mut state = 1;
+        let mut read = 0;
+        for _ in 0..4000 {
+            let Ok(obj) = parse::parse(&with_noise(&mut state)) else { continue };
+            let (mesh, origin) = build::build(&obj, 30.0).unwrap();
+            let vertices = mesh.positions.len();
+            assert_eq!(mesh.normals.len(), vertices);
+            assert_eq!(mesh.uvs[0].values.len(), vertices * mesh.uvs[0].components as usize);
+            assert_eq!(origin.position_of.len(), vertices);
+            assert!(mesh.indices.iter().all(|&index| (index as usize) < vertices));
+            let total: u32 = mesh.submesh_index_counts.iter().sum();
+            assert_eq!(total as usize, mesh.indices.len());
+            read += 1;
+        }
+        assert!(read > 100, "only {read} were still readable");
     }
 }
