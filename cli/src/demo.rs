@@ -91,6 +91,7 @@ impl Model {
             caption: self.name.into(),
             before: placed(self.before.as_mesh()),
             after: placed(self.after.mesh.as_mesh()),
+            ..Panel::default()
         }
     }
 }

@@ -6,7 +6,8 @@ use std::path::Path;
 use anyhow::{Result, bail};
 
 use crate::document::{Document, ReadOptions};
-use crate::{gltf_file, obj_file, stl_file};
+use crate::gltf_file::GltfDocument;
+use crate::{obj_file, stl_file};
 
 /// A format of model files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -78,7 +79,7 @@ impl fmt::Display for Format {
 /// Where the extension is unknown, the file cannot be read, or what is in it makes no sense.
 pub fn read(path: &Path, options: &ReadOptions) -> Result<Box<dyn Document + Send>> {
     Ok(match Format::of(path) {
-        Some(Format::Glb | Format::Gltf) => Box::new(gltf_file::read(path, options)?),
+        Some(Format::Glb | Format::Gltf) => Box::new(GltfDocument::read(path, options)?),
         Some(Format::Obj) => Box::new(obj_file::read(path, options)?),
         Some(Format::Stl) => Box::new(stl_file::read(path, options)?),
         None => bail!("unknown kind of file: give .glb, .gltf, .obj or .stl"),

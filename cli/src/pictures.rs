@@ -27,8 +27,7 @@ pub struct Portrait {
 
 impl Portrait {
     fn panel(&self) -> Panel<'_> {
-        let mut panel =
-            Panel { caption: self.caption.clone(), before: Vec::new(), after: Vec::new() };
+        let mut panel = Panel { caption: self.caption.clone(), ..Panel::default() };
         for instance in self.document.instances() {
             let transform = instance.transform;
             let before = self.document.meshes().get(instance.mesh);

@@ -10,12 +10,14 @@ use crate::document::{Document, Instance, OutputFile, ReadOptions, SourceMesh};
 /// STUB.
 pub struct GltfDocument;
 
-/// STUB.
-///
-/// # Errors
-/// Always.
-pub fn read(_path: &Path, _options: &ReadOptions) -> Result<GltfDocument> {
-    bail!("glTF is not read yet")
+impl GltfDocument {
+    /// STUB.
+    ///
+    /// # Errors
+    /// Always.
+    pub fn read(_path: &Path, _options: &ReadOptions) -> Result<GltfDocument> {
+        bail!("glTF is not read yet")
+    }
 }
 
 impl Document for GltfDocument {

@@ -11,6 +11,7 @@ pub struct Placed<'a> {
 }
 
 /// One model before and after.
+#[derive(Default)]
 pub struct Panel<'a> {
     /// What to write under it.
     pub caption: String,
@@ -18,6 +19,8 @@ pub struct Panel<'a> {
     pub before: Vec<Placed<'a>>,
     /// The model chamfered.
     pub after: Vec<Placed<'a>>,
+    /// STUB for the fields to come.
+    pub zoom: Option<f32>,
 }
 
 /// STUB.
