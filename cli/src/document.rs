@@ -13,6 +13,10 @@ pub struct SourceMesh {
     pub mesh: MeshBuffers,
 }
 
+/// The transform of a mesh that stands where its file has it; column-major.
+pub const IDENTITY: [[f32; 4]; 4] =
+    [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
+
 /// One placed mesh of a file's scene, for pictures.
 pub struct Instance {
     /// Index into [`Document::meshes`].
@@ -43,7 +47,13 @@ pub trait Document {
     /// Where the meshes stand in the scene.
     fn instances(&self) -> Vec<Instance>;
 
-    /// The file with `chamfered[i]` in the place of mesh `i`, in the format that `output` names.
+    /// What the user should know of what was read or will be lost: a sentence each.
+    fn notes(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// The file with `chamfered[i]` in the place of mesh `i`, in the format that `output` names: the
+    /// file of that path first, then those that belong to it.
     ///
     /// # Errors
     /// Where the result does not fit the format.

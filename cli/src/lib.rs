@@ -1,5 +1,37 @@
-//! The model files that the command line reads and writes, and pictures of them.
+//! What the `chamfer` command is made of: a reader and writer for each model format, the batch
+//! that runs over many files, the report and the pictures.
 
 pub mod document;
+pub mod glb;
 pub mod gltf_file;
+pub mod obj_file;
 pub mod preview;
+pub mod stl_file;
+
+mod args;
+mod batch;
+mod console;
+mod demo;
+mod format;
+mod pictures;
+mod plan;
+mod process;
+mod report;
+mod write;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use args::{Args, Command};
+
+/// Runs the command that the process was started with. The exit code is 0 when all went well, 1
+/// when a file failed, 2 when the arguments make no sense and 130 after an interrupt.
+pub fn run() -> ExitCode {
+    let args = Args::parse();
+    write::clean_up_on_interrupt();
+    match &args.command {
+        Some(Command::Demo(demo)) => demo::run(demo),
+        None => batch::run(&args),
+    }
+}

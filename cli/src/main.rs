@@ -1,5 +1,7 @@
 //! The `chamfer` command line.
 
-mod document;
+use std::process::ExitCode;
 
-fn main() {}
+fn main() -> ExitCode {
+    chamfer_cli::run()
+}

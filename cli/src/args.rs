@@ -1,0 +1,235 @@
+//! The arguments of the command.
+
+use std::path::PathBuf;
+
+use chamfer::{ChamferSubmesh, Options, Verify, Width};
+use clap::{Parser, Subcommand, ValueEnum};
+
+use crate::document::ReadOptions;
+
+const ABOUT: &str = "\
+Chamfers the hard edges of game models.
+
+Reads .glb, .gltf, .obj and .stl files, pulls the split vertices at every hard edge apart inside \
+their own faces and closes the gap with a strip that shades smoothly. All else in a file stays \
+as it is.";
+
+const OUTPUT_RULES: &str = "\
+Where results go:
+  one file, no -o         NAME.chamfered.EXT beside it
+  one file, -o FILE       FILE, which may be the input itself
+  one file, -o DIR        DIR/NAME.EXT, where DIR exists or ends in a slash
+  several, or a folder    DIR/..., in the same subfolders as below the folder given
+
+Folders that are missing are created. A result has the format of its input; an .stl goes out as
+.glb, because .stl has no normals, unless -o names an .stl. With -o an .obj can go out as .glb too,
+and .glb and .gltf as each other.
+
+Examples:
+  chamfer chair.glb
+  chamfer chair.glb -o soft/chair.glb --width 0.005 --preview chair.png
+  chamfer models -o chamfered --width-percent 0.5 --report report.json
+  chamfer bolt.stl -o bolt.glb --smoothing-angle 40
+  chamfer demo";
+
+/// More than any machine has, and few enough to start.
+const MOST_THREADS: i64 = 1024;
+
+/// The whole command line.
+#[derive(Debug, Parser)]
+#[command(
+    name = "chamfer",
+    version,
+    about = "Chamfers the hard edges of game models",
+    long_about = ABOUT,
+    after_help = OUTPUT_RULES,
+    args_conflicts_with_subcommands = true,
+    subcommand_negates_reqs = true,
+    disable_help_subcommand = true
+)]
+pub struct Args {
+    /// A command in place of inputs.
+    #[command(subcommand)]
+    pub command: Option<Command>,
+
+    /// Models, or folders to search for models [a model named "demo": ./demo]
+    #[arg(value_name = "INPUT", required = true)]
+    pub inputs: Vec<PathBuf>,
+
+    /// Where results go: a file for one model, a folder for several
+    #[arg(short, long, value_name = "OUTPUT|DIR")]
+    pub output: Option<PathBuf>,
+
+    /// Distance between an old edge and the pulled one, in mesh units
+    #[arg(long, value_name = "W", value_parser = width, allow_negative_numbers = true)]
+    #[arg(conflicts_with = "width_percent")]
+    pub width: Option<f32>,
+
+    /// The same in percent of each mesh's largest side
+    #[arg(long, value_name = "P", value_parser = width, allow_negative_numbers = true)]
+    #[arg(default_value = "1")]
+    pub width_percent: f32,
+
+    /// How thoroughly results are checked; "full" also keeps chamfers from cutting through the mesh
+    #[arg(long, value_enum, default_value = "full")]
+    pub verify: VerifyArg,
+
+    /// Write what became of every mesh to this file
+    #[arg(long, value_name = "FILE.json")]
+    pub report: Option<PathBuf>,
+
+    /// Draw before and after to this file; several models make a contact sheet
+    #[arg(long, value_name = "FILE.png")]
+    pub preview: Option<PathBuf>,
+
+    /// How many threads work [default: one a core]; results do not depend on it
+    #[arg(long, value_name = "N", default_value = "0", hide_default_value = true)]
+    #[arg(value_parser = clap::value_parser!(u32).range(..=MOST_THREADS))]
+    pub threads: u32,
+
+    /// For models without normals: faces that meet at up to this angle shade as one surface
+    #[arg(long, value_name = "DEG", value_parser = angle, allow_negative_numbers = true)]
+    #[arg(default_value = "30")]
+    pub smoothing_angle: f32,
+
+    /// Submesh (material) of the new triangles: that of the face each chamfer continues, a new
+    /// one, or the one of this number
+    #[arg(long, value_name = "owner|own|N", value_parser = submesh, default_value = "owner")]
+    pub chamfer_submesh: ChamferSubmesh,
+}
+
+/// What can stand in place of inputs.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Chamfer a few built-in models: writes each before and after as .glb, and a picture
+    Demo(DemoArgs),
+}
+
+/// Arguments of `chamfer demo`.
+#[derive(Debug, clap::Args)]
+pub struct DemoArgs {
+    /// The folder for the models and the picture
+    #[arg(short, long, value_name = "DIR", default_value = "chamfer-demo")]
+    pub output: PathBuf,
+}
+
+/// [`Verify`] as an argument.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum VerifyArg {
+    /// Nothing opens, flips, degenerates or newly cuts through itself.
+    Full,
+    /// Nothing opens, flips or degenerates.
+    Fast,
+}
+
+impl Args {
+    /// What to ask of the core, with this many threads for one mesh.
+    pub fn options(&self, threads: u32) -> Options {
+        Options {
+            width: self.width.map_or(Width::PercentOfExtent(self.width_percent), Width::Units),
+            verify: match self.verify {
+                VerifyArg::Full => Verify::Full,
+                VerifyArg::Fast => Verify::Fast,
+            },
+            chamfer_submesh: self.chamfer_submesh,
+            threads,
+        }
+    }
+
+    /// What to ask of the readers.
+    pub fn read_options(&self) -> ReadOptions {
+        ReadOptions { smoothing_angle: self.smoothing_angle }
+    }
+}
+
+fn width(text: &str) -> Result<f32, String> {
+    match text.parse::<f32>() {
+        Ok(width) if width.is_finite() && width >= 0.0 => Ok(width),
+        _ => Err("give a number of at least 0".into()),
+    }
+}
+
+fn angle(text: &str) -> Result<f32, String> {
+    match text.parse::<f32>() {
+        Ok(angle) if (0.0..=180.0).contains(&angle) => Ok(angle),
+        _ => Err("give degrees from 0 to 180".into()),
+    }
+}
+
+fn submesh(text: &str) -> Result<ChamferSubmesh, String> {
+    match text {
+        "owner" => Ok(ChamferSubmesh::Owner),
+        "own" => Ok(ChamferSubmesh::Own),
+        number => number
+            .parse()
+            .map(ChamferSubmesh::Given)
+            .map_err(|_| "give owner, own or the number of a submesh".into()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    fn parse(line: &str) -> Result<Args, clap::Error> {
+        Args::try_parse_from(line.split(' '))
+    }
+
+    #[test]
+    fn the_definition_is_consistent() {
+        Args::command().debug_assert();
+    }
+
+    #[test]
+    fn one_percent_is_the_default_width() {
+        let options = parse("chamfer a.glb").unwrap().options(1);
+        assert_eq!(options, Options::default());
+    }
+
+    #[test]
+    fn a_width_in_units_wins_over_the_default_percentage() {
+        let options = parse("chamfer a.glb --width 0.25").unwrap().options(1);
+        assert_eq!(options.width, Width::Units(0.25));
+    }
+
+    #[test]
+    fn two_widths_are_refused() {
+        assert!(parse("chamfer a.glb --width 1 --width-percent 2").is_err());
+    }
+
+    #[test]
+    fn negative_and_endless_widths_are_refused() {
+        assert!(parse("chamfer a.glb --width -1").is_err());
+        assert!(parse("chamfer a.glb --width inf").is_err());
+        assert!(parse("chamfer a.glb --width-percent NaN").is_err());
+    }
+
+    #[test]
+    fn a_submesh_is_named_or_numbered() {
+        let submesh = |line| parse(line).unwrap().chamfer_submesh;
+        assert_eq!(submesh("chamfer a.glb --chamfer-submesh own"), ChamferSubmesh::Own);
+        assert_eq!(submesh("chamfer a.glb --chamfer-submesh 3"), ChamferSubmesh::Given(3));
+        assert!(parse("chamfer a.glb --chamfer-submesh -3").is_err());
+    }
+
+    #[test]
+    fn demo_is_a_command_and_a_path_to_demo_is_not() {
+        assert!(parse("chamfer demo").unwrap().command.is_some());
+        let args = parse("chamfer ./demo").unwrap();
+        assert!(args.command.is_none());
+        assert_eq!(args.inputs, [PathBuf::from("./demo")]);
+    }
+
+    #[test]
+    fn a_model_behind_others_may_be_called_demo() {
+        let args = parse("chamfer a.glb demo -o out").unwrap();
+        assert_eq!(args.inputs.len(), 2);
+    }
+
+    #[test]
+    fn inputs_are_required() {
+        assert!(parse("chamfer").is_err());
+        assert!(parse("chamfer -o out").is_err());
+    }
+}

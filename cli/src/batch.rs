@@ -1,0 +1,186 @@
+//! All files of a run: several at a time, reported in their order.
+
+use std::collections::BTreeMap;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+use std::process::ExitCode;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc::{Sender, channel};
+use std::thread;
+
+use anyhow::{Error, Result, anyhow};
+use indicatif::{ProgressBar, ProgressStyle};
+
+use crate::args::Args;
+use crate::console::{say, warn};
+use crate::pictures::{self, MOST_ROWS, Portrait};
+use crate::plan::{Job, plan};
+use crate::process::{Processed, Settings, Taken, process};
+use crate::report::{FileReport, Report};
+use crate::write;
+
+/// The exit code where the arguments make no sense; that of the argument parser.
+const USAGE: u8 = 2;
+/// Parts of a file that the progress bar tells apart.
+const STEPS: u64 = 1000;
+
+/// Chamfers the files that the arguments name.
+pub fn run(args: &Args) -> ExitCode {
+    let jobs = match plan(args) {
+        Ok(jobs) => jobs,
+        Err(error) => {
+            warn(format_args!("error: {error:#}"));
+            return ExitCode::from(USAGE);
+        }
+    };
+    let outcome = chamfer_all(args, &jobs);
+    let mut failed = outcome.files.iter().any(|file| file.error.is_some());
+    if let Err(error) = write_extras(args, outcome) {
+        warn(format_args!("error: {error:#}"));
+        failed = true;
+    }
+    ExitCode::from(u8::from(failed))
+}
+
+/// What is left of a run once all results are written.
+struct Outcome {
+    files: Vec<FileReport>,
+    portraits: Vec<Portrait>,
+    /// Models that would be in the picture if there were room.
+    left_out: usize,
+}
+
+fn chamfer_all(args: &Args, jobs: &[Job]) -> Outcome {
+    let cores = thread::available_parallelism().map_or(1, usize::from);
+    let threads = if args.threads == 0 { cores } else { args.threads as usize };
+    let workers = threads.min(jobs.len());
+    let settings = Settings {
+        read: args.read_options(),
+        core: args.options((threads / workers) as u32),
+        taken: Taken::new(jobs),
+    };
+    let bar = progress_bar(jobs.len());
+    let mut outcome = Outcome { files: Vec::new(), portraits: Vec::new(), left_out: 0 };
+    let next = AtomicUsize::new(0);
+    let (sender, receiver) = channel();
+    thread::scope(|scope| {
+        for _ in 0..workers {
+            let sender = sender.clone();
+            scope.spawn(|| work(jobs, &settings, &next, &bar, sender));
+        }
+        drop(sender);
+        let mut waiting = BTreeMap::new();
+        for (number, result) in receiver {
+            waiting.insert(number, result);
+            while let Some(result) = waiting.remove(&outcome.files.len()) {
+                bar.set_message(format!("{} of {}", outcome.files.len() + 1, jobs.len()));
+                let job = &jobs[outcome.files.len()];
+                bar.suspend(|| outcome.add(job, result, args.preview.is_some()));
+            }
+        }
+    });
+    bar.finish_and_clear();
+    outcome
+}
+
+/// Takes one job after the other until none is left.
+fn work(
+    jobs: &[Job],
+    settings: &Settings,
+    next: &AtomicUsize,
+    bar: &ProgressBar,
+    results: Sender<(usize, Result<Processed>)>,
+) {
+    loop {
+        let number = next.fetch_add(1, Ordering::Relaxed);
+        let Some(job) = jobs.get(number) else { return };
+        let shown = AtomicUsize::new(0);
+        let progress = |share: f32| {
+            let steps = (share * STEPS as f32) as usize;
+            bar.inc(steps.saturating_sub(shown.swap(steps, Ordering::Relaxed)) as u64);
+        };
+        // No file may take the others down, whatever is wrong with it or with us.
+        let result = catch_unwind(AssertUnwindSafe(|| process(job, settings, &progress)));
+        progress(1.0);
+        let result = result.unwrap_or_else(|_| Err(anyhow!("internal error: please report it")));
+        if results.send((number, result)).is_err() {
+            return;
+        }
+    }
+}
+
+impl Outcome {
+    /// Reports a file that is done.
+    fn add(&mut self, job: &Job, result: Result<Processed>, with_picture: bool) {
+        let mut file = FileReport::new(&job.input, &job.output);
+        match result {
+            Ok(Processed { document, chamfered, reports, notes }) => {
+                for note in &notes {
+                    warn(format_args!("{}: note: {note}", file.file));
+                }
+                file.meshes = reports;
+                file.notes = notes;
+                say(&file);
+                if with_picture && chamfered.iter().any(|result| !result.mesh.indices.is_empty()) {
+                    let caption = name_of(&job.input);
+                    self.keep(Portrait { caption, document, chamfered });
+                }
+            }
+            Err(error) => {
+                let error = one_line(&error);
+                warn(format_args!("{}: {error}", file.file));
+                file.error = Some(error);
+            }
+        }
+        self.files.push(file);
+    }
+
+    fn keep(&mut self, portrait: Portrait) {
+        if self.portraits.len() < MOST_ROWS {
+            self.portraits.push(portrait);
+        } else {
+            self.left_out += 1;
+        }
+    }
+}
+
+fn write_extras(args: &Args, outcome: Outcome) -> Result<()> {
+    let Outcome { files, portraits, left_out } = outcome;
+    let report = args.report.as_deref().map(|path| {
+        let json = Report::new(files).to_json()?;
+        write::alone(path, json)
+    });
+    let preview = args.preview.as_deref().map(|path| draw(path, &portraits, left_out));
+    // One that fails is no reason to leave out the other.
+    report.unwrap_or(Ok(())).and(preview.unwrap_or(Ok(())))
+}
+
+fn draw(path: &Path, portraits: &[Portrait], left_out: usize) -> Result<()> {
+    if portraits.is_empty() {
+        warn(format_args!("{}: note: not drawn, there is no model to show", path.display()));
+        return Ok(());
+    }
+    if left_out > 0 {
+        let path = path.display();
+        warn(format_args!("{path}: note: {left_out} models left out after the first {MOST_ROWS}"));
+    }
+    pictures::draw(path, portraits)
+}
+
+/// Drawn on a terminal only.
+fn progress_bar(files: usize) -> ProgressBar {
+    let bar = ProgressBar::new(files as u64 * STEPS);
+    if let Ok(style) = ProgressStyle::with_template("{bar:40} {percent:>3} % {msg}") {
+        bar.set_style(style);
+    }
+    bar.set_message(format!("0 of {files}"));
+    bar
+}
+
+fn name_of(path: &Path) -> String {
+    path.file_name().unwrap_or_default().to_string_lossy().into_owned()
+}
+
+fn one_line(error: &Error) -> String {
+    format!("{error:#}").replace(['\n', '\r'], " ")
+}

@@ -1,0 +1,251 @@
+//! A binary glTF of one mesh, for models that come from formats without normals or materials.
+
+use anyhow::{Context, Result};
+use chamfer::{MeshBuffers, UvBuffer};
+use serde_json::{Value, json};
+
+const ARRAY_BUFFER: u32 = 34962;
+const ELEMENT_ARRAY_BUFFER: u32 = 34963;
+const UNSIGNED_INT: u32 = 5125;
+const FLOAT: u32 = 5126;
+const JSON_CHUNK: &[u8; 4] = b"JSON";
+const BINARY_CHUNK: &[u8; 4] = b"BIN\0";
+const HEADER_LENGTH: usize = 12;
+
+/// Encodes a mesh as .glb. `materials` names the material of each submesh (`#submeshes`; those
+/// missing have none); the submeshes of one material become one primitive.
+///
+/// # Errors
+/// Where the file would be larger than the 4 GiB that the format allows.
+pub fn encode(name: &str, mesh: &MeshBuffers, materials: &[Option<String>]) -> Result<Vec<u8>> {
+    let mut builder = Builder::default();
+    let groups = by_material(mesh, materials);
+    let mut root = json!({
+        "asset": { "version": "2.0", "generator": "chamfer" },
+        "scene": 0,
+        "scenes": [{}],
+    });
+    if !groups.is_empty() {
+        let attributes = builder.attributes(mesh);
+        let primitives = builder.primitives(&groups, &attributes);
+        root["scenes"] = json!([{ "nodes": [0] }]);
+        root["nodes"] = json!([{ "mesh": 0, "name": name }]);
+        root["meshes"] = json!([{ "name": name, "primitives": primitives }]);
+        root["accessors"] = Value::Array(builder.accessors);
+        root["bufferViews"] = Value::Array(builder.views);
+        root["buffers"] = json!([{ "byteLength": builder.binary.len() }]);
+        if !builder.materials.is_empty() {
+            root["materials"] = Value::Array(builder.materials);
+        }
+    }
+    container(serde_json::to_vec(&root)?, builder.binary)
+}
+
+/// The indices of all submeshes of one material.
+struct Group<'a> {
+    material: Option<&'a str>,
+    indices: Vec<u32>,
+}
+
+/// In the order of first use; groups without triangles are left out.
+fn by_material<'a>(mesh: &MeshBuffers, materials: &'a [Option<String>]) -> Vec<Group<'a>> {
+    let mut groups: Vec<Group> = Vec::new();
+    let mut rest = mesh.indices.as_slice();
+    for (submesh, &count) in mesh.submesh_index_counts.iter().enumerate() {
+        let (indices, after) = rest.split_at((count as usize).min(rest.len()));
+        rest = after;
+        let material = materials.get(submesh).and_then(Option::as_deref);
+        match groups.iter_mut().find(|group| group.material == material) {
+            Some(group) => group.indices.extend(indices),
+            None => groups.push(Group { material, indices: indices.to_vec() }),
+        }
+    }
+    groups.retain(|group| !group.indices.is_empty());
+    groups
+}
+
+/// The parts of a glTF that refer to each other by number.
+#[derive(Default)]
+struct Builder {
+    binary: Vec<u8>,
+    views: Vec<Value>,
+    accessors: Vec<Value>,
+    materials: Vec<Value>,
+}
+
+impl Builder {
+    fn attributes(&mut self, mesh: &MeshBuffers) -> Value {
+        let mut attributes = json!({});
+        let position = self.floats("VEC3", mesh.positions.as_flattened());
+        let (low, high) = bounds(&mesh.positions);
+        self.accessors[position]["min"] = json!(low);
+        self.accessors[position]["max"] = json!(high);
+        attributes["POSITION"] = json!(position);
+        attributes["NORMAL"] = json!(self.floats("VEC3", mesh.normals.as_flattened()));
+        if !mesh.tangents.is_empty() {
+            attributes["TANGENT"] = json!(self.floats("VEC4", mesh.tangents.as_flattened()));
+        }
+        if !mesh.colors.is_empty() {
+            attributes["COLOR_0"] = json!(self.floats("VEC4", mesh.colors.as_flattened()));
+        }
+        // glTF numbers its channels without gaps.
+        let present = mesh.uvs.iter().filter(|uv| uv.components > 0);
+        for (number, uv) in present.enumerate() {
+            let accessor = self.floats("VEC2", &first_two(uv));
+            attributes[format!("TEXCOORD_{number}")] = json!(accessor);
+        }
+        attributes
+    }
+
+    fn primitives(&mut self, groups: &[Group], attributes: &Value) -> Vec<Value> {
+        let mut primitives = Vec::new();
+        for group in groups {
+            let bytes = group.indices.iter().flat_map(|index| index.to_le_bytes());
+            let view = self.view(bytes, ELEMENT_ARRAY_BUFFER);
+            let indices = self.accessor(view, UNSIGNED_INT, "SCALAR", group.indices.len());
+            let mut primitive = json!({ "attributes": attributes, "indices": indices });
+            if let Some(name) = group.material {
+                primitive["material"] = json!(self.materials.len());
+                self.materials.push(json!({ "name": name }));
+            }
+            primitives.push(primitive);
+        }
+        primitives
+    }
+
+    fn floats(&mut self, kind: &str, values: &[f32]) -> usize {
+        let components = match kind {
+            "VEC2" => 2,
+            "VEC3" => 3,
+            _ => 4,
+        };
+        let view = self.view(values.iter().flat_map(|value| value.to_le_bytes()), ARRAY_BUFFER);
+        self.accessor(view, FLOAT, kind, values.len() / components)
+    }
+
+    fn view(&mut self, bytes: impl Iterator<Item = u8>, target: u32) -> usize {
+        let offset = self.binary.len();
+        self.binary.extend(bytes);
+        self.views.push(json!({
+            "buffer": 0,
+            "byteOffset": offset,
+            "byteLength": self.binary.len() - offset,
+            "target": target,
+        }));
+        self.views.len() - 1
+    }
+
+    fn accessor(&mut self, view: usize, component: u32, kind: &str, count: usize) -> usize {
+        self.accessors.push(json!({
+            "bufferView": view,
+            "componentType": component,
+            "type": kind,
+            "count": count,
+        }));
+        self.accessors.len() - 1
+    }
+}
+
+/// The lowest and highest coordinate on each axis.
+fn bounds(positions: &[[f32; 3]]) -> ([f32; 3], [f32; 3]) {
+    let mut low = [f32::INFINITY; 3];
+    let mut high = [f32::NEG_INFINITY; 3];
+    for position in positions {
+        for axis in 0..3 {
+            low[axis] = low[axis].min(position[axis]);
+            high[axis] = high[axis].max(position[axis]);
+        }
+    }
+    (low, high)
+}
+
+/// glTF texture coordinates are pairs; further components are dropped.
+fn first_two(uv: &UvBuffer) -> Vec<f32> {
+    uv.values.chunks_exact(uv.components as usize).flat_map(|uv| [uv[0], uv[1]]).collect()
+}
+
+fn container(mut json: Vec<u8>, mut binary: Vec<u8>) -> Result<Vec<u8>> {
+    json.resize(json.len().next_multiple_of(4), b' ');
+    binary.resize(binary.len().next_multiple_of(4), 0);
+    let mut chunks = vec![(JSON_CHUNK, json)];
+    if !binary.is_empty() {
+        chunks.push((BINARY_CHUNK, binary));
+    }
+    let total = HEADER_LENGTH + chunks.iter().map(|(_, bytes)| 8 + bytes.len()).sum::<usize>();
+    let total = u32::try_from(total).context("the .glb would be larger than 4 GiB")?;
+    let mut file = b"glTF".to_vec();
+    file.extend(2u32.to_le_bytes());
+    file.extend(total.to_le_bytes());
+    for (kind, bytes) in chunks {
+        file.extend((bytes.len() as u32).to_le_bytes());
+        file.extend(kind);
+        file.extend(bytes);
+    }
+    Ok(file)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn triangle() -> MeshBuffers {
+        MeshBuffers {
+            positions: vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 2.0, 0.0]],
+            normals: vec![[0.0, 0.0, 1.0]; 3],
+            indices: vec![0, 1, 2],
+            submesh_index_counts: vec![3],
+            ..MeshBuffers::default()
+        }
+    }
+
+    /// The JSON of a .glb, after a look at its frame.
+    fn json_of(file: &[u8]) -> Value {
+        let word = |at: usize| u32::from_le_bytes(file[at..at + 4].try_into().unwrap()) as usize;
+        assert_eq!((&file[..4], word(4), word(8)), (b"glTF".as_slice(), 2, file.len()));
+        assert_eq!(&file[16..20], JSON_CHUNK);
+        serde_json::from_slice(&file[20..20 + word(12)]).unwrap()
+    }
+
+    #[test]
+    fn a_triangle_has_bounds_and_one_primitive() {
+        let json = json_of(&encode("tri", &triangle(), &[Some("red".into())]).unwrap());
+        assert_eq!(json["accessors"][0]["max"], json!([1.0, 2.0, 0.0]));
+        assert_eq!(json["accessors"][0]["count"], 3);
+        assert_eq!(json["meshes"][0]["primitives"].as_array().unwrap().len(), 1);
+        assert_eq!(json["meshes"][0]["primitives"][0]["material"], 0);
+        assert_eq!(json["materials"], json!([{ "name": "red" }]));
+        assert_eq!(json["buffers"][0]["byteLength"], 3 * 12 + 3 * 12 + 3 * 4);
+    }
+
+    #[test]
+    fn submeshes_of_one_material_become_one_primitive() {
+        let mut mesh = triangle();
+        mesh.indices = vec![0, 1, 2, 2, 1, 0, 1, 0, 2];
+        mesh.submesh_index_counts = vec![3, 3, 0, 3];
+        let names = ["a", "b", "c", "a"].map(|name| Some(name.to_string()));
+        let json = json_of(&encode("tri", &mesh, &names).unwrap());
+        let primitives = json["meshes"][0]["primitives"].as_array().unwrap();
+        assert_eq!(primitives.len(), 2);
+        assert_eq!(
+            json["accessors"][primitives[0]["indices"].as_u64().unwrap() as usize]["count"],
+            6
+        );
+    }
+
+    #[test]
+    fn channels_are_numbered_without_gaps_and_cut_to_two_components() {
+        let mut mesh = triangle();
+        mesh.uvs[2] = UvBuffer { components: 3, values: vec![0.5; 9] };
+        let json = json_of(&encode("tri", &mesh, &[]).unwrap());
+        let attributes = &json["meshes"][0]["primitives"][0]["attributes"];
+        let uv = &json["accessors"][attributes["TEXCOORD_0"].as_u64().unwrap() as usize];
+        assert_eq!((uv["type"].as_str(), uv["count"].as_u64()), (Some("VEC2"), Some(3)));
+    }
+
+    #[test]
+    fn a_mesh_without_triangles_is_an_empty_scene() {
+        let json = json_of(&encode("none", &MeshBuffers::default(), &[]).unwrap());
+        assert_eq!(json["scenes"], json!([{}]));
+        assert!(json.get("meshes").is_none());
+    }
+}

@@ -1,0 +1,65 @@
+//! The pictures of a run.
+
+use std::io::Cursor;
+use std::path::Path;
+
+use anyhow::{Context, Result};
+use chamfer::Chamfered;
+use image::{ImageFormat, RgbImage};
+
+use crate::document::Document;
+use crate::preview::{Panel, Placed, before_after, contact_sheet};
+use crate::write;
+
+/// How many models a contact sheet shows: more make a picture that viewers refuse to open, and
+/// all of these are held in memory until it is drawn.
+pub const MOST_ROWS: usize = 24;
+
+/// A model kept for the picture.
+pub struct Portrait {
+    /// What to write under it.
+    pub caption: String,
+    /// As it was read.
+    pub document: Box<dyn Document + Send>,
+    /// `#meshes`.
+    pub chamfered: Vec<Chamfered>,
+}
+
+impl Portrait {
+    fn panel(&self) -> Panel<'_> {
+        let mut panel = Panel { caption: self.caption.clone(), ..Panel::default() };
+        for instance in self.document.instances() {
+            let transform = instance.transform;
+            let before = self.document.meshes().get(instance.mesh);
+            let after = self.chamfered.get(instance.mesh);
+            if let (Some(before), Some(after)) = (before, after) {
+                panel.before.push(Placed { mesh: before.mesh.as_mesh(), transform });
+                panel.after.push(Placed { mesh: after.mesh.as_mesh(), transform });
+            }
+        }
+        panel
+    }
+}
+
+/// Draws the models to a file: one alone, several as a contact sheet.
+///
+/// # Errors
+/// Where the file cannot be written.
+pub fn draw(path: &Path, portraits: &[Portrait]) -> Result<()> {
+    let panels: Vec<Panel> = portraits.iter().map(Portrait::panel).collect();
+    let picture = match &panels[..] {
+        [panel] => before_after(panel),
+        panels => contact_sheet(panels),
+    };
+    write_png(path, &picture)
+}
+
+/// Writes a picture.
+///
+/// # Errors
+/// Where the file cannot be written.
+pub fn write_png(path: &Path, picture: &RgbImage) -> Result<()> {
+    let mut bytes = Cursor::new(Vec::new());
+    picture.write_to(&mut bytes, ImageFormat::Png).context("cannot encode the picture")?;
+    write::alone(path, bytes.into_inner())
+}

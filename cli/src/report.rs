@@ -1,0 +1,287 @@
+//! What became of each file and mesh, for the terminal and as JSON.
+
+use std::fmt;
+use std::path::Path;
+use std::time::Duration;
+
+use anyhow::Result;
+use chamfer::{Chamfered, MeshBuffers, Reason};
+use serde::{Serialize, Serializer};
+
+/// The whole report.
+#[derive(Debug, Serialize)]
+pub struct Report {
+    /// In the order of the inputs.
+    pub files: Vec<FileReport>,
+    /// Sums over all files.
+    pub totals: ReportTotals,
+}
+
+/// What became of one file.
+#[derive(Debug, Serialize)]
+pub struct FileReport {
+    /// The input, as given or found.
+    pub file: String,
+    /// Where its result goes.
+    pub output: String,
+    /// Why there is no result.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub error: Option<String>,
+    /// What else there is to know.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub notes: Vec<String>,
+    /// Its meshes; none where it failed.
+    pub meshes: Vec<MeshReport>,
+}
+
+/// What became of one mesh.
+#[derive(Debug, Serialize)]
+pub struct MeshReport {
+    /// As the file calls it.
+    pub name: String,
+    /// Sizes and verdicts.
+    #[serde(flatten)]
+    pub counts: Counts,
+    /// Mean width as a share (0 to 1) of the width asked for, weighted by edge length.
+    pub mean_width: f32,
+    /// The width asked for, in mesh units.
+    pub width: f32,
+    /// Time in the core.
+    pub milliseconds: f64,
+    /// Length of all hard edges together: the weight of `mean_width` in sums.
+    #[serde(skip)]
+    pub hard_length: f64,
+}
+
+/// What can be counted in a mesh, a file or a whole run.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Counts {
+    /// Triangles of the source.
+    pub triangles_in: u64,
+    /// Triangles of the result.
+    pub triangles_out: u64,
+    /// Vertices of the source.
+    pub vertices_in: u64,
+    /// Vertices of the result.
+    pub vertices_out: u64,
+    /// Hard edges with two sides.
+    pub hard_edges: u64,
+    /// Those at full width.
+    pub chamfered: u64,
+    /// Those chamfered, but narrower somewhere.
+    pub narrowed: u64,
+    /// Those left as they were.
+    pub skipped: Skipped,
+}
+
+/// Hard edges left as they were, by reason. In JSON an object with the names of the reasons.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Skipped(pub [u64; Reason::ALL.len()]);
+
+/// Sums over the files of a report.
+#[derive(Debug, Serialize)]
+pub struct ReportTotals {
+    /// Files tried.
+    pub files: u64,
+    /// Those without a result.
+    pub failed: u64,
+    /// Meshes in the others.
+    pub meshes: u64,
+    /// Sizes and verdicts.
+    #[serde(flatten)]
+    pub counts: Counts,
+    /// Mean width as a share (0 to 1) of the width asked for, weighted by edge length.
+    pub mean_width: f32,
+    /// Time in the core.
+    pub milliseconds: f64,
+}
+
+impl Report {
+    /// Adds up the files.
+    pub fn new(files: Vec<FileReport>) -> Report {
+        let meshes = || files.iter().flat_map(|file| &file.meshes);
+        let totals = ReportTotals {
+            files: files.len() as u64,
+            failed: files.iter().filter(|file| file.error.is_some()).count() as u64,
+            meshes: meshes().count() as u64,
+            counts: Counts::sum(meshes()),
+            mean_width: mean_width(meshes()),
+            milliseconds: round(meshes().map(|mesh| mesh.milliseconds).sum()),
+        };
+        Report { files, totals }
+    }
+
+    /// The report as JSON text.
+    ///
+    /// # Errors
+    /// Where memory runs out.
+    pub fn to_json(&self) -> Result<Vec<u8>> {
+        let mut text = serde_json::to_vec_pretty(self)?;
+        text.push(b'\n');
+        Ok(text)
+    }
+}
+
+impl FileReport {
+    /// A file of which nothing is known yet.
+    pub fn new(input: &Path, output: &Path) -> FileReport {
+        FileReport {
+            file: input.display().to_string(),
+            output: output.display().to_string(),
+            error: None,
+            notes: Vec::new(),
+            meshes: Vec::new(),
+        }
+    }
+}
+
+/// The line for the terminal.
+impl fmt::Display for FileReport {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let counts = Counts::sum(self.meshes.iter());
+        let milliseconds: f64 = self.meshes.iter().map(|mesh| mesh.milliseconds).sum();
+        write!(
+            f,
+            "{} -> {}: {} hard edges: {} chamfered, {} narrowed, {} skipped; \
+             {} -> {} triangles; {milliseconds:.1} ms",
+            self.file,
+            self.output,
+            counts.hard_edges,
+            counts.chamfered,
+            counts.narrowed,
+            counts.skipped.total(),
+            counts.triangles_in,
+            counts.triangles_out,
+        )
+    }
+}
+
+impl MeshReport {
+    /// What the core says of a mesh, and what can be measured on it.
+    pub fn new(name: &str, source: &MeshBuffers, result: &Chamfered, time: Duration) -> MeshReport {
+        let totals = &result.totals;
+        MeshReport {
+            name: name.into(),
+            counts: Counts {
+                triangles_in: source.indices.len() as u64 / 3,
+                triangles_out: result.mesh.indices.len() as u64 / 3,
+                vertices_in: source.positions.len() as u64,
+                vertices_out: result.mesh.positions.len() as u64,
+                hard_edges: totals.hard_edges.into(),
+                chamfered: totals.chamfered.into(),
+                narrowed: totals.narrowed.into(),
+                skipped: Skipped(totals.skipped.map(u64::from)),
+            },
+            mean_width: totals.mean_width,
+            width: result.width,
+            milliseconds: round(time.as_secs_f64() * 1000.0),
+            hard_length: hard_length(source, result),
+        }
+    }
+}
+
+impl Counts {
+    fn sum<'a>(meshes: impl Iterator<Item = &'a MeshReport>) -> Counts {
+        meshes.fold(Counts::default(), |mut sum, MeshReport { counts, .. }| {
+            sum.triangles_in += counts.triangles_in;
+            sum.triangles_out += counts.triangles_out;
+            sum.vertices_in += counts.vertices_in;
+            sum.vertices_out += counts.vertices_out;
+            sum.hard_edges += counts.hard_edges;
+            sum.chamfered += counts.chamfered;
+            sum.narrowed += counts.narrowed;
+            for (total, count) in sum.skipped.0.iter_mut().zip(counts.skipped.0) {
+                *total += count;
+            }
+            sum
+        })
+    }
+}
+
+impl Skipped {
+    /// Edges of all reasons.
+    pub fn total(&self) -> u64 {
+        self.0.iter().sum()
+    }
+}
+
+impl Serialize for Skipped {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let reasons = Reason::ALL.iter().zip(self.0).filter(|(_, count)| *count > 0);
+        serializer.collect_map(reasons.map(|(reason, count)| (reason.name(), count)))
+    }
+}
+
+fn mean_width<'a>(meshes: impl Iterator<Item = &'a MeshReport>) -> f32 {
+    let (sum, length) = meshes.fold((0.0, 0.0), |(sum, length), mesh| {
+        (sum + f64::from(mesh.mean_width) * mesh.hard_length, length + mesh.hard_length)
+    });
+    if length > 0.0 { (sum / length) as f32 } else { 0.0 }
+}
+
+fn hard_length(source: &MeshBuffers, result: &Chamfered) -> f64 {
+    let position = |vertex: u32| source.positions.get(vertex as usize).copied().unwrap_or_default();
+    let length = |[a, b]: [u32; 2]| {
+        let (a, b) = (position(a), position(b));
+        (0..3).map(|axis| f64::from(b[axis] - a[axis]).powi(2)).sum::<f64>().sqrt()
+    };
+    result.verdicts.iter().map(|verdict| length(verdict.vertices)).sum()
+}
+
+/// To whole microseconds: more digits of a time say nothing.
+fn round(milliseconds: f64) -> f64 {
+    (milliseconds * 1000.0).round() / 1000.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn mesh(mean_width: f32, hard_length: f64, skipped: u64) -> MeshReport {
+        let mut counts = Counts { hard_edges: 4, chamfered: 4 - skipped, ..Counts::default() };
+        counts.skipped.0[Reason::NoRoom as usize] = skipped;
+        MeshReport {
+            name: "box".into(),
+            counts,
+            mean_width,
+            width: 0.5,
+            milliseconds: 1.5,
+            hard_length,
+        }
+    }
+
+    fn file(meshes: Vec<MeshReport>) -> FileReport {
+        FileReport { meshes, ..FileReport::new(Path::new("a.obj"), Path::new("b.obj")) }
+    }
+
+    #[test]
+    fn totals_weigh_the_width_by_edge_length() {
+        let report =
+            Report::new(vec![file(vec![mesh(1.0, 3.0, 0)]), file(vec![mesh(0.5, 1.0, 1)])]);
+        assert_eq!(report.totals.mean_width, 0.875);
+        assert_eq!(report.totals.counts.hard_edges, 8);
+        assert_eq!(report.totals.milliseconds, 3.0);
+    }
+
+    #[test]
+    fn json_names_the_reasons_and_keeps_its_order() {
+        let text =
+            String::from_utf8(Report::new(vec![file(vec![mesh(0.5, 1.0, 2)])]).to_json().unwrap());
+        let text = text.unwrap();
+        assert!(text.contains("\"no_room\": 2"), "{text}");
+        assert!(!text.contains("folds") && !text.contains("error"), "{text}");
+        let place = |key: &str| text.find(key).unwrap();
+        assert!(place("\"file\"") < place("\"output\""));
+        assert!(place("\"hard_edges\"") < place("\"chamfered\""));
+        assert!(place("\"files\"") < place("\"totals\""));
+    }
+
+    #[test]
+    fn a_failed_file_is_counted_and_says_why() {
+        let mut failed = file(Vec::new());
+        failed.error = Some("broken".into());
+        let report = Report::new(vec![failed]);
+        assert_eq!(report.totals.failed, 1);
+        assert!(String::from_utf8(report.to_json().unwrap()).unwrap().contains("\"broken\""));
+    }
+}

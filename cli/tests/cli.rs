@@ -1,0 +1,393 @@
+//! Runs the built `chamfer` on files that the tests write.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+const CUBE_OBJ: &str = "\
+# a cube
+mtllib cube.mtl
+o cube
+v 0 0 0
+v 1 0 0
+v 1 1 0
+v 0 1 0
+v 0 0 1
+v 1 0 1
+v 1 1 1
+v 0 1 1
+usemtl top
+f 5 6 7 8
+usemtl sides
+f 4 3 2 1
+f 1 2 6 5
+f 2 3 7 6
+f 3 4 8 7
+f 4 1 5 8
+";
+
+const TRIANGLE_STL: &str = "solid one
+facet normal 0 0 1
+outer loop
+vertex 0 0 0
+vertex 1 0 0
+vertex 0 1 0
+endloop
+endfacet
+endsolid one
+";
+
+/// A .gltf of one triangle, its buffer inside.
+const TRIANGLE_GLTF: &str = r#"{
+"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+"meshes": [{"name": "tri", "primitives": [{"attributes": {"POSITION": 0}}]}],
+"accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+  "min": [0, 0, 0], "max": [1, 1, 0]}],
+"bufferViews": [{"buffer": 0, "byteLength": 36}],
+"buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]
+}"#;
+
+/// A folder in which the command runs.
+struct Folder(TempDir);
+
+impl Folder {
+    fn with(files: &[(&str, &str)]) -> Folder {
+        let folder = Folder(tempfile::tempdir().unwrap());
+        for (name, text) in files {
+            fs::create_dir_all(folder.path(name).parent().unwrap()).unwrap();
+            fs::write(folder.path(name), text).unwrap();
+        }
+        folder
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    fn text(&self, name: &str) -> String {
+        fs::read_to_string(self.path(name)).unwrap()
+    }
+
+    fn json(&self, name: &str) -> Value {
+        serde_json::from_slice(&fs::read(self.path(name)).unwrap()).unwrap()
+    }
+
+    /// Runs `chamfer` with these arguments.
+    fn run(&self, arguments: &str) -> Run {
+        Run(self.command().args(arguments.split(' ')).output().unwrap())
+    }
+
+    fn command(&self) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_chamfer"));
+        command.current_dir(self.0.path());
+        command
+    }
+
+    /// The files in the folder and below, sorted.
+    fn files(&self) -> Vec<String> {
+        let mut files = Vec::new();
+        list(self.0.path(), self.0.path(), &mut files);
+        files.sort();
+        files
+    }
+}
+
+fn list(root: &Path, folder: &Path, files: &mut Vec<String>) {
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            list(root, &path, files);
+        } else {
+            files.push(path.strip_prefix(root).unwrap().to_str().unwrap().replace('\\', "/"));
+        }
+    }
+}
+
+struct Run(Output);
+
+impl Run {
+    #[track_caller]
+    fn exits(self, code: i32) -> Run {
+        assert_eq!(self.0.status.code(), Some(code), "{}{}", self.out(), self.err());
+        self
+    }
+
+    fn out(&self) -> String {
+        String::from_utf8_lossy(&self.0.stdout).into_owned()
+    }
+
+    fn err(&self) -> String {
+        String::from_utf8_lossy(&self.0.stderr).into_owned()
+    }
+}
+
+#[test]
+fn an_obj_stays_an_obj_with_its_materials() {
+    let folder = Folder::with(&[("cube.obj", CUBE_OBJ), ("cube.mtl", "newmtl top\n")]);
+    let run = folder.run("cube.obj -o soft/cube.obj").exits(0);
+    assert!(run.out().starts_with("cube.obj -> soft/cube.obj: "), "{}", run.out());
+    assert_eq!(run.out().lines().count(), 1);
+    assert_eq!(run.err(), "");
+    let text = folder.text("soft/cube.obj");
+    assert!(text.starts_with("# a cube\nv "), "{text}");
+    let order: Vec<&str> = text.lines().filter(|line| line.starts_with(['o', 'u', 'm'])).collect();
+    assert_eq!(order, ["mtllib cube.mtl", "o cube", "usemtl top", "usemtl sides"]);
+    assert_eq!(folder.files(), ["cube.mtl", "cube.obj", "soft/cube.mtl", "soft/cube.obj"]);
+}
+
+#[test]
+fn an_obj_goes_out_as_glb_where_asked() {
+    let folder = Folder::with(&[("cube.obj", CUBE_OBJ)]);
+    folder.run("cube.obj -o cube.glb").exits(0);
+    assert!(fs::read(folder.path("cube.glb")).unwrap().starts_with(b"glTF"));
+}
+
+#[test]
+fn an_stl_goes_out_as_glb_unless_an_stl_is_asked_for() {
+    let folder = Folder::with(&[("a.stl", TRIANGLE_STL)]);
+    folder.run("a.stl").exits(0);
+    assert!(fs::read(folder.path("a.chamfered.glb")).unwrap().starts_with(b"glTF"));
+    folder.run("a.stl -o b.stl").exits(0);
+    assert_eq!(fs::read(folder.path("b.stl")).unwrap().len(), 84 + 50);
+}
+
+#[test]
+fn a_gltf_stays_one_or_becomes_a_glb() {
+    let folder = Folder::with(&[("a.gltf", TRIANGLE_GLTF)]);
+    folder.run("a.gltf -o b.gltf").exits(0);
+    assert_eq!(folder.json("b.gltf")["meshes"][0]["name"], "tri");
+    folder.run("a.gltf -o b.glb").exits(0);
+    folder.run("b.glb -o c.glb").exits(0);
+    assert!(fs::read(folder.path("c.glb")).unwrap().starts_with(b"glTF"));
+    let run = folder.run("a.gltf -o a.obj").exits(2);
+    assert!(run.err().contains(".gltf cannot be written as .obj"), "{}", run.err());
+}
+
+#[test]
+fn one_bad_file_does_not_stop_the_others() {
+    let folder = Folder::with(&[
+        ("in/a/cube.obj", CUBE_OBJ),
+        ("in/bad.obj", "v 0 0 0\nf 1 2 3\n"),
+        ("in/c.stl", TRIANGLE_STL),
+        ("in/notes.txt", "not a model"),
+    ]);
+    let run = folder.run("in -o out --report r.json").exits(1);
+    assert_eq!(run.err(), "in/bad.obj: line 2: vertex 2 of 1 that the file has\n");
+    let lines: Vec<String> =
+        run.out().lines().map(|line| line.chars().take(12).collect()).collect();
+    assert_eq!(lines, ["in/a/cube.ob", "in/c.stl -> "]);
+    let results: Vec<String> =
+        folder.files().into_iter().filter(|file| !file.starts_with("in/")).collect();
+    assert_eq!(results, ["out/a/cube.obj", "out/c.glb", "r.json"]);
+    let report = folder.json("r.json");
+    assert_eq!(report["files"][1]["error"], "line 2: vertex 2 of 1 that the file has");
+    assert_eq!(report["totals"]["failed"], 1);
+}
+
+#[test]
+fn every_kind_of_bad_file_gives_one_line() {
+    let folder = Folder::with(&[
+        ("cut.stl", &TRIANGLE_STL[..100]),
+        ("nan.stl", &TRIANGLE_STL.replace("1 0 0", "nan 0 0")),
+        ("word.obj", "v a b c\n"),
+        ("empty.glb", ""),
+        ("text.gltf", "hello"),
+        ("what.xyz", ""),
+    ]);
+    for name in ["cut.stl", "nan.stl", "word.obj", "empty.glb", "text.gltf", "what.xyz", "gone.obj"]
+    {
+        let run = folder.run(&format!("{name} -o out/")).exits(1);
+        assert_eq!(run.err().lines().count(), 1, "{}", run.err());
+        assert!(run.err().starts_with(&format!("{name}: ")), "{}", run.err());
+        assert_eq!(run.out(), "");
+    }
+    assert_eq!(folder.files().len(), 6);
+}
+
+#[test]
+fn a_header_that_promises_too_much_is_no_reason_to_panic() {
+    let folder = Folder::with(&[]);
+    let mut bytes = vec![0; 80];
+    bytes.extend(u32::MAX.to_le_bytes());
+    fs::write(folder.path("big.stl"), bytes).unwrap();
+    let run = folder.run("big.stl").exits(1);
+    assert!(run.err().contains("announces 4294967295 triangles"), "{}", run.err());
+}
+
+#[test]
+fn the_report_has_the_figures_of_each_mesh() {
+    let folder = Folder::with(&[("cube.obj", CUBE_OBJ)]);
+    folder.run("cube.obj -o out.obj --report sub/r.json --width 0.1").exits(0);
+    let report = folder.json("sub/r.json");
+    assert_eq!(report["files"][0]["file"], "cube.obj");
+    assert_eq!(report["files"][0]["output"], "out.obj");
+    assert!(report["files"][0].get("error").is_none());
+    let mesh = &report["files"][0]["meshes"][0];
+    assert_eq!((&mesh["name"], &mesh["triangles_in"]), (&"cube".into(), &12.into()));
+    for key in
+        ["triangles_out", "vertices_in", "vertices_out", "hard_edges", "chamfered", "narrowed"]
+    {
+        assert!(mesh[key].is_u64(), "{key}");
+        assert!(report["totals"][key].is_u64(), "{key}");
+    }
+    for key in ["mean_width", "width", "milliseconds"] {
+        assert!(mesh[key].is_number(), "{key}");
+    }
+    assert!(mesh["skipped"].is_object());
+}
+
+#[test]
+fn a_model_without_triangles_passes_through() {
+    let text = "# points\nv 0 0 0\nv 1   0 0\np 1 2\n";
+    let folder = Folder::with(&[("points.obj", text)]);
+    let run = folder.run("points.obj -o out.obj").exits(0);
+    assert!(run.err().contains("points.obj: note: there are no triangles"), "{}", run.err());
+    assert_eq!(folder.text("out.obj"), text);
+}
+
+#[test]
+fn nonsense_arguments_exit_with_two_before_any_work() {
+    let folder = Folder::with(&[("a.obj", CUBE_OBJ), ("b/a.obj", CUBE_OBJ)]);
+    let before = folder.files();
+    for arguments in [
+        "",
+        "a.obj --width 1 --width-percent 1",
+        "a.obj --width -1",
+        "a.obj --no-such-thing",
+        "a.obj b/a.obj",
+        "a.obj b/a.obj -o out",
+        "b",
+        "b -o b",
+        "b -o out.glb",
+        "a.obj -o out.xyz",
+        "a.obj -o out.stl",
+        "a.obj --report a.obj",
+    ] {
+        let run = folder.run(arguments).exits(2);
+        assert!(run.err().contains("error: "), "{arguments}: {}", run.err());
+        assert_eq!(folder.files(), before, "{arguments}");
+    }
+}
+
+#[test]
+fn an_input_is_replaced_only_by_name() {
+    let folder = Folder::with(&[("a.obj", CUBE_OBJ)]);
+    folder.run("a.obj -o .").exits(2);
+    assert_eq!(folder.text("a.obj"), CUBE_OBJ);
+    folder.run("a.obj -o a.obj").exits(0);
+    assert_ne!(folder.text("a.obj"), CUBE_OBJ);
+    assert_eq!(folder.files(), ["a.obj"]);
+}
+
+#[test]
+fn results_do_not_depend_on_the_threads() {
+    let folder =
+        Folder::with(&[("in/a.obj", CUBE_OBJ), ("in/b.stl", TRIANGLE_STL), ("in/c.obj", CUBE_OBJ)]);
+    folder.run("in -o one --threads 1").exits(0);
+    folder.run("in -o four --threads 4").exits(0);
+    for name in ["a.obj", "b.glb", "c.obj"] {
+        let read = |run: &str| fs::read(folder.path(run).join(name)).unwrap();
+        assert_eq!(read("one"), read("four"), "{name}");
+    }
+}
+
+#[test]
+fn previews_are_pictures() {
+    let folder = Folder::with(&[("a.obj", CUBE_OBJ), ("b.stl", TRIANGLE_STL)]);
+    folder.run("a.obj -o x.obj --preview one.png").exits(0);
+    folder.run("a.obj b.stl -o out --preview p/two.png").exits(0);
+    let one = image::open(folder.path("one.png")).unwrap();
+    let two = image::open(folder.path("p/two.png")).unwrap();
+    assert!(two.height() > one.height());
+}
+
+#[test]
+fn the_demo_needs_no_file() {
+    let folder = Folder::with(&[]);
+    let run = folder.run("demo -o shown").exits(0);
+    assert!(run.out().starts_with("model"), "{}", run.out());
+    let files = folder.files();
+    assert!(files.contains(&"shown/demo.png".into()), "{files:?}");
+    let ending = |end: &str| files.iter().filter(|file| file.ends_with(end)).count();
+    assert!(ending(".before.glb") > 0);
+    assert_eq!(ending(".before.glb"), ending(".after.glb"));
+}
+
+#[test]
+fn what_is_in_the_way_is_named_and_stays() {
+    let folder = Folder::with(&[("a.obj", CUBE_OBJ), ("file", "kept")]);
+    let run = folder.run("a.obj -o file/a.obj").exits(1);
+    assert!(run.err().starts_with("a.obj: cannot create the folder file: "), "{}", run.err());
+    fs::create_dir(folder.path("taken.obj")).unwrap();
+    fs::create_dir(folder.path("taken.obj/a.obj")).unwrap();
+    let run = folder.run("a.obj -o taken.obj").exits(1);
+    assert!(run.err().contains("a folder is in the way"), "{}", run.err());
+    assert_eq!(folder.files(), ["a.obj", "file"]);
+}
+
+#[cfg(unix)]
+mod on_unix {
+    use super::*;
+    use std::os::unix::fs::PermissionsExt;
+    use std::process::Stdio;
+
+    #[test]
+    fn a_read_only_folder_is_named() {
+        let folder = Folder::with(&[("a.obj", CUBE_OBJ), ("locked/out.obj", "old")]);
+        fs::set_permissions(folder.path("locked"), fs::Permissions::from_mode(0o555)).unwrap();
+        let anyone_may_write = fs::write(folder.path("locked/probe"), "").is_ok();
+        if anyone_may_write {
+            eprintln!("SKIPPED: this user may write to read-only folders");
+            return;
+        }
+        let run = folder.run("a.obj -o locked/out.obj").exits(1);
+        assert!(run.err().contains("cannot write locked/out.obj: permission"), "{}", run.err());
+        assert_eq!(folder.text("locked/out.obj"), "old");
+    }
+
+    #[test]
+    fn a_full_disk_leaves_the_old_file() {
+        let points: String = (0..3000).map(|n| format!("v {n} 0 0\n")).collect();
+        let folder = Folder::with(&[("a.obj", &format!("{points}{CUBE_OBJ}")), ("b.obj", "old")]);
+        // A limit on the size of files fails a write half way, as a full disk does.
+        let script = format!(
+            "trap '' XFSZ; ulimit -f 4; exec {} a.obj -o b.obj",
+            env!("CARGO_BIN_EXE_chamfer")
+        );
+        let mut command = Command::new("sh");
+        let run = Run(command.args(["-c", &script]).current_dir(folder.0.path()).output().unwrap());
+        let run = run.exits(1);
+        assert!(run.err().starts_with("a.obj: cannot write b.obj: "), "{}", run.err());
+        assert_eq!(folder.text("b.obj"), "old");
+        assert_eq!(folder.files(), ["a.obj", "b.obj"]);
+    }
+
+    #[test]
+    fn an_interrupt_exits_with_130_and_leaves_nothing() {
+        let folder = Folder::with(&[]);
+        let pipe = folder.path("endless.obj");
+        assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+        let mut command = folder.command();
+        command.args(["endless.obj", "-o", "out.obj"]).stdout(Stdio::null());
+        let mut child = command.spawn().unwrap();
+        // Opens once the child reads from the other end, and keeps it waiting.
+        let writer = fs::OpenOptions::new().write(true).open(&pipe).unwrap();
+        let kill = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+        assert!(kill.success());
+        assert_eq!(child.wait().unwrap().code(), Some(130));
+        drop(writer);
+        assert_eq!(folder.files(), ["endless.obj"]);
+    }
+
+    #[test]
+    fn a_closed_pipe_is_no_failure() {
+        let folder = Folder::with(&[("a.obj", CUBE_OBJ)]);
+        let mut command = folder.command();
+        let mut child = command.args(["a.obj"]).stdout(Stdio::piped()).spawn().unwrap();
+        drop(child.stdout.take());
+        assert_eq!(child.wait().unwrap().code(), Some(0));
+    }
+}
