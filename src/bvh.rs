@@ -32,7 +32,7 @@ impl Aabb {
         (0..3).all(|axis| self.low[axis] <= other.high[axis] && other.low[axis] <= self.high[axis])
     }
 
-    /// Twice the middle, halved first so that it cannot overflow.
+    /// Halved first, so that it cannot overflow.
     fn middle(&self, axis: usize) -> f32 {
         self.low[axis] / 2.0 + self.high[axis] / 2.0
     }
@@ -42,8 +42,9 @@ struct Node {
     bounds: Aabb,
     /// The node after this one and all below it.
     next: u32,
-    /// Where its boxes stand in `order`, if it is a leaf; empty otherwise.
+    /// The first of its boxes in the order of the tree.
     first: u32,
+    /// How many boxes it has itself: none but in a leaf.
     count: u32,
 }
 
@@ -53,6 +54,8 @@ pub(crate) struct Bvh {
     nodes: Vec<Node>,
     /// `#boxes`: their numbers, leaf by leaf.
     order: Vec<u32>,
+    /// `#boxes`: the boxes themselves, in the same order.
+    boxes: Vec<Aabb>,
 }
 
 impl Bvh {
@@ -63,20 +66,47 @@ impl Bvh {
         if !boxes.is_empty() {
             build(&mut nodes, &mut order, 0, boxes);
         }
-        Bvh { nodes, order }
+        let boxes = order.iter().map(|&number| boxes[number as usize]).collect();
+        Bvh { nodes, order, boxes }
     }
 
-    /// Calls `visit` with the number of each box whose leaf overlaps `bounds`.
-    pub fn visit_overlapping(&self, bounds: &Aabb, mut visit: impl FnMut(u32)) {
-        let mut place = 0;
+    /// Calls `visit` once for each two boxes that have at least a point in common.
+    pub fn visit_overlapping_pairs(&self, mut visit: impl FnMut(u32, u32)) {
+        for leaf in self.nodes.iter().filter(|node| node.count > 0) {
+            let mut visit_places = |a: usize, b: usize| {
+                if self.boxes[a].overlaps(&self.boxes[b]) {
+                    visit(self.order[a], self.order[b]);
+                }
+            };
+            for a in leaf.places() {
+                (a + 1..leaf.places().end).for_each(|b| visit_places(a, b));
+            }
+            // Only leaves behind this one: those before have met it already.
+            self.visit_leaves_behind(leaf, |other| {
+                for a in leaf.places() {
+                    other.places().for_each(|b| visit_places(a, b));
+                }
+            });
+        }
+    }
+
+    /// Calls `visit` for each leaf behind `leaf`, in the order of the tree, that overlaps it.
+    fn visit_leaves_behind(&self, leaf: &Node, mut visit: impl FnMut(&Node)) {
+        let mut place = leaf.next as usize;
         while let Some(node) = self.nodes.get(place) {
-            let overlaps = node.bounds.overlaps(bounds);
-            if overlaps {
-                let leaf = node.first as usize..(node.first + node.count) as usize;
-                self.order[leaf].iter().for_each(|&number| visit(number));
+            let overlaps = node.bounds.overlaps(&leaf.bounds);
+            if overlaps && node.count > 0 {
+                visit(node);
             }
             place = if overlaps { place + 1 } else { node.next as usize };
         }
+    }
+}
+
+impl Node {
+    /// Where its boxes stand in the order of the tree.
+    fn places(&self) -> std::ops::Range<usize> {
+        self.first as usize..(self.first + self.count) as usize
     }
 }
 
@@ -109,28 +139,40 @@ fn longest_axis(bounds: &Aabb) -> usize {
 mod tests {
     use super::*;
 
-    #[test]
-    fn finds_the_boxes_that_overlap() {
-        let boxes: Vec<Aabb> = (0..100)
-            .map(|step| {
-                let x = (step * 37 % 100) as f32;
-                Aabb::around(&[[x, 0.0, 0.0], [x + 0.5, 1.0, 1.0]])
-            })
-            .collect();
-        let bounds = Aabb::around(&[[9.75, 0.5, 0.5], [12.25, 0.5, 0.5]]);
-        let mut found = Vec::new();
-        Bvh::new(&boxes).visit_overlapping(&bounds, |number| {
-            if boxes[number as usize].overlaps(&bounds) {
-                found.push(number * 37 % 100);
-            }
-        });
-        found.sort_unstable();
-        assert_eq!(found, [10, 11, 12]);
+    fn pairs(boxes: &[Aabb]) -> Vec<(u32, u32)> {
+        let mut pairs = Vec::new();
+        Bvh::new(boxes).visit_overlapping_pairs(|a, b| pairs.push((a.min(b), a.max(b))));
+        pairs.sort_unstable();
+        pairs
     }
 
     #[test]
-    fn an_empty_tree_finds_nothing() {
+    fn finds_each_overlapping_pair_once() {
+        let boxes: Vec<Aabb> = (0..200)
+            .map(|step| {
+                let [x, y, z] = [37, 53, 71].map(|stride| (step * stride % 97) as f32);
+                Aabb::around(&[[x, y, z], [x + 20.0, y + 30.0, z + 10.0]])
+            })
+            .collect();
+        let expected: Vec<(u32, u32)> = (0..200u32)
+            .flat_map(|a| (a + 1..200).map(move |b| (a, b)))
+            .filter(|&(a, b)| boxes[a as usize].overlaps(&boxes[b as usize]))
+            .collect();
+        assert!(expected.len() > 100);
+        assert_eq!(pairs(&boxes), expected);
+    }
+
+    #[test]
+    fn boxes_that_touch_overlap() {
+        let [a, b, c] =
+            [0.0, 1.0, 2.5].map(|x| Aabb::around(&[[x, 0.0, 0.0], [x + 1.0, 1.0, 1.0]]));
+        assert_eq!(pairs(&[a, b, c]), [(0, 1)]);
+    }
+
+    #[test]
+    fn equal_boxes_and_no_boxes() {
         let point = Aabb::around(&[[0.0; 3]]);
-        Bvh::new(&[]).visit_overlapping(&point, |_| panic!("nothing is there"));
+        assert_eq!(pairs(&[point; 30]).len(), 30 * 29 / 2);
+        assert_eq!(pairs(&[]), []);
     }
 }

@@ -2,7 +2,9 @@
 
 use chamfer::check::{Element, Facts, Findings, Rule, assert_sound, check, compare};
 use chamfer::shapes::{self, Touch};
-use chamfer::{Blend, Chamfered, MeshBuffers, TriangleKind, TriangleSource, Verify, VertexSource};
+use chamfer::{
+    Blend, Chamfered, MeshBuffers, Totals, TriangleKind, TriangleSource, Verify, VertexSource,
+};
 
 /// A mesh as if chamfered without any change.
 fn unchanged(mesh: &MeshBuffers) -> Chamfered {
@@ -24,7 +26,7 @@ fn unchanged(mesh: &MeshBuffers) -> Chamfered {
 fn add_triangle(after: &mut Chamfered, vertices: [u32; 3]) {
     after.mesh.indices.extend(vertices);
     *after.mesh.submesh_index_counts.last_mut().unwrap() += 3;
-    after.triangle_sources.push(TriangleSource { kind: TriangleKind::Edge, index: 0 });
+    after.triangle_sources.push(TriangleSource { kind: TriangleKind::Corner, index: 0 });
 }
 
 /// Moves all vertices at one position.
@@ -288,6 +290,31 @@ fn provenance_that_points_nowhere() {
         broken(&shapes::cube(1.0), |after| after.vertex_sources.truncate(20)),
         [Rule::Origins]
     );
+}
+
+#[test]
+fn a_new_triangle_of_an_edge_that_does_not_exist() {
+    let before = shapes::plain_cube(1.0);
+    let mut after = chamfered_cube(&before);
+    after.triangle_sources[12].kind = TriangleKind::Edge;
+    let found = check(&before.as_mesh(), &after, Verify::Full);
+    assert_eq!(found.breaches[0].first, [Element::Triangle(12)]);
+    assert_eq!(found.breaches[0].rule, Rule::Verdicts);
+}
+
+#[test]
+fn totals_that_are_not_those_of_the_verdicts() {
+    type Plant = fn(&mut Totals);
+    let plants: [Plant; 4] = [
+        |totals| totals.hard_edges = 1,
+        |totals| totals.chamfered = 1,
+        |totals| totals.narrowed = 1,
+        |totals| totals.skipped[3] = 1,
+    ];
+    for plant in plants {
+        let rules = broken(&shapes::cube(1.0), |after| plant(&mut after.totals));
+        assert_eq!(rules, [Rule::Verdicts]);
+    }
 }
 
 #[test]

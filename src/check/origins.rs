@@ -2,7 +2,7 @@
 
 use super::rules::{Element, Findings, Rule};
 use crate::mesh::Mesh;
-use crate::report::{Blend, Chamfered, TriangleKind, TriangleSource, VertexSource};
+use crate::report::{Blend, Chamfered, Outcome, TriangleKind, TriangleSource, VertexSource};
 
 /// How far the weights of a blend may sum up past 1: many roundings, but no real error.
 const WEIGHT_SUM_TOLERANCE: f32 = 1e-3;
@@ -34,6 +34,7 @@ impl<'a> Origins<'a> {
                 findings.note(Rule::Origins, Element::Vertex(vertex as u32));
             }
         }
+        check_verdicts(before, after, findings);
         findings.is_sound().then_some(Origins { triangles, vertices: Some(&after.vertex_sources) })
     }
 
@@ -67,6 +68,32 @@ impl<'a> Origins<'a> {
             None if vertex < holds.len() => holds[vertex],
             None => holds.iter().all(|&holds| holds),
         }
+    }
+}
+
+/// Each new triangle names a verdict or source vertex that exists, and the totals are those of the
+/// verdicts.
+fn check_verdicts(before: &Mesh, after: &Chamfered, findings: &mut Findings) {
+    for (triangle, source) in (0u32..).zip(&after.triangle_sources) {
+        let count = match source.kind {
+            TriangleKind::Source => before.indices.len() / 3,
+            TriangleKind::Edge => after.verdicts.len(),
+            TriangleKind::Corner => before.positions.len(),
+        };
+        if source.index as usize >= count {
+            findings.note(Rule::Verdicts, Element::Triangle(triangle));
+        }
+    }
+    let with = |outcome: Outcome| {
+        after.verdicts.iter().filter(|verdict| verdict.outcome == outcome).count() as u32
+    };
+    let totals = &after.totals;
+    let add_up = totals.hard_edges as usize == after.verdicts.len()
+        && totals.chamfered == with(Outcome::Full)
+        && totals.narrowed == with(Outcome::Narrowed)
+        && totals.skipped.iter().sum::<u32>() == with(Outcome::Skipped);
+    if !add_up {
+        findings.note(Rule::Verdicts, Element::Mesh);
     }
 }
 

@@ -19,6 +19,9 @@ pub enum Rule {
     /// No source vertex is missing, every source triangle is there once, in its submesh and in
     /// its order, and the provenance points into the source.
     Origins,
+    /// New triangles name verdicts and source vertices that exist, and the totals are those of the
+    /// verdicts.
+    Verdicts,
     /// Normals are unit length where the source's are.
     Normals,
     /// Tangents are unit length, orthogonal to the normal and of handedness +1 or -1 where the
@@ -55,6 +58,7 @@ impl Rule {
             Rule::IndexRange => "index out of range",
             Rule::Finite => "not finite",
             Rule::Origins => "origins",
+            Rule::Verdicts => "verdicts",
             Rule::Normals => "normal not unit",
             Rule::Tangents => "tangent not right",
             Rule::Colors => "colour out of range",
