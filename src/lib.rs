@@ -8,6 +8,8 @@
 pub mod shapes;
 
 mod error;
+#[allow(unsafe_code)]
+mod ffi;
 mod mesh;
 mod options;
 mod pipeline;
