@@ -30,15 +30,14 @@ pub fn with_normals(mesh: &Mesh, angle_degrees: f32) -> Result<Chamfered, Failur
 
 /// `split_by_angle` takes positions and indices on trust.
 fn check_geometry(mesh: &Mesh) -> Result<(), Error> {
-    let expected = mesh.submesh_index_counts.iter().map(|&count| u64::from(count)).sum();
+    let counts = mesh.submesh_index_counts;
+    if let Some(submesh) = counts.iter().position(|count| count % 3 != 0) {
+        return Err(Error::IndexCount { submesh: submesh as u32, count: counts[submesh] });
+    }
+    let expected = counts.iter().map(|&count| u64::from(count)).sum();
     let found = mesh.indices.len() as u64;
     if expected != found {
         return Err(Error::IndexTotal { expected, found });
-    }
-    let mut counts = mesh.submesh_index_counts.iter();
-    if let Some(submesh) = counts.position(|count| count % 3 != 0) {
-        let count = mesh.submesh_index_counts[submesh];
-        return Err(Error::IndexCount { submesh: submesh as u32, count });
     }
     let vertices = mesh.positions.len() as u32;
     if let Some(place) = mesh.indices.iter().position(|&index| index >= vertices) {

@@ -102,8 +102,7 @@ static int is_closed(const chamfer_mesh *mesh) {
 
 /* Each vertex stays on its face, and moves away from the two others by the width. */
 static int is_pulled(const chamfer_mesh *mesh, float width) {
-    uint32_t v;
-    int axis;
+    uint32_t v, axis;
     for (v = 0; v < mesh->vertex_count; ++v) {
         for (axis = 0; axis < 3; ++axis) {
             const int on_face = fabsf(mesh->normals[3 * v + axis]) > 0.5f;
