@@ -13,6 +13,8 @@ mod bvh;
 mod corners;
 mod edges;
 mod error;
+#[allow(unsafe_code)]
+mod ffi;
 mod ids;
 mod intersect;
 mod limits;

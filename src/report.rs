@@ -22,6 +22,7 @@ pub struct Chamfered {
 
 /// A weighted mean of up to three source vertices. Unused places have weight 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
 pub struct Blend {
     /// Source vertex indices.
     pub vertices: [u32; 3],
@@ -38,6 +39,7 @@ impl Blend {
 
 /// Where an output vertex came from.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
 pub struct VertexSource {
     /// For what belongs to the surface: position, normal, skin weights, morph targets.
     pub surface: Blend,
@@ -47,6 +49,7 @@ pub struct VertexSource {
 
 /// What an output triangle came from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(C)]
 pub struct TriangleSource {
     /// What the index counts.
     pub kind: TriangleKind,
@@ -56,17 +59,19 @@ pub struct TriangleSource {
 
 /// What [`TriangleSource::index`] counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u32)]
 pub enum TriangleKind {
     /// The triangle is the source triangle of that index.
-    Source,
+    Source = 0,
     /// The triangle chamfers the hard edge whose verdict has that index.
-    Edge,
+    Edge = 1,
     /// The triangle fills the corner at the source vertex of that index.
-    Corner,
+    Corner = 2,
 }
 
 /// What became of one hard edge.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
 pub struct EdgeVerdict {
     /// The source vertices at its ends, on the side of the first triangle that uses it.
     pub vertices: [u32; 2],
@@ -81,36 +86,38 @@ pub struct EdgeVerdict {
 
 /// What became of a hard edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u32)]
 pub enum Outcome {
     /// Chamfered at the width asked for (an end inside a smooth area tapers to a point).
-    Full,
+    Full = 0,
     /// Chamfered, but narrower somewhere.
-    Narrowed,
+    Narrowed = 1,
     /// Left as it was.
-    Skipped,
+    Skipped = 2,
 }
 
 /// Why a hard edge is narrower than asked for, or not chamfered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[repr(u32)]
 pub enum Reason {
     /// It has full width.
-    None,
+    None = 0,
     /// A face beside it has no room: it would fold or lose its area.
-    NoRoom,
+    NoRoom = 1,
     /// The strip, or the fill at an end, would fold.
-    Folds,
+    Folds = 2,
     /// An end lies in a corner so sharp that the full distance would shoot out as a spike.
-    Miter,
+    Miter = 3,
     /// The chamfer would cut through the mesh.
-    Intersects,
+    Intersects = 4,
     /// Nothing can be pulled at either end: both lie inside smooth areas or on borders.
-    NoEnd,
+    NoEnd = 5,
     /// The faces beside it lie back to back.
-    ZeroThickness,
+    ZeroThickness = 6,
     /// A triangle beside it has no area.
-    NoArea,
+    NoArea = 7,
     /// The width is too small for the precision of the positions here.
-    TooFine,
+    TooFine = 8,
 }
 
 impl Reason {

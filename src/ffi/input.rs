@@ -1,0 +1,199 @@
+//! From C pointers to the core's mesh and options.
+//!
+//! Only what concerns pointers, sizes and numbered options is checked here; what the values mean
+//! is the core's to check.
+
+use std::{array, ptr, slice};
+
+use super::sized::{self, StatesSize, check_pointer};
+use super::status::Failure;
+use super::types::*;
+use crate::{ChamferSubmesh, Error, Mesh, Options, UV_CHANNELS, Uv, Verify, Width};
+
+const _: () = assert!(CHAMFER_UV_CHANNELS == UV_CHANNELS);
+
+/// Borrows a caller's mesh.
+///
+/// # Safety
+/// `mesh` is NULL, misaligned, or points to a `chamfer_mesh` whose arrays hold what its counts
+/// say, unchanged for `'a`.
+pub unsafe fn borrow_mesh<'a>(mesh: *const chamfer_mesh) -> Result<Mesh<'a>, Failure> {
+    // SAFETY: as this function's, here and for each array below.
+    let mesh = unsafe { sized::read(mesh, "mesh") }?;
+    let vertices = mesh.vertex_count as usize;
+    unsafe {
+        Ok(Mesh {
+            positions: required(mesh.positions.cast(), vertices, "mesh->positions")?,
+            normals: optional(mesh.normals.cast(), vertices, "mesh->normals")?,
+            tangents: optional(mesh.tangents.cast(), vertices, "mesh->tangents")?,
+            colors: optional(mesh.colors.cast(), vertices, "mesh->colors")?,
+            uvs: borrow_uvs(&mesh.uvs, vertices)?,
+            indices: required(mesh.indices, mesh.index_count as usize, "mesh->indices")?,
+            submesh_index_counts: required(
+                mesh.submesh_index_counts,
+                mesh.submesh_count as usize,
+                "mesh->submesh_index_counts",
+            )?,
+        })
+    }
+}
+
+/// # Safety
+/// Each present channel holds `#vertices by components` floats, unchanged for `'a`.
+unsafe fn borrow_uvs<'a>(
+    uvs: &[chamfer_uv; CHAMFER_UV_CHANNELS],
+    vertices: usize,
+) -> Result<[Uv<'a>; UV_CHANNELS], Failure> {
+    let mut borrowed = [Uv::default(); UV_CHANNELS];
+    for (channel, (uv, slot)) in uvs.iter().zip(&mut borrowed).enumerate() {
+        let components = uv.components;
+        // Checked before there is a slice, as its length depends on it.
+        if !matches!(components, 0 | 2..=4) {
+            return Err(Error::UvComponents { channel: channel as u32, components }.into());
+        }
+        if components > 0 {
+            let name = format!("mesh->uvs[{channel}].values");
+            // A count past the address space saturates, and is refused like any such count.
+            let count = vertices.saturating_mul(components as usize);
+            // SAFETY: as this function's.
+            let values = unsafe { required(uv.values, count, &name) }?;
+            *slot = Uv { components, values };
+        }
+    }
+    Ok(borrowed)
+}
+
+/// An array that must be there unless it has no elements.
+///
+/// # Safety
+/// Where the pointer passes the checks, it points to `count` elements, unchanged for `'a`.
+unsafe fn required<'a, T>(pointer: *const T, count: usize, name: &str) -> Result<&'a [T], Failure> {
+    if count == 0 {
+        return Ok(&[]);
+    }
+    check_pointer(pointer, name)?;
+    let bytes = count.checked_mul(size_of::<T>()).filter(|&bytes| bytes <= isize::MAX as usize);
+    if bytes.and_then(|bytes| pointer.addr().checked_add(bytes)).is_none() {
+        return Err(Failure::new(
+            CHAMFER_STATUS_COUNT_OVERFLOW,
+            format!(
+                "{name} with {count} elements would not fit the address space: check the count"
+            ),
+        ));
+    }
+    // SAFETY: not NULL, aligned, within the address space, and the caller vouches for the rest.
+    Ok(unsafe { slice::from_raw_parts(pointer, count) })
+}
+
+/// An array that is absent where it is NULL.
+///
+/// # Safety
+/// As [`required`].
+unsafe fn optional<'a, T>(pointer: *const T, count: usize, name: &str) -> Result<&'a [T], Failure> {
+    if pointer.is_null() {
+        return Ok(&[]);
+    }
+    // SAFETY: as this function's.
+    unsafe { required(pointer, count, name) }
+}
+
+/// Reads a caller's options; NULL stands for the defaults.
+///
+/// # Safety
+/// `options` is NULL, misaligned, or points to a `chamfer_options` that states its size.
+pub unsafe fn read_options(options: *const chamfer_options) -> Result<Options, Failure> {
+    if options.is_null() {
+        return Ok(Options::default());
+    }
+    // SAFETY: as this function's.
+    let options = unsafe { sized::read(options, "options") }?;
+    Ok(Options {
+        width: match options.width_unit {
+            CHAMFER_WIDTH_MESH_UNITS => Width::Units(options.width),
+            CHAMFER_WIDTH_PERCENT => Width::PercentOfExtent(options.width),
+            other => return Err(bad_option("width_unit", other)),
+        },
+        verify: match options.verify {
+            CHAMFER_VERIFY_FAST => Verify::Fast,
+            CHAMFER_VERIFY_FULL => Verify::Full,
+            other => return Err(bad_option("verify", other)),
+        },
+        chamfer_submesh: match options.submesh_mode {
+            CHAMFER_SUBMESH_OWNER => ChamferSubmesh::Owner,
+            CHAMFER_SUBMESH_OWN => ChamferSubmesh::Own,
+            CHAMFER_SUBMESH_GIVEN => ChamferSubmesh::Given(options.submesh),
+            other => return Err(bad_option("submesh_mode", other)),
+        },
+        threads: options.threads,
+    })
+}
+
+fn bad_option(field: &str, value: u32) -> Failure {
+    Failure::new(
+        CHAMFER_STATUS_BAD_OPTION,
+        format!("options->{field} is {value}: give one of the constants that chamfer.h lists"),
+    )
+}
+
+// SAFETY: numbers and pointers only, the size first.
+unsafe impl StatesSize for chamfer_mesh {
+    const SIZES: &'static [usize] = &[size_of::<chamfer_mesh>()];
+
+    fn defaults() -> Self {
+        chamfer_mesh {
+            struct_size: size_of::<chamfer_mesh>() as u32,
+            vertex_count: 0,
+            positions: ptr::null(),
+            normals: ptr::null(),
+            tangents: ptr::null(),
+            colors: ptr::null(),
+            uvs: array::from_fn(|_| chamfer_uv { components: 0, values: ptr::null() }),
+            submesh_count: 0,
+            index_count: 0,
+            submesh_index_counts: ptr::null(),
+            indices: ptr::null(),
+        }
+    }
+}
+
+// SAFETY: numbers only, the size first.
+unsafe impl StatesSize for chamfer_options {
+    const SIZES: &'static [usize] = &[size_of::<chamfer_options>()];
+
+    fn defaults() -> Self {
+        let options = Options::default();
+        let (width, width_unit) = match options.width {
+            Width::Units(width) => (width, CHAMFER_WIDTH_MESH_UNITS),
+            Width::PercentOfExtent(percent) => (percent, CHAMFER_WIDTH_PERCENT),
+        };
+        let (submesh_mode, submesh) = match options.chamfer_submesh {
+            ChamferSubmesh::Owner => (CHAMFER_SUBMESH_OWNER, 0),
+            ChamferSubmesh::Own => (CHAMFER_SUBMESH_OWN, 0),
+            ChamferSubmesh::Given(submesh) => (CHAMFER_SUBMESH_GIVEN, submesh),
+        };
+        chamfer_options {
+            struct_size: size_of::<chamfer_options>() as u32,
+            width,
+            width_unit,
+            verify: match options.verify {
+                Verify::Fast => CHAMFER_VERIFY_FAST,
+                Verify::Full => CHAMFER_VERIFY_FULL,
+            },
+            submesh_mode,
+            submesh,
+            threads: options.threads,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_defaults_are_those_of_the_core() {
+        let defaults = chamfer_options::defaults();
+        // SAFETY: the struct states its size.
+        assert_eq!(unsafe { read_options(&defaults) }.unwrap(), Options::default());
+    }
+}

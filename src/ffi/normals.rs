@@ -1,0 +1,97 @@
+//! Normals by smoothing angle for a caller's whole mesh: every stream follows its split vertices.
+
+use super::status::Failure;
+use super::types::CHAMFER_STATUS_BAD_ANGLE;
+use crate::{
+    Blend, Chamfered, Error, Mesh, MeshBuffers, Smoothed, Stream, TriangleKind, TriangleSource, Uv,
+    UvBuffer, VertexSource, split_by_angle,
+};
+
+/// The mesh with new normals, its vertices split where they differ, and where each came from.
+pub fn with_normals(mesh: &Mesh, angle_degrees: f32) -> Result<Chamfered, Failure> {
+    if !(0.0..=180.0).contains(&angle_degrees) {
+        return Err(Failure::new(
+            CHAMFER_STATUS_BAD_ANGLE,
+            format!("the smoothing angle is {angle_degrees}: give 0 to 180 degrees"),
+        ));
+    }
+    check_geometry(mesh)?;
+    let smoothed = split_by_angle(mesh.positions, mesh.indices, angle_degrees);
+    let triangles = smoothed.indices.len() as u32 / 3;
+    Ok(Chamfered {
+        vertex_sources: smoothed.source_of.iter().map(|&v| copy_of(v)).collect(),
+        triangle_sources: (0..triangles)
+            .map(|index| TriangleSource { kind: TriangleKind::Source, index })
+            .collect(),
+        mesh: gather(mesh, smoothed),
+        ..Chamfered::default()
+    })
+}
+
+/// `split_by_angle` takes positions and indices on trust.
+fn check_geometry(mesh: &Mesh) -> Result<(), Error> {
+    let counts = mesh.submesh_index_counts;
+    if let Some(submesh) = counts.iter().position(|count| count % 3 != 0) {
+        return Err(Error::IndexCount { submesh: submesh as u32, count: counts[submesh] });
+    }
+    let expected = counts.iter().map(|&count| u64::from(count)).sum();
+    let found = mesh.indices.len() as u64;
+    if expected != found {
+        return Err(Error::IndexTotal { expected, found });
+    }
+    let vertices = mesh.positions.len() as u32;
+    if let Some(place) = mesh.indices.iter().position(|&index| index >= vertices) {
+        return Err(Error::IndexRange {
+            place: place as u32,
+            index: mesh.indices[place],
+            vertices,
+        });
+    }
+    let mut positions = mesh.positions.iter();
+    match positions.position(|position| !position.iter().all(|value| value.is_finite())) {
+        Some(vertex) => Err(Error::NotFinite { stream: Stream::Positions, vertex: vertex as u32 }),
+        None => Ok(()),
+    }
+}
+
+fn copy_of(vertex: u32) -> VertexSource {
+    VertexSource { surface: Blend::one(vertex), chart: Blend::one(vertex) }
+}
+
+fn gather(mesh: &Mesh, smoothed: Smoothed) -> MeshBuffers {
+    let source_of = &smoothed.source_of;
+    MeshBuffers {
+        positions: gather_stream(mesh.positions, source_of, 1),
+        tangents: gather_stream(mesh.tangents, source_of, 1),
+        colors: gather_stream(mesh.colors, source_of, 1),
+        uvs: mesh.uvs.map(|uv| gather_uv(uv, source_of)),
+        normals: smoothed.normals,
+        indices: smoothed.indices,
+        submesh_index_counts: mesh.submesh_index_counts.to_vec(),
+    }
+}
+
+fn gather_uv(uv: Uv, source_of: &[u32]) -> UvBuffer {
+    let values = gather_stream(uv.values, source_of, uv.components as usize);
+    UvBuffer { components: uv.components, values }
+}
+
+/// `source_of: #vertices`; the values are `#source vertices by width`, or none.
+fn gather_stream<T: Copy>(values: &[T], source_of: &[u32], width: usize) -> Vec<T> {
+    if values.is_empty() {
+        return Vec::new();
+    }
+    let rows = source_of.iter().flat_map(|&v| &values[v as usize * width..][..width]);
+    rows.copied().collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn streams_follow_their_vertices() {
+        assert_eq!(gather_stream(&[1, 2, 3, 4], &[1, 0, 1], 2), [3, 4, 1, 2, 3, 4]);
+        assert_eq!(gather_stream(&[0; 0], &[1, 0, 1], 2), [0; 0]);
+    }
+}

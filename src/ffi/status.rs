@@ -1,0 +1,128 @@
+//! From what went wrong to the status, element and message that C callers see.
+
+use std::any::Any;
+use std::ffi::CStr;
+
+use super::types::*;
+use crate::Error;
+
+/// Why an export returns something else than `CHAMFER_STATUS_OK`.
+#[derive(Debug)]
+pub struct Failure {
+    /// One of `CHAMFER_STATUS_*`.
+    pub status: i32,
+    /// What the status says it counts, or `CHAMFER_NO_ELEMENT`.
+    pub element: u32,
+    /// The element, the rule broken, and what to do.
+    pub message: String,
+}
+
+impl Failure {
+    /// A failure that concerns no single element.
+    pub fn new(status: i32, message: String) -> Failure {
+        Failure { status, element: CHAMFER_NO_ELEMENT, message }
+    }
+
+    /// A panic that reached the border.
+    pub fn from_panic(payload: &(dyn Any + Send)) -> Failure {
+        let what = payload
+            .downcast_ref::<&str>()
+            .copied()
+            .or_else(|| payload.downcast_ref::<String>().map(String::as_str))
+            .unwrap_or("unknown fault");
+        Failure::new(
+            CHAMFER_STATUS_INTERNAL,
+            format!("internal fault, please report it with the mesh that shows it: {what}"),
+        )
+    }
+}
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Failure {
+        let (status, element) = status_and_element(&error);
+        Failure { status, element, message: error.to_string() }
+    }
+}
+
+fn status_and_element(error: &Error) -> (i32, u32) {
+    const NONE: u32 = CHAMFER_NO_ELEMENT;
+    match *error {
+        Error::MissingNormals => (CHAMFER_STATUS_MISSING_NORMALS, NONE),
+        Error::StreamLength { .. } => (CHAMFER_STATUS_STREAM_LENGTH, NONE),
+        Error::UvComponents { channel, .. } => (CHAMFER_STATUS_UV_COMPONENTS, channel),
+        Error::NotFinite { vertex, .. } => (CHAMFER_STATUS_NOT_FINITE, vertex),
+        Error::IndexTotal { .. } => (CHAMFER_STATUS_INDEX_TOTAL, NONE),
+        Error::IndexCount { submesh, .. } => (CHAMFER_STATUS_INDEX_COUNT, submesh),
+        Error::IndexRange { place, .. } => (CHAMFER_STATUS_INDEX_RANGE, place),
+        Error::BadWidth(_) => (CHAMFER_STATUS_BAD_WIDTH, NONE),
+        Error::SubmeshRange { submesh, .. } => (CHAMFER_STATUS_SUBMESH_RANGE, submesh),
+        Error::TooLarge => (CHAMFER_STATUS_TOO_LARGE, NONE),
+        Error::OutOfMemory => (CHAMFER_STATUS_OUT_OF_MEMORY, NONE),
+        Error::Cancelled => (CHAMFER_STATUS_CANCELLED, NONE),
+    }
+}
+
+/// What a status means, in a few words.
+pub fn status_text(status: i32) -> &'static CStr {
+    match status {
+        CHAMFER_STATUS_OK => c"ok",
+        CHAMFER_STATUS_CANCELLED => c"cancelled by the progress callback",
+        CHAMFER_STATUS_NULL_POINTER => c"a required pointer is NULL",
+        CHAMFER_STATUS_MISALIGNED => c"a pointer is misaligned",
+        CHAMFER_STATUS_STRUCT_SIZE => c"a struct_size is unknown",
+        CHAMFER_STATUS_COUNT_OVERFLOW => c"a count does not fit the address space",
+        CHAMFER_STATUS_BAD_WIDTH => c"the width is negative or not finite",
+        CHAMFER_STATUS_BAD_OPTION => c"an option holds an unknown value",
+        CHAMFER_STATUS_SUBMESH_RANGE => c"the submesh for chamfers does not exist",
+        CHAMFER_STATUS_BAD_ANGLE => c"the angle is not between 0 and 180 degrees",
+        CHAMFER_STATUS_MISSING_NORMALS => c"the mesh has no normals",
+        CHAMFER_STATUS_STREAM_LENGTH => c"a stream has the wrong length",
+        CHAMFER_STATUS_UV_COMPONENTS => c"a UV channel is not 2 to 4 wide",
+        CHAMFER_STATUS_NOT_FINITE => c"a value is infinite or not a number",
+        CHAMFER_STATUS_INDEX_TOTAL => c"the submesh index counts do not add up",
+        CHAMFER_STATUS_INDEX_COUNT => c"an index count is not a multiple of three",
+        CHAMFER_STATUS_INDEX_RANGE => c"an index points past the last vertex",
+        CHAMFER_STATUS_TOO_LARGE => c"the result does not fit 32-bit indices",
+        CHAMFER_STATUS_OUT_OF_MEMORY => c"out of memory",
+        CHAMFER_STATUS_INTERNAL => c"internal fault",
+        _ => c"unknown status",
+    }
+}
+
+/// A reason's short name for reports, as in `Reason::name`.
+pub fn reason_text(reason: u32) -> &'static CStr {
+    match reason {
+        CHAMFER_REASON_NONE => c"none",
+        CHAMFER_REASON_NO_ROOM => c"no_room",
+        CHAMFER_REASON_FOLDS => c"folds",
+        CHAMFER_REASON_MITER => c"miter",
+        CHAMFER_REASON_INTERSECTS => c"intersects",
+        CHAMFER_REASON_NO_END => c"no_end",
+        CHAMFER_REASON_ZERO_THICKNESS => c"zero_thickness",
+        CHAMFER_REASON_NO_AREA => c"no_area",
+        CHAMFER_REASON_TOO_FINE => c"too_fine",
+        _ => c"unknown_reason",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Reason, Stream};
+
+    #[test]
+    fn every_reason_has_the_name_of_the_core() {
+        for reason in Reason::ALL {
+            assert_eq!(reason_text(reason as u32).to_str(), Ok(reason.name()));
+        }
+        assert_eq!(reason_text(Reason::ALL.len() as u32), c"unknown_reason");
+    }
+
+    #[test]
+    fn an_error_keeps_its_element_and_words() {
+        let error = Error::NotFinite { stream: Stream::Uv(2), vertex: 17 };
+        let failure = Failure::from(error);
+        assert_eq!((failure.status, failure.element), (CHAMFER_STATUS_NOT_FINITE, 17));
+        assert_eq!(failure.message, error.to_string());
+    }
+}

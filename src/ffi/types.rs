@@ -1,0 +1,269 @@
+//! The vocabulary of the C header: constants and structs, free of the rest of the crate.
+//!
+//! Names are those of the header, so that both sides search for the same word. Structs hold
+//! fixed-width numbers and pointers only. A struct that callers fill starts with its own size and
+//! grows at its end; the others are array elements and never change within one ABI version.
+
+#![allow(non_camel_case_types)]
+
+use std::ffi::{c_char, c_void};
+
+/// The version of this interface that the header describes. A program checks that
+/// `chamfer_abi_version` gives the same before it calls anything else.
+pub const CHAMFER_ABI_VERSION: u32 = 1;
+
+/// The call did what was asked.
+pub const CHAMFER_STATUS_OK: i32 = 0;
+/// The progress callback asked to stop.
+pub const CHAMFER_STATUS_CANCELLED: i32 = 1;
+
+/// A pointer that is needed is NULL.
+pub const CHAMFER_STATUS_NULL_POINTER: i32 = 100;
+/// A pointer is not aligned for what it points to.
+pub const CHAMFER_STATUS_MISALIGNED: i32 = 101;
+/// A `struct_size` is no size that this library knows, or fields that it does not know are set.
+pub const CHAMFER_STATUS_STRUCT_SIZE: i32 = 102;
+/// A count asks for an array that does not fit the address space.
+pub const CHAMFER_STATUS_COUNT_OVERFLOW: i32 = 103;
+/// The width is negative, infinite or not a number.
+pub const CHAMFER_STATUS_BAD_WIDTH: i32 = 104;
+/// An option holds none of its constants.
+pub const CHAMFER_STATUS_BAD_OPTION: i32 = 105;
+/// The submesh that chamfers are to go to does not exist. Element: that submesh.
+pub const CHAMFER_STATUS_SUBMESH_RANGE: i32 = 106;
+/// The angle is not between 0 and 180 degrees.
+pub const CHAMFER_STATUS_BAD_ANGLE: i32 = 107;
+
+/// The mesh has no normals.
+pub const CHAMFER_STATUS_MISSING_NORMALS: i32 = 200;
+/// A stream has another length than the positions.
+pub const CHAMFER_STATUS_STREAM_LENGTH: i32 = 201;
+/// A UV channel is neither absent nor 2 to 4 wide. Element: the channel.
+pub const CHAMFER_STATUS_UV_COMPONENTS: i32 = 202;
+/// A value is infinite or not a number. Element: the vertex.
+pub const CHAMFER_STATUS_NOT_FINITE: i32 = 203;
+/// The submesh index counts do not add up to the index count.
+pub const CHAMFER_STATUS_INDEX_TOTAL: i32 = 204;
+/// A submesh's index count is not a multiple of three. Element: the submesh.
+pub const CHAMFER_STATUS_INDEX_COUNT: i32 = 205;
+/// An index points past the last vertex. Element: its place among the indices.
+pub const CHAMFER_STATUS_INDEX_RANGE: i32 = 206;
+
+/// The result would not fit 32-bit indices.
+pub const CHAMFER_STATUS_TOO_LARGE: i32 = 300;
+/// Memory for the result could not be had.
+pub const CHAMFER_STATUS_OUT_OF_MEMORY: i32 = 301;
+
+/// A fault of this library, caught at its border: please report it.
+pub const CHAMFER_STATUS_INTERNAL: i32 = 900;
+
+/// The `element` of an error that concerns no single element.
+pub const CHAMFER_NO_ELEMENT: u32 = 0xFFFF_FFFF;
+
+/// How many bytes an error message has room for, the final NUL included.
+pub const CHAMFER_MESSAGE_SIZE: usize = 256;
+
+/// How many UV channels a mesh has room for.
+pub const CHAMFER_UV_CHANNELS: usize = 8;
+
+/// `width_unit`: the width is in mesh units.
+pub const CHAMFER_WIDTH_MESH_UNITS: u32 = 0;
+/// `width_unit`: the width is in percent of the largest side of the mesh's box.
+pub const CHAMFER_WIDTH_PERCENT: u32 = 1;
+
+/// `verify`: nothing opens, flips or degenerates.
+pub const CHAMFER_VERIFY_FAST: u32 = 0;
+/// `verify`: also, no part of the mesh cuts through itself where it did not before.
+pub const CHAMFER_VERIFY_FULL: u32 = 1;
+
+/// `submesh_mode`: new triangles go to the submesh of the face whose texture chart they continue.
+pub const CHAMFER_SUBMESH_OWNER: u32 = 0;
+/// `submesh_mode`: new triangles go to a new submesh behind all others.
+pub const CHAMFER_SUBMESH_OWN: u32 = 1;
+/// `submesh_mode`: new triangles go to the submesh that the field `submesh` names.
+pub const CHAMFER_SUBMESH_GIVEN: u32 = 2;
+
+/// `outcome`: chamfered at the width asked for.
+pub const CHAMFER_OUTCOME_FULL: u32 = 0;
+/// `outcome`: chamfered, but narrower somewhere.
+pub const CHAMFER_OUTCOME_NARROWED: u32 = 1;
+/// `outcome`: left as it was.
+pub const CHAMFER_OUTCOME_SKIPPED: u32 = 2;
+
+/// `reason`: the edge has full width.
+pub const CHAMFER_REASON_NONE: u32 = 0;
+/// `reason`: a face beside the edge has no room, it would fold or lose its area.
+pub const CHAMFER_REASON_NO_ROOM: u32 = 1;
+/// `reason`: the strip, or the fill at an end, would fold.
+pub const CHAMFER_REASON_FOLDS: u32 = 2;
+/// `reason`: an end lies in a corner so sharp that the full distance would shoot out as a spike.
+pub const CHAMFER_REASON_MITER: u32 = 3;
+/// `reason`: the chamfer would cut through the mesh.
+pub const CHAMFER_REASON_INTERSECTS: u32 = 4;
+/// `reason`: nothing can be pulled at either end, both lie inside smooth areas or on borders.
+pub const CHAMFER_REASON_NO_END: u32 = 5;
+/// `reason`: the faces beside the edge lie back to back.
+pub const CHAMFER_REASON_ZERO_THICKNESS: u32 = 6;
+/// `reason`: a triangle beside the edge has no area.
+pub const CHAMFER_REASON_NO_AREA: u32 = 7;
+/// `reason`: the width is too small for the precision of the positions here.
+pub const CHAMFER_REASON_TOO_FINE: u32 = 8;
+
+/// How many reasons `skipped_by_reason` has room for: more than there are, so that reasons can be
+/// added.
+pub const CHAMFER_REASON_SLOTS: usize = 16;
+
+/// `kind`: the triangle is the source triangle of that index.
+pub const CHAMFER_TRIANGLE_SOURCE: u32 = 0;
+/// `kind`: the triangle chamfers the hard edge whose verdict has that index.
+pub const CHAMFER_TRIANGLE_EDGE: u32 = 1;
+/// `kind`: the triangle fills the corner at the source vertex of that index.
+pub const CHAMFER_TRIANGLE_CORNER: u32 = 2;
+
+/// One UV channel of a mesh.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct chamfer_uv {
+    /// Floats per vertex: 2 to 4, or 0 where the channel is absent.
+    pub components: u32,
+    /// `#vertices by components`; ignored where the channel is absent.
+    pub values: *const f32,
+}
+
+/// A triangle mesh, vertex streams first, as the engines hold it. An absent stream is NULL. The
+/// library reads the arrays during the call only, and never writes them.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct chamfer_mesh {
+    /// `sizeof(chamfer_mesh)`.
+    pub struct_size: u32,
+    /// How many vertices each stream has.
+    pub vertex_count: u32,
+    /// `#vertices by 3`, in mesh units.
+    pub positions: *const f32,
+    /// `#vertices by 3`, unit length. Hard edges are found by them.
+    pub normals: *const f32,
+    /// `#vertices by 4` or NULL: a unit vector and the handedness, +1 or -1.
+    pub tangents: *const f32,
+    /// `#vertices by 4` or NULL: red, green, blue, alpha.
+    pub colors: *const f32,
+    /// The UV channels.
+    pub uvs: [chamfer_uv; CHAMFER_UV_CHANNELS],
+    /// How many submeshes the triangles are divided into.
+    pub submesh_count: u32,
+    /// How many indices there are in all submeshes together.
+    pub index_count: u32,
+    /// `#submeshes`: how many of the indices belong to each, a multiple of three.
+    pub submesh_index_counts: *const u32,
+    /// `#triangles by 3`: the triangles of all submeshes, one submesh after the other.
+    pub indices: *const u32,
+}
+
+/// How to chamfer a mesh. `chamfer_options_init` fills in the defaults.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct chamfer_options {
+    /// `sizeof(chamfer_options)`.
+    pub struct_size: u32,
+    /// The distance between an old edge and the pulled one, in `width_unit`. Default: 1 percent.
+    pub width: f32,
+    /// One of `CHAMFER_WIDTH_MESH_UNITS`, `CHAMFER_WIDTH_PERCENT` (default).
+    pub width_unit: u32,
+    /// One of `CHAMFER_VERIFY_FAST`, `CHAMFER_VERIFY_FULL` (default).
+    pub verify: u32,
+    /// One of `CHAMFER_SUBMESH_OWNER` (default), `CHAMFER_SUBMESH_OWN`, `CHAMFER_SUBMESH_GIVEN`.
+    pub submesh_mode: u32,
+    /// With `CHAMFER_SUBMESH_GIVEN`, the submesh that new triangles go to; else ignored.
+    pub submesh: u32,
+    /// How many threads may work; 0 for as many as there are cores. Default: 1. The result is the
+    /// same.
+    pub threads: u32,
+}
+
+/// What went wrong, in detail. Callers set `struct_size`; a call fills in the rest, also when it
+/// succeeds.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct chamfer_error {
+    /// `sizeof(chamfer_error)`.
+    pub struct_size: u32,
+    /// The status that the call returned.
+    pub status: i32,
+    /// The element at fault; the status says what it counts. `CHAMFER_NO_ELEMENT` if none.
+    pub element: u32,
+    /// One English sentence in UTF-8, ended by NUL: the element, the rule, what to do. Empty on
+    /// success.
+    pub message: [c_char; CHAMFER_MESSAGE_SIZE],
+}
+
+/// Sums over the verdicts of a result.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct chamfer_totals {
+    /// `sizeof(chamfer_totals)`.
+    pub struct_size: u32,
+    /// Hard edges with two sides.
+    pub hard_edges: u32,
+    /// Those at full width.
+    pub chamfered: u32,
+    /// Those chamfered, but narrower somewhere.
+    pub narrowed: u32,
+    /// Those left as they were.
+    pub skipped: u32,
+    /// The width asked for, in mesh units.
+    pub width: f32,
+    /// Mean width of the hard edges, as a share (0 to 1) of the width asked for, weighted by edge
+    /// length; 0 without hard edges.
+    pub mean_width: f32,
+    /// The skipped edges by reason; places past the last reason are 0.
+    pub skipped_by_reason: [u32; CHAMFER_REASON_SLOTS],
+}
+
+/// What became of one hard edge.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct chamfer_edge_verdict {
+    /// The source vertices at its ends, on the side of the first triangle that uses it.
+    pub vertices: [u32; 2],
+    /// One of `CHAMFER_OUTCOME_*`.
+    pub outcome: u32,
+    /// Why it is not at full width: one of `CHAMFER_REASON_*`.
+    pub reason: u32,
+    /// At each end, the mean of the distances from the old edge to its two pulled sides, in mesh
+    /// units.
+    pub widths: [f32; 2],
+}
+
+/// A weighted mean of up to three source vertices.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct chamfer_blend {
+    /// Source vertex indices.
+    pub vertices: [u32; 3],
+    /// Their weights, of sum 1; 0 in unused places, negative where a vertex moved past a triangle.
+    pub weights: [f32; 3],
+}
+
+/// What an output vertex was re-sampled from. With it, callers carry streams of their own.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct chamfer_vertex_source {
+    /// For what belongs to the surface: position, normal, skin weights, morph targets.
+    pub surface: chamfer_blend,
+    /// For what belongs to the texture chart: UV channels, tangent, colour.
+    pub chart: chamfer_blend,
+}
+
+/// What an output triangle came from.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct chamfer_triangle_source {
+    /// What `index` counts: one of `CHAMFER_TRIANGLE_*`.
+    pub kind: u32,
+    /// A source triangle, a verdict, or a source vertex.
+    pub index: u32,
+}
+
+/// Called on the calling thread with the share done (0 to 1). A result other than 0 cancels. It
+/// must return to its caller: no exception, no `longjmp`.
+pub type chamfer_progress = Option<unsafe extern "C" fn(user: *mut c_void, done: f32) -> i32>;

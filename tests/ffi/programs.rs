@@ -1,0 +1,59 @@
+//! C programs, compiled strictly against the header and linked to the built library.
+
+use std::env;
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::library;
+
+const ROOT: &str = env!("CARGO_MANIFEST_DIR");
+const STRICT: [&str; 4] = ["-Wall", "-Wextra", "-pedantic", "-Werror"];
+
+fn source(path: &str) -> PathBuf {
+    Path::new(ROOT).join(path)
+}
+
+fn compiler(variable: &str, otherwise: &str) -> Command {
+    let mut command = Command::new(env::var_os(variable).unwrap_or(OsString::from(otherwise)));
+    command.args(STRICT).arg("-I").arg(source("include"));
+    command
+}
+
+/// Compiles a C99 program, runs it, and returns what it printed.
+fn run(name: &str, sources: &[&str]) -> String {
+    let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let library = library::path();
+    let mut compile = compiler("CC", "cc");
+    compile.arg("-std=c99").args(sources.iter().map(|path| source(path))).arg(&library);
+    let folder = library.parent().unwrap().display().to_string();
+    compile.arg(format!("-Wl,-rpath,{folder}")).arg("-lm").arg("-o").arg(&program);
+    let status = compile.status().expect("a C compiler: install cc or set CC");
+    assert!(status.success(), "{compile:?}");
+
+    let output = Command::new(&program).output().unwrap();
+    let printed = String::from_utf8(output.stdout).unwrap();
+    assert!(output.status.success(), "{name}: {}\n{printed}", output.status);
+    printed
+}
+
+#[test]
+fn a_c_program_chamfers_a_cube() {
+    assert_eq!(run("cube", &["tests/c/cube.c", "tests/c/twice.c"]), "0 failures\n");
+}
+
+#[test]
+fn the_example_chamfers_a_cube() {
+    let printed = run("chamfer_cube", &["examples/c/chamfer_cube.c"]);
+    assert_eq!(printed, "24 vertices, 44 triangles\n");
+}
+
+#[test]
+fn the_header_is_clean_cpp() {
+    let mut compile = compiler("CXX", "c++");
+    compile.args(["-std=c++11", "-fsyntax-only", "-x", "c++"]).arg(source("include/chamfer.h"));
+    match compile.status() {
+        Ok(status) => assert!(status.success(), "{compile:?}"),
+        Err(error) => eprintln!("SKIPPED: no C++ compiler ({error}), the header is unchecked"),
+    }
+}
