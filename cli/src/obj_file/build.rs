@@ -8,6 +8,10 @@ use chamfer::{MeshBuffers, UvBuffer, split_by_angle};
 use super::parse::{Corner, Item, Obj};
 use super::polygon::triangulate;
 
+/// What rounding to 32 bits does to the length of a unit vector: one within it stays as it is, so
+/// that a file read and written again is the same.
+const UNIT_TOLERANCE: f64 = 2e-7;
+
 /// Where the vertices of the mesh come from.
 #[derive(Debug, Default)]
 pub struct Origin {
@@ -80,6 +84,9 @@ fn normals(obj: &Obj, corners: &[Corner], smoothing_angle: f32) -> Vec<[f32; 3]>
 /// The vector at length one; nothing for one without a direction.
 fn unit(vector: [f32; 3]) -> Option<[f32; 3]> {
     let length = vector.iter().map(|&value| f64::from(value).powi(2)).sum::<f64>().sqrt();
+    if (length - 1.0).abs() < UNIT_TOLERANCE {
+        return Some(vector);
+    }
     (length > 0.0).then(|| vector.map(|value| (f64::from(value) / length) as f32))
 }
 
@@ -168,6 +175,15 @@ mod tests {
     fn unused_texture_coordinates_are_no_stream() {
         let (mesh, _) = built("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\nf 1//1 2//1 3//1\n");
         assert_eq!(mesh.uvs[0], UvBuffer::default());
+    }
+
+    #[test]
+    fn normals_of_unit_length_keep_their_bits() {
+        for vector in [[0.1, -0.7, 0.4], [3.0, 1.0, 1e-3], [1.0, 1.0, 1.0]] {
+            let once = unit(vector).unwrap();
+            assert_eq!(unit(once), Some(once));
+        }
+        assert_eq!(unit([0.0; 3]), None);
     }
 
     #[test]
