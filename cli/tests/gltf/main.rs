@@ -1,0 +1,7 @@
+//! glTF files in and out, as a program that reads the files sees them.
+
+mod corpus;
+mod damage;
+mod features;
+mod files;
+mod support;
