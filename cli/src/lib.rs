@@ -12,7 +12,7 @@ mod args;
 mod batch;
 mod console;
 mod demo;
-mod format;
+pub mod format;
 mod pictures;
 mod plan;
 mod process;

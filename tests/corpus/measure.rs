@@ -1,0 +1,128 @@
+//! What the corpus is measured by: every model at some widths, through the whole-mesh checker.
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+use chamfer::check::{Findings, check};
+use chamfer::{Options, Reason, Totals, Verify, Width, chamfer};
+use chamfer_cli::document::ReadOptions;
+use chamfer_cli::format;
+
+/// The models, beside the project.
+pub const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/corpus");
+
+/// All models of a folder that the command line can read, sorted; none without the folder.
+pub fn models(folder: &Path) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let mut paths: Vec<PathBuf> = entries
+        .map(|entry| entry.path())
+        .filter(|path| {
+            let extension = path.extension().and_then(|extension| extension.to_str());
+            matches!(extension, Some("glb" | "gltf" | "obj" | "stl"))
+        })
+        .collect();
+    paths.sort();
+    paths
+}
+
+/// One mesh of a file, chamfered and checked.
+pub struct Measured {
+    pub name: String,
+    pub totals: Totals,
+    /// Sum of the hard edges' lengths, as a share of the extent: the weight of the mean width.
+    pub length: f64,
+    pub findings: Findings,
+    pub seconds: f64,
+}
+
+/// Chamfers and checks every mesh of a file.
+///
+/// # Errors
+/// Where the file cannot be read or chamfered: the reason.
+pub fn measure(path: &Path, percent: f32, verify: Verify) -> Result<Vec<Measured>, String> {
+    let options = Options { width: Width::PercentOfExtent(percent), verify, ..Options::default() };
+    let read = ReadOptions { smoothing_angle: 30.0 };
+    let document = format::read(path, &read).map_err(|error| format!("{error:#}"))?;
+    let file = path.file_name().unwrap_or_default().to_string_lossy();
+    let measured = |source: &chamfer_cli::document::SourceMesh| {
+        let before = source.mesh.as_mesh();
+        let start = std::time::Instant::now();
+        let after = chamfer(&before, &options).map_err(|error| error.to_string())?;
+        let seconds = start.elapsed().as_secs_f64();
+        let extent = f64::from(before.extent()).max(f64::MIN_POSITIVE);
+        let length = |verdict: &chamfer::EdgeVerdict| {
+            let [a, b] = verdict.vertices.map(|vertex| before.positions[vertex as usize]);
+            (0..3).map(|k| f64::from(a[k] - b[k]).powi(2)).sum::<f64>().sqrt()
+        };
+        Ok(Measured {
+            name: format!("{file}/{}", source.name),
+            totals: after.totals,
+            length: after.verdicts.iter().map(length).sum::<f64>() / extent,
+            findings: check(&before, &after, verify),
+            seconds,
+        })
+    };
+    document.meshes().iter().map(measured).collect()
+}
+
+/// Sums over meshes.
+#[derive(Default)]
+pub struct Sum {
+    pub meshes: u32,
+    pub hard_edges: u32,
+    pub chamfered: u32,
+    pub narrowed: u32,
+    pub skipped: [u32; Reason::ALL.len()],
+    pub unsound: u32,
+    pub seconds: f64,
+    length: f64,
+    width: f64,
+}
+
+impl Sum {
+    pub fn add(&mut self, mesh: &Measured) {
+        self.meshes += 1;
+        self.hard_edges += mesh.totals.hard_edges;
+        self.chamfered += mesh.totals.chamfered;
+        self.narrowed += mesh.totals.narrowed;
+        for (sum, skipped) in self.skipped.iter_mut().zip(mesh.totals.skipped) {
+            *sum += skipped;
+        }
+        self.unsound += u32::from(!mesh.findings.is_sound());
+        self.seconds += mesh.seconds;
+        self.length += mesh.length;
+        self.width += mesh.length * f64::from(mesh.totals.mean_width);
+    }
+
+    /// The share of the hard edges that have a chamfer, by count.
+    pub fn chamfered_share(&self) -> f64 {
+        f64::from(self.chamfered + self.narrowed) / f64::from(self.hard_edges.max(1))
+    }
+
+    /// The mean width as a share of what was asked, weighted by edge length over mesh extent.
+    pub fn mean_width(&self) -> f64 {
+        if self.length > 0.0 { self.width / self.length } else { 0.0 }
+    }
+}
+
+impl fmt::Display for Sum {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(
+            f,
+            "{} meshes, {} unsound; {} hard edges, {:.2} % chamfered ({} full, {} narrowed), mean width {:.2} %; {:.2} s; skipped:",
+            self.meshes,
+            self.unsound,
+            self.hard_edges,
+            self.chamfered_share() * 100.0,
+            self.chamfered,
+            self.narrowed,
+            self.mean_width() * 100.0,
+            self.seconds,
+        )?;
+        for (reason, count) in Reason::ALL.iter().zip(self.skipped).filter(|(_, count)| *count > 0)
+        {
+            write!(f, " {} {count}", reason.name())?;
+        }
+        Ok(())
+    }
+}
