@@ -7,19 +7,14 @@ use serde_json::{Map, Value};
 use super::accessor_writer::{AccessorWriter, Role, Usage};
 use super::element::{ElementType, Shape, Stream};
 use super::follow::{Follower, is_carried_by_core, uv_channel};
-use super::geometry::{Attribute, Block, MeshGeometry};
+use super::geometry::{Attribute, Block, MeshGeometry, Submesh};
 use super::skin;
 
 /// Accessor numbers by attribute name.
 type Accessors = Vec<(String, usize)>;
 
-/// The new vertices of a block.
-struct BlockVertices {
-    /// `#block vertices`: their indices in the chamfered mesh.
-    vertices: Vec<u32>,
-    /// `#output vertices`: their places in the block.
-    place_of: Vec<u32>,
-}
+/// The place of a vertex that is not in a block.
+const ABSENT: u32 = u32::MAX;
 
 /// One chamfered mesh on its way into the file.
 pub struct Rewrite<'a> {
@@ -27,6 +22,8 @@ pub struct Rewrite<'a> {
     chamfered: &'a Chamfered,
     /// `#submeshes`: the triangles of each.
     submeshes: Vec<&'a [u32]>,
+    /// `#blocks`: the source vertices of each.
+    own_vertices: Vec<Vec<u32>>,
 }
 
 impl<'a> Rewrite<'a> {
@@ -50,7 +47,12 @@ impl<'a> Rewrite<'a> {
             rest = after;
             submesh
         });
-        Ok(Rewrite { geometry, chamfered, submeshes: submeshes.collect() })
+        let submeshes = submeshes.collect();
+        let mut own_vertices = vec![Vec::new(); geometry.blocks.len()];
+        for (vertex, origin) in geometry.origins.iter().enumerate() {
+            own_vertices[origin.block as usize].push(vertex as u32);
+        }
+        Ok(Rewrite { geometry, chamfered, submeshes, own_vertices })
     }
 
     /// Replaces what the JSON of the mesh says of its triangles.
@@ -58,48 +60,49 @@ impl<'a> Rewrite<'a> {
     /// # Errors
     /// Where a primitive would be left empty.
     pub fn write(&self, mesh: &mut Value, writer: &mut AccessorWriter) -> Result<()> {
+        let mut place_of = vec![ABSENT; self.chamfered.mesh.positions.len()];
         for (number, block) in self.geometry.blocks.iter().enumerate() {
-            let vertices = self.block_vertices(number);
-            let attributes = self.attributes(block, &vertices.vertices, writer)?;
-            let targets = self.targets(block, &vertices.vertices, writer)?;
-            for (submesh, corners) in self.geometry.submeshes.iter().zip(&self.submeshes) {
-                if submesh.block != number {
-                    continue;
-                }
-                let local: Vec<u32> =
-                    corners.iter().map(|index| vertices.place_of[*index as usize]).collect();
+            let vertices = self.block_vertices(number, &mut place_of);
+            let attributes = self.attributes(block, &vertices, writer)?;
+            let targets = self.targets(block, &vertices, writer)?;
+            for (submesh, corners) in self.submeshes_of(number) {
+                let places = corners.iter().map(|index| place_of[*index as usize]);
                 let role =
                     submesh.indices.map_or(Role::IndicesOf(position(block)), Role::Successor);
-                let indices = writer.write_indices(role, &local)?;
+                let indices = writer.write_indices(role, &places.collect::<Vec<_>>())?;
                 let primitive = mesh.pointer_mut(&format!("/primitives/{}", submesh.primitive));
                 let primitive = primitive.and_then(Value::as_object_mut);
                 replace(primitive.context("a primitive is gone")?, &attributes, &targets, indices);
             }
+            // Only what was set, or many blocks would take quadratic time.
+            vertices.iter().for_each(|vertex| place_of[*vertex as usize] = ABSENT);
         }
         Ok(())
     }
 
-    /// The source vertices of a block in their order, then all others that its triangles use.
-    fn block_vertices(&self, block: usize) -> BlockVertices {
-        const ABSENT: u32 = u32::MAX;
-        let mut place_of = vec![ABSENT; self.chamfered.mesh.positions.len()];
-        let origins = self.geometry.origins.iter().enumerate();
-        let own = origins.filter(|(_, origin)| origin.block as usize == block);
-        let mut vertices: Vec<u32> = own.map(|(vertex, _)| vertex as u32).collect();
-        for (place, vertex) in vertices.iter().enumerate() {
-            place_of[*vertex as usize] = place as u32;
-        }
-        let submeshes = self.geometry.submeshes.iter().zip(&self.submeshes);
-        let corners = submeshes.filter(|(submesh, _)| submesh.block == block).flat_map(|(_, c)| *c);
-        let absent = corners.copied().filter(|vertex| place_of[*vertex as usize] == ABSENT);
+    fn submeshes_of(&self, block: usize) -> impl Iterator<Item = (&Submesh, &[u32])> {
+        let submeshes = self.geometry.submeshes.iter().zip(self.submeshes.iter().copied());
+        submeshes.filter(move |(submesh, _)| submesh.block == block)
+    }
+
+    /// The source vertices of a block in their order, then all others that its triangles use; each
+    /// is told its place.
+    fn block_vertices(&self, block: usize, place_of: &mut [u32]) -> Vec<u32> {
+        let mut vertices = self.own_vertices[block].clone();
+        let set = |place_of: &mut [u32], from: usize, vertices: &[u32]| {
+            for (place, vertex) in vertices.iter().enumerate() {
+                place_of[*vertex as usize] = (from + place) as u32;
+            }
+        };
+        set(place_of, 0, &vertices);
+        let corners = self.submeshes_of(block).flat_map(|(_, corners)| corners.iter().copied());
+        let absent = corners.filter(|vertex| place_of[*vertex as usize] == ABSENT);
         let mut further: Vec<u32> = absent.collect();
         further.sort_unstable();
         further.dedup();
-        for vertex in further {
-            place_of[vertex as usize] = vertices.len() as u32;
-            vertices.push(vertex);
-        }
-        BlockVertices { vertices, place_of }
+        set(place_of, vertices.len(), &further);
+        vertices.extend(further);
+        vertices
     }
 
     fn attributes(
