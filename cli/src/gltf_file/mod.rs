@@ -98,8 +98,18 @@ impl GltfDocument {
         Ok(GltfDocument { path, format, json, buffers, meshes, geometries, instances, bytes })
     }
 
+    /// A further submesh without triangles is no change.
     fn is_changed(&self, mesh: usize, chamfered: &Chamfered) -> bool {
-        chamfered.mesh != self.meshes[mesh].mesh
+        let (old, new) = (&self.meshes[mesh].mesh, &chamfered.mesh);
+        let old_counts = &old.submesh_index_counts[..];
+        let further = new.submesh_index_counts.strip_prefix(old_counts);
+        !further.is_some_and(|counts| counts.iter().all(|count| *count == 0))
+            || new.indices != old.indices
+            || new.positions != old.positions
+            || new.normals != old.normals
+            || new.tangents != old.tangents
+            || new.colors != old.colors
+            || new.uvs != old.uvs
     }
 
     /// The file as it was, and the files it refers to if it goes to another folder.
