@@ -12,6 +12,10 @@ use super::values::is_unit;
 /// How far, relative to the extent, corners may be off a plane that counts as flat.
 const FLAT_TOLERANCE: f64 = 1e-6;
 
+/// How far (a tenth of a degree) the triangles of a fan may lean from each other if it counts as
+/// flat: small fans of a curved surface are within any distance of a plane.
+const FLAT_COSINE: f64 = 0.999_998_476_913_288;
+
 /// How far, relative to the extent, a pulled corner may be off the plane it was in.
 const PLANE_TOLERANCE: f64 = 1e-5;
 
@@ -30,6 +34,8 @@ struct Fan {
     plane: Option<(DVec3, DVec3, f64)>,
     /// How far the fan's corners are off the plane.
     off_plane: f64,
+    /// Whether some triangle leans from the plane.
+    leans: bool,
     /// The normal that all corners have, while they do.
     normal: Option<DVec3>,
     has_uneven_normals: bool,
@@ -48,11 +54,16 @@ pub(super) fn check_flatness(
     let tolerance = (PLANE_TOLERANCE * extent).max(ROUNDING * largest_coordinate(before));
     for (triangle, source) in (0u32..).zip(&origins.triangles) {
         let Some(source) = source else { continue };
+        // A line or a point has no plane and shows no normal.
+        if normal_with_area(before.triangle(*source)).is_none() {
+            continue;
+        }
         let corners = [0, 1, 2].map(|side| {
             (&fans[fan_of[(3 * source + side) as usize] as usize], 3 * triangle + side)
         });
         if corners.iter().any(|(fan, corner)| {
             fan.off_plane <= FLAT_TOLERANCE * extent
+                && !fan.leans
                 && fan.distance(after.position(*corner)) > tolerance
         }) {
             findings.note(Rule::FlatFace, Element::Triangle(triangle));
@@ -88,6 +99,7 @@ fn measure(surface: &Surface, fan_of: &[u32]) -> Vec<Fan> {
         }
     }
     for (corner, &fan) in (0u32..).zip(fan_of) {
+        fans[fan as usize].add_lean(surface.triangle(corner / 3));
         for point in surface.triangle(corner / 3) {
             let distance = fans[fan as usize].distance(point);
             let off_plane = &mut fans[fan as usize].off_plane;
@@ -103,6 +115,13 @@ impl Fan {
         let area = normal.length();
         if self.plane.is_none_or(|(_, _, largest)| area > largest) {
             self.plane = Some((triangle[0], normal / area, area));
+        }
+    }
+
+    fn add_lean(&mut self, triangle: [DVec3; 3]) {
+        let normal = normal_with_area(triangle).map(DVec3::normalize);
+        if let (Some((_, plane, _)), Some(normal)) = (self.plane, normal) {
+            self.leans |= plane.dot(normal) < FLAT_COSINE;
         }
     }
 
