@@ -115,6 +115,8 @@ fn course(view: &View, topology: &Topology, fan: &Fan, spread: &[Blade]) -> Opti
     let total = last.start.plus(last.angle);
     match (fan.starts_at_border, fan.ends_at_border()) {
         (true, true) => None,
+        // At a border the vertex has to stay on it, which no hard edge inside the fan allows.
+        (true, false) | (false, true) if crease(view, spread).is_hard() => None,
         (true, false) => slide(view, first.corner, Turn::ZERO, &[total]),
         (false, true) => slide(view, last.corner, last.angle, &[total]),
         // One edge on both sides: it ends here, and its chamfer tapers to a point.
@@ -174,6 +176,12 @@ enum Crease<'a> {
     Hard(&'a Blade),
     /// The fan bends at a hard edge that stays hard, and elsewhere too: any move would bend a face.
     Several,
+}
+
+impl Crease<'_> {
+    fn is_hard(&self) -> bool {
+        matches!(self, Crease::Hard(_) | Crease::Several)
+    }
 }
 
 /// The hard edge that is not chamfered, if there is one, or else the sharpest bend.

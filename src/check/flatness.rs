@@ -23,6 +23,9 @@ const PLANE_TOLERANCE: f64 = 1e-5;
 /// smallest steps of single precision.
 const ROUNDING: f64 = 4.0 * f32::EPSILON as f64;
 
+/// Normals that differ by more than this (a twentieth of a degree) shade a surface as curved.
+const CURVED_SHADING: f64 = 1e-3;
+
 /// How much a normal may change where all around it are the same: rounding when it is made unit
 /// length again.
 const NORMAL_TOLERANCE: f64 = 1e-6;
@@ -39,6 +42,8 @@ struct Fan {
     /// The normal that all corners have, while they do.
     normal: Option<DVec3>,
     has_uneven_normals: bool,
+    /// Whether its normals differ so much that it is meant to look curved.
+    shades_curved: bool,
 }
 
 /// Corners of source triangles against the fan that they belong to in the source.
@@ -64,6 +69,7 @@ pub(super) fn check_flatness(
         if corners.iter().any(|(fan, corner)| {
             fan.off_plane <= FLAT_TOLERANCE * extent
                 && !fan.leans
+                && !fan.shades_curved
                 && fan.distance(after.position(*corner)) > tolerance
         }) {
             findings.note(Rule::FlatFace, Element::Triangle(triangle));
@@ -128,6 +134,7 @@ impl Fan {
     fn add_normal(&mut self, normal: DVec3) {
         let first = *self.normal.get_or_insert(normal);
         self.has_uneven_normals |= first != normal;
+        self.shades_curved |= first.distance(normal) > CURVED_SHADING;
     }
 
     /// How far a point is off the plane; 0 without one.
