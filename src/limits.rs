@@ -36,17 +36,17 @@ pub struct Limits {
 }
 
 pub fn limits(plan: &Plan) -> Limits {
-    let mut limits = bounded(plan);
+    let room = room::room(plan);
+    let mut limits = bounded(plan, &room);
     shrink(plan, &mut limits);
     for _ in 0..GROW_PASSES {
-        grow(plan, &mut limits);
+        grow(plan, &room, &mut limits);
     }
     limits
 }
 
 /// Every sector at the width that its own triangles leave room for.
-fn bounded(plan: &Plan) -> Limits {
-    let shares = room::room(plan);
+fn bounded(plan: &Plan, shares: &IdVec<Sector, f64>) -> Limits {
     let mut placement = Placement::unmoved(plan);
     let mut reason = IdVec::filled(Reason::None, shares.len());
     for sector in shares.ids().filter(|&sector| plan.offsets[sector].moves()) {
@@ -195,16 +195,16 @@ pub fn fill(plan: &Plan, placement: &Placement, ring: Ring) -> Option<corners::F
     corners::fill(&points, &normals, plan.view.resolution)
 }
 
-/// Gives every limited sector as much as it can take with all others where they are.
-fn grow(plan: &Plan, limits: &mut Limits) {
-    for sector in limits.placement.share.ids() {
-        let share = limits.placement.share[sector];
-        if share == 1.0 || !plan.offsets[sector].moves() {
+/// Gives back to every sector that was shrunk, up to its room, as much as it can take with all
+/// others where they are.
+fn grow(plan: &Plan, room: &IdVec<Sector, f64>, limits: &mut Limits) {
+    for sector in room.ids().filter(|&sector| plan.offsets[sector].moves()) {
+        let (mut good, mut bad) = (limits.placement.share[sector], room[sector]);
+        if good == bad {
             continue;
         }
-        let (mut good, mut bad) = (share, 1.0);
-        if fits(plan, &mut limits.placement, sector, 1.0) {
-            limits.reason[sector] = Reason::None;
+        if fits(plan, &mut limits.placement, sector, bad) {
+            limits.reason[sector] = if bad < 1.0 { Reason::NoRoom } else { Reason::None };
             continue;
         }
         for _ in 0..GROW_STEPS {
