@@ -15,6 +15,7 @@ mod edges;
 mod error;
 #[allow(unsafe_code)]
 mod ffi;
+mod groups;
 mod ids;
 mod intersect;
 mod limits;

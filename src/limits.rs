@@ -5,11 +5,13 @@
 //! leave, build strips and fills, shrink the sectors of whatever fails, and give back what is safe.
 //! A ring that still fails keeps its old position, so the result is never worse than the source.
 
+mod collisions;
 mod room;
 
 use crate::corners;
 use crate::ids::{Corner, Edge, IdVec, Ring, Sector, Triangle};
 use crate::math::unit;
+use crate::options::Verify;
 use crate::placement::Placement;
 use crate::plan::Plan;
 use crate::report::Reason;
@@ -35,12 +37,15 @@ pub struct Limits {
     pub reason: IdVec<Sector, Reason>,
 }
 
-pub fn limits(plan: &Plan) -> Limits {
+pub fn limits(plan: &Plan, verify: Verify) -> Limits {
     let room = room::room(plan);
     let mut limits = bounded(plan, &room);
-    shrink(plan, &mut limits);
+    shrink(plan, &mut limits, all_elements(plan));
     for _ in 0..GROW_PASSES {
         grow(plan, &room, &mut limits);
+    }
+    if verify == Verify::Full {
+        collisions::resolve(plan, &mut limits);
     }
     limits
 }
@@ -66,28 +71,37 @@ enum Element {
     Fill(Ring),
 }
 
-fn shrink(plan: &Plan, limits: &mut Limits) {
-    let mut suspects = all_elements(plan);
+/// Shrinks whatever is bad among the suspects, and then around what has shrunk.
+fn shrink(plan: &Plan, limits: &mut Limits, mut suspects: Vec<Element>) {
     let mut round = 0;
     loop {
         let mut shrunk = Vec::new();
         for element in suspects {
             if !is_valid(plan, &limits.placement, element) {
-                blame(plan, limits, element, round >= SHRINK_ROUNDS, &mut shrunk);
+                let reason = match element {
+                    Element::Surface(_) => Reason::NoRoom,
+                    Element::Strip(_) | Element::Fill(_) => Reason::Folds,
+                };
+                blame(plan, limits, element, reason, round, &mut shrunk);
             }
         }
-        shrunk.sort_unstable();
-        shrunk.dedup();
         if shrunk.is_empty() {
             return;
         }
-        for &sector in &shrunk {
-            let share = limits.placement.share[sector];
-            let smaller = if round < SHRINK_ROUNDS { share * SHRINK } else { 0.0 };
-            limits.placement.set(plan, sector, smaller);
-        }
+        apply(plan, limits, round, &mut shrunk);
         suspects = around(plan, &shrunk);
         round += 1;
+    }
+}
+
+/// Shrinks sectors, each once.
+fn apply(plan: &Plan, limits: &mut Limits, round: usize, shrunk: &mut Vec<Sector>) {
+    shrunk.sort_unstable();
+    shrunk.dedup();
+    for &sector in shrunk.iter() {
+        let share = limits.placement.share[sector];
+        let smaller = if round < SHRINK_ROUNDS { share * SHRINK } else { 0.0 };
+        limits.placement.set(plan, sector, smaller);
     }
 }
 
@@ -110,17 +124,14 @@ fn blame(
     plan: &Plan,
     limits: &mut Limits,
     element: Element,
-    whole_rings: bool,
+    reason: Reason,
+    round: usize,
     shrunk: &mut Vec<Sector>,
 ) {
-    let reason = match element {
-        Element::Surface(_) => Reason::NoRoom,
-        Element::Strip(_) | Element::Fill(_) => Reason::Folds,
-    };
     for sector in sectors_of(plan, element) {
         let ring = plan.sectors.ring(plan.sectors.fans[sector].ring);
         let one = [sector];
-        for &blamed in if whole_rings { ring } else { &one } {
+        for &blamed in if round >= SHRINK_ROUNDS { ring } else { &one } {
             if limits.placement.share[blamed] > 0.0 {
                 limits.reason[blamed] = reason;
                 shrunk.push(blamed);

@@ -105,10 +105,11 @@ impl Filling<'_> {
     /// Notes when the triangle will have given away all it can, from a share on.
     fn watch(&mut self, triangle: Triangle, from: f64) {
         let is_growing = |sector: Sector| sector.is_some() && self.stopped_at[sector].is_none();
-        if self.sectors(triangle).into_iter().any(is_growing) {
-            if let Some(share) = self.moving(triangle).exhausted_at(from).filter(|s| *s < 1.0) {
-                self.events.push(Event { share, triangle });
-            }
+        if self.sectors(triangle).into_iter().any(is_growing)
+            && let Some(share) = self.moving(triangle).exhausted_at(from)
+            && share < 1.0
+        {
+            self.events.push(Event { share, triangle });
         }
     }
 
