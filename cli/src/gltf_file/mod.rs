@@ -13,7 +13,7 @@
 
 mod accessor;
 mod accessor_writer;
-mod container;
+pub(crate) mod container;
 mod core_mesh;
 mod element;
 mod extensions;
@@ -66,8 +66,7 @@ impl GltfDocument {
     /// Where the file, or one that it refers to, cannot be read; where it breaks a rule of glTF
     /// that its geometry or its nodes depend on; where its geometry is compressed.
     pub fn read(path: &Path, options: &ReadOptions) -> Result<GltfDocument> {
-        let bytes = uri::read_file(path)?;
-        Self::parse(path, bytes, options).with_context(|| path.display().to_string())
+        Self::parse(path, uri::read_file(path)?, options)
     }
 
     fn parse(path: &Path, bytes: Vec<u8>, options: &ReadOptions) -> Result<GltfDocument> {
