@@ -4,7 +4,7 @@ use anyhow::Result;
 use chamfer::{MeshBuffers, UvBuffer};
 use serde_json::{Value, json};
 
-use crate::gltf_file::container::write_glb;
+use crate::gltf_file::write_glb;
 
 const ARRAY_BUFFER: u32 = 34962;
 const ELEMENT_ARRAY_BUFFER: u32 = 34963;

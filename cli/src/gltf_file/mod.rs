@@ -13,7 +13,7 @@
 
 mod accessor;
 mod accessor_writer;
-pub(crate) mod container;
+mod container;
 mod core_mesh;
 mod element;
 mod extensions;
@@ -43,6 +43,8 @@ use extensions::Mentions;
 use geometry::{GeometryReader, MeshGeometry};
 use references::Replaced;
 use rewrite::Rewrite;
+
+pub(crate) use container::write_glb;
 
 /// A glTF file that was read.
 pub struct GltfDocument {
