@@ -38,7 +38,7 @@ pub fn edges(view: &View, topology: &Topology) -> Edges {
         if twin.is_none() || twin < corner || !is_hard(view, corner, twin) {
             continue;
         }
-        let skipped = obstacle(view, corner, twin);
+        let skipped = obstacle(view, topology, corner, twin);
         let edge = hard.push(HardEdge { sides: [corner, twin], skipped });
         if skipped.is_none() {
             chamfered_at[corner] = edge;
@@ -48,7 +48,8 @@ pub fn edges(view: &View, topology: &Topology) -> Edges {
     Edges { hard, chamfered_at }
 }
 
-fn is_hard(view: &View, side: Corner, other: Corner) -> bool {
+/// Whether the stored normals differ between two half-edges that are twins.
+pub fn is_hard(view: &View, side: Corner, other: Corner) -> bool {
     let differ = |one: Corner, other: Corner| {
         let (one, other) = (view.vertex_at(one), view.vertex_at(other));
         one != other && {
@@ -60,7 +61,8 @@ fn is_hard(view: &View, side: Corner, other: Corner) -> bool {
 }
 
 /// What keeps a hard edge from being chamfered whatever the width.
-fn obstacle(view: &View, side: Corner, other: Corner) -> Option<Reason> {
+fn obstacle(view: &View, topology: &Topology, side: Corner, other: Corner) -> Option<Reason> {
+    let is_doubled = topology.doubled.binary_search(&side).is_ok();
     let [one, other] = [side, other].map(|half_edge| {
         let points = view.triangle(half_edge.triangle());
         let longest = (0..3).map(|k| points[k].distance(points[(k + 1) % 3])).fold(0.0, f64::max);
@@ -69,7 +71,7 @@ fn obstacle(view: &View, side: Corner, other: Corner) -> Option<Reason> {
     });
     if one.1 || other.1 {
         Some(Reason::NoArea)
-    } else if one.0.dot(other.0) < BACK_TO_BACK_COSINE {
+    } else if one.0.dot(other.0) < BACK_TO_BACK_COSINE || is_doubled {
         Some(Reason::ZeroThickness)
     } else {
         None

@@ -10,6 +10,7 @@
 
 use glam::DVec3;
 
+use crate::edges::is_hard;
 use crate::ids::{Corner, IdVec, Sector};
 use crate::math::{Turn, area_vector, unit};
 use crate::sectors::{Fan, Sectors};
@@ -24,6 +25,9 @@ const MITER_LIMIT: f64 = 10.0;
 /// Faces that meet at more than five degrees would visibly bend if a vertex left their common
 /// edge for one of them. A round surface of 72 facets or more is smooth enough to be cut across.
 const CREASE_COSINE: f64 = 0.996_194_698_091_745_5;
+
+/// Below a tenth of a degree a hard edge does not bend the surface by more than rounding does.
+const FLAT_COSINE: f64 = 0.999_998_476_913_288;
 
 /// A vertex slides along a border or crease that is at least this far (as a sine, 5.7 degrees)
 /// from the direction of the chamfered edge; nearer, sliding hardly opens the edge.
@@ -111,16 +115,20 @@ fn course(view: &View, topology: &Topology, fan: &Fan, spread: &[Blade]) -> Opti
     let total = last.start.plus(last.angle);
     match (fan.starts_at_border, fan.ends_at_border()) {
         (true, true) => None,
+        // At a border the vertex has to stay on it, which no hard edge inside the fan allows.
+        (true, false) | (false, true) if crease(view, spread).is_hard() => None,
         (true, false) => slide(view, first.corner, Turn::ZERO, &[total]),
         (false, true) => slide(view, last.corner, last.angle, &[total]),
         // One edge on both sides: it ends here, and its chamfer tapers to a point.
         (false, false) if topology.twin[fan.first] == fan.last.prev() => None,
-        (false, false) => crease(view, spread)
-            .and_then(|blade| {
-                let to_end = total.minus(blade.start);
-                slide(view, blade.corner, Turn::ZERO, &[blade.start, to_end])
-            })
-            .or_else(|| bisect(view, total, spread)),
+        (false, false) => match crease(view, spread) {
+            Crease::None => bisect(view, total, spread),
+            Crease::Soft(blade) => {
+                slide_inside(view, total, blade).or_else(|| bisect(view, total, spread))
+            }
+            Crease::Hard(blade) => slide_inside(view, total, blade),
+            Crease::Several => None,
+        },
     }
 }
 
@@ -153,24 +161,55 @@ fn slide(view: &View, corner: Corner, angle: Turn, to_chamfered: &[Turn]) -> Opt
     })
 }
 
-/// The blade that begins at the sharpest crease inside the fan.
-fn crease<'a>(view: &View, spread: &'a [Blade]) -> Option<&'a Blade> {
-    if spread.len() < 2 {
-        return None;
+/// Along an edge in the middle of the fan.
+fn slide_inside(view: &View, total: Turn, blade: &Blade) -> Option<Course> {
+    slide(view, blade.corner, Turn::ZERO, &[blade.start, total.minus(blade.start)])
+}
+
+/// The bends inside a fan that keep a vertex from leaving them.
+enum Crease<'a> {
+    /// The fan is flat, or nearly so.
+    None,
+    /// The vertex may slide along this blade's first edge.
+    Soft(&'a Blade),
+    /// The vertex may move nowhere but along this blade's first edge, which stays hard.
+    Hard(&'a Blade),
+    /// The fan bends at a hard edge that stays hard, and elsewhere too: any move would bend a face.
+    Several,
+}
+
+impl Crease<'_> {
+    fn is_hard(&self) -> bool {
+        matches!(self, Crease::Hard(_) | Crease::Several)
     }
-    let normal = |blade: &Blade| unit(area_vector(view.triangle(blade.corner.triangle())));
-    let mut sharpest = (CREASE_COSINE, None);
-    let mut before = normal(&spread[0]);
-    for blade in &spread[1..] {
-        let behind = normal(blade);
-        let cosine = before.dot(behind);
-        // A triangle without area has no normal, and makes no crease.
-        if cosine < sharpest.0 && before != DVec3::ZERO && behind != DVec3::ZERO {
-            sharpest = (cosine, Some(blade));
+}
+
+/// The hard edge that is not chamfered, if there is one, or else the sharpest bend.
+fn crease<'a>(view: &View, spread: &'a [Blade]) -> Crease<'a> {
+    let mut sharpest = (CREASE_COSINE, Crease::None);
+    let mut kept = Crease::None;
+    let mut before = DVec3::ZERO;
+    let mut crosses_hard = false;
+    for (place, blade) in spread.iter().enumerate() {
+        let behind = unit(area_vector(view.triangle(blade.corner.triangle())));
+        crosses_hard |= place > 0 && is_hard(view, blade.corner, spread[place - 1].corner.prev());
+        // A triangle without area has no normal: the bend is to the face behind it.
+        if behind == DVec3::ZERO {
+            continue;
         }
-        before = behind;
+        let cosine = before.dot(behind);
+        if before != DVec3::ZERO && crosses_hard && cosine < FLAT_COSINE {
+            kept = if matches!(kept, Crease::None) { Crease::Hard(blade) } else { Crease::Several };
+        } else if before != DVec3::ZERO && cosine < sharpest.0 {
+            sharpest = (cosine, Crease::Soft(blade));
+        }
+        (before, crosses_hard) = (behind, false);
     }
-    sharpest.1
+    match (kept, sharpest.1) {
+        (Crease::None, soft) => soft,
+        (hard, Crease::None) => hard,
+        _ => Crease::Several,
+    }
 }
 
 /// The offset in space; none where the corner has no plane.

@@ -5,6 +5,8 @@
 
 use glam::DVec3;
 
+mod collapsed;
+
 use crate::attributes::Attributes;
 use crate::corners;
 use crate::ids::{Corner, Edge, Ring, Sector, Triangle};
@@ -36,7 +38,7 @@ pub fn output(
         submeshes: Submeshes::new(plan, target),
         new: Vec::new(),
     };
-    surface.close_collapsed();
+    collapsed::close(plan, &mut surface.attributes.vertex_at);
     plan.edges.hard.ids().for_each(|edge| surface.add_strip(edge));
     plan.sectors.rings.ids().for_each(|ring| surface.add_fill(ring));
     surface.finish()
@@ -60,20 +62,6 @@ struct Surface<'a> {
 }
 
 impl Surface<'_> {
-    /// Corners of one collapsed triangle at one position stay together, or it would open.
-    fn close_collapsed(&mut self) {
-        let topology = &self.plan.topology;
-        let collapsed = self.plan.view.triangles().filter(|&t| topology.is_collapsed(t));
-        for triangle in collapsed {
-            let corners = triangle.corners();
-            for (one, other) in [(0, 1), (1, 2), (0, 2)].map(|(a, b)| (corners[a], corners[b])) {
-                if topology.cluster_at[one] == topology.cluster_at[other] {
-                    self.attributes.vertex_at[other] = self.attributes.vertex_at[one];
-                }
-            }
-        }
-    }
-
     fn add_strip(&mut self, edge: Edge) {
         let (plan, placement) = (self.plan, &self.limits.placement);
         let hard = &plan.edges.hard[edge];

@@ -16,6 +16,8 @@ pub struct Topology {
     pub cluster_at: IdVec<Corner, Cluster>,
     /// `#corners`: the opposite half-edge, or none at a border and in collapsed triangles.
     pub twin: IdVec<Corner, Corner>,
+    /// Half-edges, sorted, that lie with both their faces on another edge: sheets of two sides.
+    pub doubled: Vec<Corner>,
 }
 
 impl Topology {
@@ -31,8 +33,11 @@ pub fn topology(view: &View, weld: &Weld) -> Topology {
     let cluster_at = IdVec::from_vec(
         corners.map(|corner| weld.cluster_of[view.vertex_at(corner)]).collect::<Vec<_>>(),
     );
-    let twin = twins(view, &cluster_at, weld.first_vertex.len());
-    Topology { cluster_at, twin }
+    let mut joined =
+        Twins { twin: IdVec::filled(Corner::NONE, view.corner_count()), doubled: Vec::new() };
+    join_all(view, &cluster_at, weld.first_vertex.len(), &mut joined);
+    joined.doubled.sort_unstable();
+    Topology { cluster_at, twin: joined.twin, doubled: joined.doubled }
 }
 
 fn is_collapsed(cluster_at: &IdVec<Corner, Cluster>, triangle: Triangle) -> bool {
@@ -48,21 +53,28 @@ struct Spoke {
     half_edge: Corner,
 }
 
-fn twins(
-    view: &View,
-    cluster_at: &IdVec<Corner, Cluster>,
-    clusters: usize,
-) -> IdVec<Corner, Corner> {
+/// Twins as far as they are found.
+struct Twins {
+    twin: IdVec<Corner, Corner>,
+    doubled: Vec<Corner>,
+}
+
+impl Twins {
+    fn marry(&mut self, [one, other]: [Corner; 2]) {
+        self.twin[one] = other;
+        self.twin[other] = one;
+    }
+}
+
+fn join_all(view: &View, cluster_at: &IdVec<Corner, Cluster>, clusters: usize, joined: &mut Twins) {
     let (starts, mut spokes) = buckets(view, cluster_at, clusters);
-    let mut twin = IdVec::filled(Corner::NONE, view.corner_count());
     for bounds in starts.windows(2) {
         let bucket = &mut spokes[bounds[0] as usize..bounds[1] as usize];
         bucket.sort_unstable_by_key(|spoke| (spoke.far, spoke.half_edge));
         for edge in bucket.chunk_by(|one, other| one.far == other.far) {
-            join(view, cluster_at, edge, &mut twin);
+            join(view, cluster_at, edge, joined);
         }
     }
-    twin
 }
 
 /// All half-edges, sorted by the lower of their two clusters (counting sort).
@@ -95,17 +107,12 @@ fn buckets(
 }
 
 /// Pairs the half-edges of one edge.
-fn join(
-    view: &View,
-    cluster_at: &IdVec<Corner, Cluster>,
-    edge: &[Spoke],
-    twin: &mut IdVec<Corner, Corner>,
-) {
+fn join(view: &View, cluster_at: &IdVec<Corner, Cluster>, edge: &[Spoke], joined: &mut Twins) {
     match *edge {
         [_] => {}
         [one, other] => {
             if cluster_at[one.half_edge] != cluster_at[other.half_edge] {
-                marry(twin, one.half_edge, other.half_edge);
+                joined.marry([one.half_edge, other.half_edge]);
             }
         }
         _ => {
@@ -114,16 +121,11 @@ fn join(
                 .iter()
                 .map(|spoke| spoke.half_edge)
                 .partition(|&half_edge| cluster_at[half_edge] == near);
-            for (one, other) in crowded::pairs(view, forth, back) {
-                marry(twin, one, other);
-            }
+            let pairs = crowded::pairs(view, forth, back);
+            joined.doubled.extend(crowded::doubled(view, &pairs).as_flattened());
+            pairs.into_iter().for_each(|pair| joined.marry(pair));
         }
     }
-}
-
-fn marry(twin: &mut IdVec<Corner, Corner>, one: Corner, other: Corner) {
-    twin[one] = other;
-    twin[other] = one;
 }
 
 #[cfg(test)]

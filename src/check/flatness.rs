@@ -12,12 +12,19 @@ use super::values::is_unit;
 /// How far, relative to the extent, corners may be off a plane that counts as flat.
 const FLAT_TOLERANCE: f64 = 1e-6;
 
+/// How far (a tenth of a degree) the triangles of a fan may lean from each other if it counts as
+/// flat: small fans of a curved surface are within any distance of a plane.
+const FLAT_COSINE: f64 = 0.999_998_476_913_288;
+
 /// How far, relative to the extent, a pulled corner may be off the plane it was in.
 const PLANE_TOLERANCE: f64 = 1e-5;
 
 /// How far off it may be by rounding alone, relative to the largest coordinate: a few of the
 /// smallest steps of single precision.
 const ROUNDING: f64 = 4.0 * f32::EPSILON as f64;
+
+/// Normals that differ by more than this (a twentieth of a degree) shade a surface as curved.
+const CURVED_SHADING: f64 = 1e-3;
 
 /// How much a normal may change where all around it are the same: rounding when it is made unit
 /// length again.
@@ -30,9 +37,13 @@ struct Fan {
     plane: Option<(DVec3, DVec3, f64)>,
     /// How far the fan's corners are off the plane.
     off_plane: f64,
+    /// Whether some triangle leans from the plane.
+    leans: bool,
     /// The normal that all corners have, while they do.
     normal: Option<DVec3>,
     has_uneven_normals: bool,
+    /// Whether its normals differ so much that it is meant to look curved.
+    shades_curved: bool,
 }
 
 /// Corners of source triangles against the fan that they belong to in the source.
@@ -48,11 +59,17 @@ pub(super) fn check_flatness(
     let tolerance = (PLANE_TOLERANCE * extent).max(ROUNDING * largest_coordinate(before));
     for (triangle, source) in (0u32..).zip(&origins.triangles) {
         let Some(source) = source else { continue };
+        // A line or a point has no plane and shows no normal.
+        if normal_with_area(before.triangle(*source)).is_none() {
+            continue;
+        }
         let corners = [0, 1, 2].map(|side| {
             (&fans[fan_of[(3 * source + side) as usize] as usize], 3 * triangle + side)
         });
         if corners.iter().any(|(fan, corner)| {
             fan.off_plane <= FLAT_TOLERANCE * extent
+                && !fan.leans
+                && !fan.shades_curved
                 && fan.distance(after.position(*corner)) > tolerance
         }) {
             findings.note(Rule::FlatFace, Element::Triangle(triangle));
@@ -88,6 +105,7 @@ fn measure(surface: &Surface, fan_of: &[u32]) -> Vec<Fan> {
         }
     }
     for (corner, &fan) in (0u32..).zip(fan_of) {
+        fans[fan as usize].add_lean(surface.triangle(corner / 3));
         for point in surface.triangle(corner / 3) {
             let distance = fans[fan as usize].distance(point);
             let off_plane = &mut fans[fan as usize].off_plane;
@@ -106,9 +124,17 @@ impl Fan {
         }
     }
 
+    fn add_lean(&mut self, triangle: [DVec3; 3]) {
+        let normal = normal_with_area(triangle).map(DVec3::normalize);
+        if let (Some((_, plane, _)), Some(normal)) = (self.plane, normal) {
+            self.leans |= plane.dot(normal) < FLAT_COSINE;
+        }
+    }
+
     fn add_normal(&mut self, normal: DVec3) {
         let first = *self.normal.get_or_insert(normal);
         self.has_uneven_normals |= first != normal;
+        self.shades_curved |= first.distance(normal) > CURVED_SHADING;
     }
 
     /// How far a point is off the plane; 0 without one.

@@ -1,8 +1,9 @@
 //! Twins where more than two half-edges lie between the same two clusters.
 //!
-//! In this order: half-edges that share both vertices; those with equal normals at both ends; the
-//! rest by angle about the edge, each face with the next opposite one on its solid side (behind
-//! its normal), so that two boxes that touch stay two boxes.
+//! First half-edges that share both vertices, then the rest by angle about the edge: each face with
+//! the next opposite one on its solid side (behind its normal), so that two boxes that touch stay
+//! two boxes. Equal normals do not pair: the flush tops of two boxes side by side would join, and
+//! the walls between them stay behind as a fin.
 
 use std::cmp::Ordering;
 
@@ -12,55 +13,70 @@ use crate::ids::Corner;
 use crate::math::{area_vector, unit};
 use crate::view::View;
 
+/// With more faces on one edge, comparing all of them would take quadratic time.
+const MOST_FACES: usize = 64;
+
+/// Faces whose directions about the edge differ by less than this (a hundredth of a degree) lie on
+/// each other.
+const SAME_DIRECTION: f64 = 1.0 - 1e-8;
+
 /// Pairs half-edges that run forth with some that run back. What is left over is a border.
-pub fn pairs(view: &View, mut forth: Vec<Corner>, mut back: Vec<Corner>) -> Vec<(Corner, Corner)> {
+pub fn pairs(view: &View, mut forth: Vec<Corner>, mut back: Vec<Corner>) -> Vec<[Corner; 2]> {
     let mut pairs = Vec::new();
     if forth.len() + back.len() <= MOST_FACES {
-        take_unique(&mut forth, &mut back, &mut pairs, |one, other| {
-            shares_vertices(view, one, other)
-        });
-        take_unique(&mut forth, &mut back, &mut pairs, |one, other| {
-            shares_normals(view, one, other)
-        });
+        take_joined(view, &mut forth, &mut back, &mut pairs);
     }
     take_by_angle(view, forth, back, &mut pairs);
     pairs
 }
 
-/// With more faces on one edge, comparing all of them would take quadratic time.
-const MOST_FACES: usize = 64;
+/// The pairs that lie on another pair with both their faces: the two sides of a folded sheet.
+pub fn doubled(view: &View, pairs: &[[Corner; 2]]) -> Vec<[Corner; 2]> {
+    if pairs.len() < 2 || pairs.len() > MOST_FACES {
+        return Vec::new();
+    }
+    let first = pairs[0][0];
+    let axis = unit(view.position_at(first.next()) - view.position_at(first));
+    let faces: Vec<[DVec3; 2]> =
+        pairs.iter().map(|pair| pair.map(|side| inward(view, side, axis))).collect();
+    let lies_on = |one: DVec3, other: DVec3| one.dot(other) > SAME_DIRECTION;
+    let is_doubled = |place: usize| {
+        let [one, two] = faces[place];
+        faces.iter().enumerate().any(|(other, &[three, four])| {
+            let is_same = lies_on(one, three) && lies_on(two, four);
+            other != place && (is_same || lies_on(one, four) && lies_on(two, three))
+        })
+    };
+    (0..pairs.len()).filter(|&place| is_doubled(place)).map(|place| pairs[place]).collect()
+}
 
-/// Takes the pairs that fit each other and nothing else: two candidates decide nothing.
-fn take_unique(
+/// Takes the pairs that share both vertices with each other and with nothing else: two candidates
+/// decide nothing.
+fn take_joined(
+    view: &View,
     forth: &mut Vec<Corner>,
     back: &mut Vec<Corner>,
-    pairs: &mut Vec<(Corner, Corner)>,
-    fits: impl Fn(Corner, Corner) -> bool,
+    pairs: &mut Vec<[Corner; 2]>,
 ) {
-    let only = |mut candidates: Box<dyn Iterator<Item = Corner> + '_>| {
-        candidates.next().filter(|_| candidates.next().is_none())
+    let partners = |one: Corner, others: &[Corner]| {
+        let mut joined = others.iter().copied().filter(|&other| shares_vertices(view, one, other));
+        joined.next().filter(|_| joined.next().is_none())
     };
-    let found: Vec<(Corner, Corner)> = forth
+    let found: Vec<[Corner; 2]> = forth
         .iter()
         .filter_map(|&one| {
-            let other = only(Box::new(back.iter().copied().filter(|&other| fits(one, other))))?;
-            only(Box::new(forth.iter().copied().filter(|&rival| fits(rival, other))))?;
-            Some((one, other))
+            let other = partners(one, back)?;
+            partners(other, forth).map(|_| [one, other])
         })
         .collect();
-    forth.retain(|one| found.iter().all(|pair| pair.0 != *one));
-    back.retain(|other| found.iter().all(|pair| pair.1 != *other));
+    forth.retain(|one| found.iter().all(|pair| pair[0] != *one));
+    back.retain(|other| found.iter().all(|pair| pair[1] != *other));
     pairs.extend(found);
 }
 
 fn shares_vertices(view: &View, one: Corner, other: Corner) -> bool {
     view.vertex_at(one) == view.vertex_at(other.next())
         && view.vertex_at(one.next()) == view.vertex_at(other)
-}
-
-fn shares_normals(view: &View, one: Corner, other: Corner) -> bool {
-    view.normal_at(one) == view.normal_at(other.next())
-        && view.normal_at(one.next()) == view.normal_at(other)
 }
 
 /// A face around the edge.
@@ -73,12 +89,7 @@ struct Leaf {
 
 /// Faces that run forth open a solid, faces that run back close it: match them like parentheses
 /// on a circle, going round into the solid.
-fn take_by_angle(
-    view: &View,
-    forth: Vec<Corner>,
-    back: Vec<Corner>,
-    pairs: &mut Vec<(Corner, Corner)>,
-) {
+fn take_by_angle(view: &View, forth: Vec<Corner>, back: Vec<Corner>, pairs: &mut Vec<[Corner; 2]>) {
     if forth.is_empty() || back.is_empty() {
         return;
     }
@@ -94,7 +105,7 @@ fn take_by_angle(
                 open.push(leaf.half_edge);
             }
         } else if let Some(opening) = open.pop() {
-            pairs.push((opening, leaf.half_edge));
+            pairs.push([opening, leaf.half_edge]);
             closed.extend([opening, leaf.half_edge]);
         }
     }

@@ -8,17 +8,15 @@ use std::sync::Arc;
 use anyhow::{Context, Result, bail, ensure};
 use serde_json::Value;
 
+use super::budget::Budget;
 use super::element::{Component, ElementType, Shape, Stream};
 use super::json;
-
-/// An accessor without a buffer view is all zeros and costs the file nothing: beyond this count it
-/// is taken for an attack rather than a model.
-const MAX_ZEROS: usize = 1 << 22;
 
 /// Reads the accessors of one file; each is decoded once.
 pub struct Accessors<'a> {
     json: &'a Value,
     buffers: &'a [Vec<u8>],
+    budget: &'a Budget,
     decoded: RefCell<HashMap<usize, Arc<Stream>>>,
 }
 
@@ -29,8 +27,8 @@ struct View<'a> {
 }
 
 impl<'a> Accessors<'a> {
-    pub fn new(json: &'a Value, buffers: &'a [Vec<u8>]) -> Accessors<'a> {
-        Accessors { json, buffers, decoded: RefCell::default() }
+    pub fn new(json: &'a Value, buffers: &'a [Vec<u8>], budget: &'a Budget) -> Accessors<'a> {
+        Accessors { json, buffers, budget, decoded: RefCell::default() }
     }
 
     /// How many elements an accessor states to have, unchecked.
@@ -76,7 +74,7 @@ impl<'a> Accessors<'a> {
         let count = json::required(accessor, "count", path)?;
         let mut values = match json::optional(accessor, "bufferView", path)? {
             Some(_) => self.elements(accessor, path, element, count)?,
-            None => zeros(element, count, path)?,
+            None => self.zeros(element, count)?,
         };
         if let Some(sparse) = accessor.get("sparse") {
             self.replace_some(sparse, &format!("{path}.sparse"), element, &mut values)?;
@@ -142,11 +140,19 @@ impl<'a> Accessors<'a> {
              which has {} bytes",
             view.bytes.len()
         );
-        let mut values = Vec::with_capacity(count * element.shape.components());
+        let numbers = count * element.shape.components();
+        self.budget.spend(numbers)?;
+        let mut values = Vec::with_capacity(numbers);
         for index in 0..count {
             element.decode(&view.bytes[offset + index * stride..], &mut values);
         }
         Ok(values)
+    }
+
+    fn zeros(&self, element: ElementType, count: usize) -> Result<Vec<f64>> {
+        let numbers = count.saturating_mul(element.shape.components());
+        self.budget.spend(numbers)?;
+        Ok(vec![0.0; numbers])
     }
 
     fn view(&self, index: usize) -> Result<View<'a>> {
@@ -172,21 +178,15 @@ fn path(index: usize) -> String {
     format!("accessors[{index}]")
 }
 
-fn zeros(element: ElementType, count: usize, path: &str) -> Result<Vec<f64>> {
-    ensure!(
-        count <= MAX_ZEROS,
-        "{path} has {count} elements and no buffer view: more than {MAX_ZEROS} zeros are refused"
-    );
-    Ok(vec![0.0; count * element.shape.components()])
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use serde_json::json;
 
     fn read(json: Value, bytes: &[u8]) -> Result<Vec<f64>> {
-        Ok(Accessors::new(&json, &[bytes.to_vec()]).read(0)?.values.clone())
+        let buffers = [bytes.to_vec()];
+        let budget = Budget::of_file(bytes.len());
+        Ok(Accessors::new(&json, &buffers, &budget).read(0)?.values.clone())
     }
 
     fn message(json: Value, bytes: &[u8]) -> String {

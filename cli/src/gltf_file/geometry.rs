@@ -3,6 +3,7 @@
 //! Primitives with the same attribute accessors share their vertices: they form a *block*. The
 //! vertices of the blocks stand one block after the other; copies that smoothing makes follow.
 
+use std::collections::hash_map::Entry;
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
@@ -10,17 +11,11 @@ use anyhow::{Context, Result, bail, ensure};
 use serde_json::Value;
 
 use super::accessor::Accessors;
+use super::budget::Budget;
 use super::element::{ElementType, Shape, Stream};
 use super::follow::is_carried_by_core;
 use super::json;
 use super::triangles::Mode;
-
-/// Vertices and indices that a file may give for each of its bytes. One accessor can serve many
-/// meshes, so a small file can describe a large scene; beyond this it is an attack on the memory.
-const MAX_ELEMENTS_PER_BYTE: usize = 64;
-
-/// Vertices and indices that any file may give.
-const FREE_ELEMENTS: usize = 1 << 22;
 
 /// How a core mesh lies in the primitives of a glTF mesh.
 #[derive(Default)]
@@ -146,7 +141,7 @@ pub struct GeometryReader<'a> {
     /// Position accessors of more than one mesh: each mesh takes only the elements it uses, or
     /// a vertex buffer that a whole scene shares would be copied into every mesh.
     shared: HashSet<usize>,
-    elements_left: usize,
+    budget: &'a Budget,
 }
 
 /// A primitive as the file states it.
@@ -156,39 +151,38 @@ struct PrimitivePlan {
     path: String,
     mode: Mode,
     indices: Option<usize>,
+    positions: usize,
     attributes: Vec<(String, usize)>,
     targets: Vec<Vec<(String, usize)>>,
 }
 
+/// The attributes, then those of each morph target, sorted and with a `None` behind each set.
+type SharingKey = Vec<Option<(String, usize)>>;
+
 impl<'a> GeometryReader<'a> {
-    pub fn new(json: &'a Value, buffers: &'a [Vec<u8>], file_size: usize) -> GeometryReader<'a> {
-        let elements_left = FREE_ELEMENTS.max(file_size.saturating_mul(MAX_ELEMENTS_PER_BYTE));
-        let accessors = Accessors::new(json, buffers);
-        GeometryReader { json, accessors, shared: shared_positions(json), elements_left }
+    pub fn new(json: &'a Value, buffers: &'a [Vec<u8>], budget: &'a Budget) -> GeometryReader<'a> {
+        let accessors = Accessors::new(json, buffers, budget);
+        GeometryReader { json, accessors, shared: shared_positions(json), budget }
     }
 
     /// Reads the triangles of one mesh.
-    pub fn read(&mut self, mesh: usize) -> Result<MeshGeometry> {
+    pub fn read(&self, mesh: usize) -> Result<MeshGeometry> {
         let mut geometry = MeshGeometry::default();
-        let mut block_of: HashMap<Vec<Option<(String, usize)>>, usize> = HashMap::new();
+        let mut block_of: HashMap<SharingKey, usize> = HashMap::new();
         let mut corners: Vec<Vec<u32>> = Vec::new();
         for plan in plans(json::item(self.json, "meshes", mesh)?, mesh)? {
-            let key = sharing_key(&plan);
-            let known = block_of.get(&key).copied();
-            let (block, new) = match known {
-                Some(block) => (block, None),
-                None => (geometry.blocks.len(), Some(self.block(&plan)?)),
-            };
-            let vertices = new.as_ref().unwrap_or_else(|| &geometry.blocks[block]).vertex_count();
-            let triangles = self.triangles(&plan, vertices)?;
+            let triangles = self.triangles(&plan)?;
             // A primitive without a triangle has nothing to chamfer and stays as it is.
             if triangles.is_empty() {
                 continue;
             }
-            if let Some(new) = new {
-                geometry.blocks.push(new);
-                block_of.insert(key, block);
-            }
+            let block = match block_of.entry(sharing_key(&plan)) {
+                Entry::Occupied(known) => *known.get(),
+                Entry::Vacant(unknown) => {
+                    geometry.blocks.push(self.block(&plan)?);
+                    *unknown.insert(geometry.blocks.len() - 1)
+                }
+            };
             let PrimitivePlan { primitive, indices, .. } = plan;
             let index_count = triangles.len();
             geometry.submeshes.push(Submesh { primitive, block, indices, index_count });
@@ -199,9 +193,7 @@ impl<'a> GeometryReader<'a> {
     }
 
     fn block(&self, plan: &PrimitivePlan) -> Result<Block> {
-        let position = plan.attributes.iter().find(|(name, _)| name == "POSITION");
-        let (_, position) = position.with_context(|| format!("{} has no POSITION", plan.path))?;
-        let count = self.accessors.count(*position)?;
+        let count = self.accessors.count(plan.positions)?;
         let attributes = self.attributes(&plan.attributes, count, &plan.path)?;
         let targets = plan
             .targets
@@ -234,17 +226,18 @@ impl<'a> GeometryReader<'a> {
     }
 
     /// The triangles of a primitive, as elements of its accessors.
-    fn triangles(&mut self, plan: &PrimitivePlan, vertices: usize) -> Result<Vec<u32>> {
+    fn triangles(&self, plan: &PrimitivePlan) -> Result<Vec<u32>> {
+        let vertices = u32::try_from(self.accessors.read(plan.positions)?.count())?;
         let count = match plan.indices {
             Some(indices) => self.accessors.count(indices)?,
-            None => vertices,
+            None => vertices as usize,
         };
-        self.spend(count)?;
+        self.budget.spend(count)?;
         let indices = match plan.indices {
             Some(indices) => self.accessors.read_indices(indices)?,
-            None => (0..vertices as u32).collect(),
+            None => (0..vertices).collect(),
         };
-        if let Some(place) = indices.iter().position(|index| *index as usize >= vertices) {
+        if let Some(place) = indices.iter().position(|index| *index >= vertices) {
             let index = indices[place];
             bail!("index {place} of {} is {index}, but it has {vertices} vertices", plan.path);
         }
@@ -252,18 +245,14 @@ impl<'a> GeometryReader<'a> {
     }
 
     /// Gives each block's elements their places among the vertices of the core mesh.
-    fn place_vertices(
-        &mut self,
-        geometry: &mut MeshGeometry,
-        corners: Vec<Vec<u32>>,
-    ) -> Result<()> {
+    fn place_vertices(&self, geometry: &mut MeshGeometry, corners: Vec<Vec<u32>>) -> Result<()> {
         let mut places = Vec::new();
         for (number, block) in geometry.blocks.iter().enumerate() {
             let used = geometry.submeshes.iter().zip(&corners);
             let used = used.filter(|(submesh, _)| submesh.block == number).map(|(_, c)| c);
             let placed = Places { first: geometry.origins.len(), used: self.used(block, used) };
             let count = placed.used.as_ref().map_or(block.vertex_count(), Vec::len);
-            self.spend(count)?;
+            self.budget.spend(count)?;
             let block = number as u32;
             let element = |place: usize| placed.used.as_ref().map_or(place as u32, |u| u[place]);
             geometry.origins.extend((0..count).map(|p| Origin { block, element: element(p) }));
@@ -291,13 +280,6 @@ impl<'a> GeometryReader<'a> {
         elements.sort_unstable();
         elements.dedup();
         Some(elements)
-    }
-
-    fn spend(&mut self, elements: usize) -> Result<()> {
-        self.elements_left = self.elements_left.checked_sub(elements).context(
-            "the meshes have far more vertices and indices than the file has bytes: refused",
-        )?;
-        Ok(())
     }
 }
 
@@ -333,19 +315,18 @@ fn plan(value: &Value, primitive: usize, path: String) -> Result<Option<Primitiv
     let Some(mode) = mode else { return Ok(None) };
     let Some(attributes) = value.get("attributes") else { return Ok(None) };
     let attributes = json::named_indices(attributes, &format!("{path}.attributes"))?;
-    if !attributes.iter().any(|(name, _)| name == "POSITION") {
-        return Ok(None);
-    }
+    let positions = attributes.iter().find(|(name, _)| name == "POSITION");
+    let Some(positions) = positions.map(|(_, accessor)| *accessor) else { return Ok(None) };
     let targets = json::list(value, "targets")
         .iter()
         .map(|target| json::named_indices(target, &format!("{path}.targets")))
         .collect::<Result<_>>()?;
     let indices = json::optional(value, "indices", &path)?;
-    Ok(Some(PrimitivePlan { primitive, path, mode, indices, attributes, targets }))
+    Ok(Some(PrimitivePlan { primitive, path, mode, indices, positions, attributes, targets }))
 }
 
 /// Equal for primitives that can share their vertices, however their attributes are ordered.
-fn sharing_key(plan: &PrimitivePlan) -> Vec<Option<(String, usize)>> {
+fn sharing_key(plan: &PrimitivePlan) -> SharingKey {
     let mut key = Vec::new();
     for set in std::iter::once(&plan.attributes).chain(&plan.targets) {
         let mut set = set.clone();

@@ -13,6 +13,7 @@
 
 mod accessor;
 mod accessor_writer;
+mod budget;
 mod container;
 mod core_mesh;
 mod element;
@@ -38,11 +39,13 @@ use serde_json::Value;
 
 use crate::document::{Document, Instance, OutputFile, ReadOptions, SourceMesh};
 use accessor_writer::AccessorWriter;
+use budget::Budget;
 use container::{Container, Format};
 use extensions::Mentions;
 use geometry::{GeometryReader, MeshGeometry};
 use references::Replaced;
 use rewrite::Rewrite;
+use uri::Target;
 
 /// A glTF file that was read.
 pub struct GltfDocument {
@@ -79,7 +82,8 @@ impl GltfDocument {
         let buffers = read_buffers(&json, binary, &resources::folder(path))?;
         let instances = scene::instances(&json)?;
         let size = bytes.len() + buffers.iter().map(Vec::len).sum::<usize>();
-        let mut reader = GeometryReader::new(&json, &buffers, size);
+        let budget = Budget::of_file(size);
+        let reader = GeometryReader::new(&json, &buffers, &budget);
         let (mut meshes, mut geometries) = (Vec::new(), Vec::new());
         for (index, value) in json::list(&json, "meshes").iter().enumerate() {
             let mut geometry = reader.read(index)?;
@@ -94,8 +98,18 @@ impl GltfDocument {
         Ok(GltfDocument { path, format, json, buffers, meshes, geometries, instances, bytes })
     }
 
+    /// A further submesh without triangles is no change.
     fn is_changed(&self, mesh: usize, chamfered: &Chamfered) -> bool {
-        chamfered.mesh != self.meshes[mesh].mesh
+        let (old, new) = (&self.meshes[mesh].mesh, &chamfered.mesh);
+        let old_counts = &old.submesh_index_counts[..];
+        let further = new.submesh_index_counts.strip_prefix(old_counts);
+        !further.is_some_and(|counts| counts.iter().all(|count| *count == 0))
+            || new.indices != old.indices
+            || new.positions != old.positions
+            || new.normals != old.normals
+            || new.tangents != old.tangents
+            || new.colors != old.colors
+            || new.uvs != old.uvs
     }
 
     /// The file as it was, and the files it refers to if it goes to another folder.
@@ -174,12 +188,34 @@ impl GltfDocument {
                 false => uri::write_name(file_name).into(),
             };
             if !self.has_only_data_uris() {
+                self.protect_buffers(output, &name)?;
                 files.push(OutputFile { path: name, bytes: buffer });
             }
         }
         let bytes = serde_json::to_vec_pretty(&json)?;
         files.insert(0, OutputFile { path: output.to_owned(), bytes });
         Ok(files)
+    }
+
+    /// Fails where a new buffer file would take the place of one that the input needs.
+    fn protect_buffers(&self, output: &Path, new: &Path) -> Result<()> {
+        let is_same = |a: &Path, b: &Path| {
+            a.canonicalize().ok().is_some_and(|a| b.canonicalize().ok() == Some(a))
+        };
+        if is_same(output, &self.path) {
+            return Ok(());
+        }
+        let folder = resources::folder(&self.path);
+        for buffer in json::list(&self.json, "buffers") {
+            let Some(uri) = buffer.get("uri").and_then(Value::as_str) else { continue };
+            let Target::Inside(old) = uri::target(uri)? else { continue };
+            ensure!(
+                !is_same(&folder.join(old), new),
+                "{} belongs to the input and would be overwritten: name the output otherwise",
+                new.display()
+            );
+        }
+        Ok(())
     }
 
     fn has_only_data_uris(&self) -> bool {

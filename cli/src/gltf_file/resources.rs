@@ -33,6 +33,9 @@ pub fn copies(json: &Value, key: &str, from: &Path, to: &Path) -> Result<Vec<Out
     }
     for (index, item) in json::list(json, key).iter().enumerate() {
         let Some(uri) = item.get("uri").and_then(Value::as_str) else { continue };
+        if uri.starts_with("data:") {
+            continue;
+        }
         let path = match uri::target(uri)? {
             Target::Inside(path) => path,
             Target::Data(_) | Target::Elsewhere => continue,

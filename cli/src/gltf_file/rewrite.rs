@@ -7,26 +7,31 @@ use serde_json::{Map, Value};
 use super::accessor_writer::{AccessorWriter, Role, Usage};
 use super::element::{ElementType, Shape, Stream};
 use super::follow::{Follower, is_carried_by_core, uv_channel};
-use super::geometry::{Attribute, Block, MeshGeometry};
+use super::geometry::{Attribute, Block, MeshGeometry, Submesh};
 use super::skin;
 
 /// Accessor numbers by attribute name.
 type Accessors = Vec<(String, usize)>;
 
-/// The new vertices of a block.
-struct BlockVertices {
-    /// `#block vertices`: their indices in the chamfered mesh.
-    vertices: Vec<u32>,
-    /// `#output vertices`: their places in the block.
-    place_of: Vec<u32>,
+/// The place of a vertex that is not in a block.
+const ABSENT: u32 = u32::MAX;
+
+/// A submesh of the chamfered mesh.
+struct Part<'a> {
+    /// The source submesh that it is, or whose primitive it is a further one like.
+    submesh: &'a Submesh,
+    is_further: bool,
+    /// `#triangles by 3`, flattened.
+    corners: &'a [u32],
 }
 
 /// One chamfered mesh on its way into the file.
 pub struct Rewrite<'a> {
     geometry: &'a MeshGeometry,
     chamfered: &'a Chamfered,
-    /// `#submeshes`: the triangles of each.
-    submeshes: Vec<&'a [u32]>,
+    parts: Vec<Part<'a>>,
+    /// `#blocks`: the source vertices of each.
+    own_vertices: Vec<Vec<u32>>,
 }
 
 impl<'a> Rewrite<'a> {
@@ -40,17 +45,28 @@ impl<'a> Rewrite<'a> {
         let fits = normals.len() == positions.len()
             && chamfered.vertex_sources.len() == positions.len()
             && positions.len() >= geometry.origins.len()
-            && submesh_index_counts.len() == geometry.submeshes.len()
+            && submesh_index_counts.len() >= geometry.submeshes.len()
             && total == indices.len()
             && indices.iter().all(|index| (*index as usize) < positions.len());
         ensure!(fits, "the chamfered mesh does not match the primitives of the file");
         let mut rest = &indices[..];
-        let submeshes = submesh_index_counts.iter().map(|count| {
-            let (submesh, after) = rest.split_at(*count as usize);
+        let mut parts = Vec::new();
+        for (number, count) in submesh_index_counts.iter().enumerate() {
+            let (corners, after) = rest.split_at(*count as usize);
             rest = after;
-            submesh
-        });
-        Ok(Rewrite { geometry, chamfered, submeshes: submeshes.collect() })
+            let is_further = number >= geometry.submeshes.len();
+            let submesh = geometry.submeshes.get(number).or(geometry.submeshes.last());
+            let submesh = submesh.context("the mesh had no triangles, but now it has")?;
+            // A primitive without triangles is more than glTF can say, and nothing to see.
+            if !(is_further && corners.is_empty()) {
+                parts.push(Part { submesh, is_further, corners });
+            }
+        }
+        let mut own_vertices = vec![Vec::new(); geometry.blocks.len()];
+        for (vertex, origin) in geometry.origins.iter().enumerate() {
+            own_vertices[origin.block as usize].push(vertex as u32);
+        }
+        Ok(Rewrite { geometry, chamfered, parts, own_vertices })
     }
 
     /// Replaces what the JSON of the mesh says of its triangles.
@@ -58,48 +74,46 @@ impl<'a> Rewrite<'a> {
     /// # Errors
     /// Where a primitive would be left empty.
     pub fn write(&self, mesh: &mut Value, writer: &mut AccessorWriter) -> Result<()> {
+        let mut place_of = vec![ABSENT; self.chamfered.mesh.positions.len()];
         for (number, block) in self.geometry.blocks.iter().enumerate() {
-            let vertices = self.block_vertices(number);
-            let attributes = self.attributes(block, &vertices.vertices, writer)?;
-            let targets = self.targets(block, &vertices.vertices, writer)?;
-            for (submesh, corners) in self.geometry.submeshes.iter().zip(&self.submeshes) {
-                if submesh.block != number {
-                    continue;
-                }
-                let local: Vec<u32> =
-                    corners.iter().map(|index| vertices.place_of[*index as usize]).collect();
-                let role =
-                    submesh.indices.map_or(Role::IndicesOf(position(block)), Role::Successor);
-                let indices = writer.write_indices(role, &local)?;
-                let primitive = mesh.pointer_mut(&format!("/primitives/{}", submesh.primitive));
-                let primitive = primitive.and_then(Value::as_object_mut);
-                replace(primitive.context("a primitive is gone")?, &attributes, &targets, indices);
+            let vertices = self.block_vertices(number, &mut place_of);
+            let attributes = self.attributes(block, &vertices, writer)?;
+            let targets = self.targets(block, &vertices, writer)?;
+            for part in self.parts_of(number) {
+                let places = part.corners.iter().map(|index| place_of[*index as usize]);
+                let indices =
+                    writer.write_indices(part.role(block), &places.collect::<Vec<_>>())?;
+                let primitive = part.primitive(mesh).context("a primitive is gone")?;
+                replace(primitive, &attributes, &targets, indices);
             }
+            // Only what was set, or many blocks would take quadratic time.
+            vertices.iter().for_each(|vertex| place_of[*vertex as usize] = ABSENT);
         }
         Ok(())
     }
 
-    /// The source vertices of a block in their order, then all others that its triangles use.
-    fn block_vertices(&self, block: usize) -> BlockVertices {
-        const ABSENT: u32 = u32::MAX;
-        let mut place_of = vec![ABSENT; self.chamfered.mesh.positions.len()];
-        let origins = self.geometry.origins.iter().enumerate();
-        let own = origins.filter(|(_, origin)| origin.block as usize == block);
-        let mut vertices: Vec<u32> = own.map(|(vertex, _)| vertex as u32).collect();
-        for (place, vertex) in vertices.iter().enumerate() {
-            place_of[*vertex as usize] = place as u32;
-        }
-        let submeshes = self.geometry.submeshes.iter().zip(&self.submeshes);
-        let corners = submeshes.filter(|(submesh, _)| submesh.block == block).flat_map(|(_, c)| *c);
-        let absent = corners.copied().filter(|vertex| place_of[*vertex as usize] == ABSENT);
+    fn parts_of(&self, block: usize) -> impl Iterator<Item = &Part<'a>> {
+        self.parts.iter().filter(move |part| part.submesh.block == block)
+    }
+
+    /// The source vertices of a block in their order, then all others that its triangles use; each
+    /// is told its place.
+    fn block_vertices(&self, block: usize, place_of: &mut [u32]) -> Vec<u32> {
+        let mut vertices = self.own_vertices[block].clone();
+        let set = |place_of: &mut [u32], from: usize, vertices: &[u32]| {
+            for (place, vertex) in vertices.iter().enumerate() {
+                place_of[*vertex as usize] = (from + place) as u32;
+            }
+        };
+        set(place_of, 0, &vertices);
+        let corners = self.parts_of(block).flat_map(|part| part.corners.iter().copied());
+        let absent = corners.filter(|vertex| place_of[*vertex as usize] == ABSENT);
         let mut further: Vec<u32> = absent.collect();
         further.sort_unstable();
         further.dedup();
-        for vertex in further {
-            place_of[vertex as usize] = vertices.len() as u32;
-            vertices.push(vertex);
-        }
-        BlockVertices { vertices, place_of }
+        set(place_of, vertices.len(), &further);
+        vertices.extend(further);
+        vertices
     }
 
     fn attributes(
@@ -202,6 +216,24 @@ impl<'a> Rewrite<'a> {
         };
         ensure!(stream.count() == vertices.len(), "the chamfered mesh has lost its {name}");
         Ok(stream)
+    }
+}
+
+impl Part<'_> {
+    fn role(&self, block: &Block) -> Role {
+        let indices = self.submesh.indices.filter(|_| !self.is_further);
+        indices.map_or(Role::IndicesOf(position(block)), Role::Successor)
+    }
+
+    /// The primitive's JSON; a further one is added as a copy of the one that it is like.
+    fn primitive<'m>(&self, mesh: &'m mut Value) -> Option<&'m mut Map<String, Value>> {
+        let primitives = mesh.get_mut("primitives")?.as_array_mut()?;
+        let mut index = self.submesh.primitive;
+        if self.is_further {
+            primitives.push(primitives.get(index)?.clone());
+            index = primitives.len() - 1;
+        }
+        primitives.get_mut(index)?.as_object_mut()
     }
 }
 

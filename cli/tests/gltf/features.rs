@@ -1,9 +1,13 @@
 //! What glTF can say of a mesh, in small models: read right, and written so that it still holds.
 
+use std::fs;
+
 use chamfer_cli::document::Document;
 use serde_json::{Value, json};
 
-use crate::support::{Model, SQUARE, SQUARE_INDICES};
+use crate::support::{
+    Model, SQUARE, SQUARE_INDICES, all_grown, folder, json_of, read, unchanged, write,
+};
 
 const ATTRIBUTES: &str = "/meshes/0/primitives/0/attributes";
 
@@ -256,6 +260,26 @@ fn extensions_and_extras_come_out_unchanged() {
     assert_eq!(written.floats("/animations/0/samplers/0/input"), [0.25, 0.5]);
     assert_eq!(written.json["accessors"][1]["count"], 4, "an extension may refer to it");
     assert_eq!(written.accessor(&attribute("NORMAL"))["count"], 5);
+}
+
+#[test]
+fn a_further_submesh_is_a_further_primitive_of_the_same_material() {
+    let mut model = square_with("_HEAT", |model| model.floats(&[[1.0f32]; 4]));
+    model.json["meshes"][0]["primitives"][0]["extras"] = "stone".into();
+    let document = model.read("further").unwrap();
+    let output = folder("further").join("out.glb");
+    let mut chamfered = all_grown(&document);
+    chamfered[0].mesh.submesh_index_counts = vec![6, 3];
+    write(&document.encode(&output, &chamfered).unwrap());
+    assert_eq!(read(&output).unwrap().meshes()[0].mesh, chamfered[0].mesh);
+    let json = json_of(&fs::read(&output).unwrap());
+    let primitives = &json["meshes"][0]["primitives"];
+    assert_eq!(primitives[1]["extras"], "stone");
+    assert_eq!(primitives[0]["attributes"], primitives[1]["attributes"]);
+
+    let mut same = unchanged(&document);
+    same[0].mesh.submesh_index_counts.push(0);
+    assert_eq!(document.encode(&output, &same).unwrap()[0].bytes, model.glb());
 }
 
 #[test]

@@ -61,6 +61,14 @@ fn beside_the_input_only_new_files_are_written() {
 }
 
 #[test]
+fn a_buffer_of_the_input_is_not_overwritten() {
+    let folder = folder("protected");
+    let document = read(&write_gltf(&folder, "shape.bin")).unwrap();
+    let error = document.encode(&folder.join("shape.gltf"), &all_grown(&document)).err().unwrap();
+    assert!(error.to_string().contains("belongs to the input"));
+}
+
+#[test]
 fn another_image_of_the_same_name_is_not_overwritten() {
     let (from, to) = (folder("taken_from"), folder("taken_to"));
     let document = read(&write_gltf(&from, "shape.bin")).unwrap();
