@@ -51,18 +51,22 @@ pub fn convex_mesh() -> impl Strategy<Value = Model> {
 /// without area, and normals that may have nothing to do with them.
 pub fn soup() -> impl Strategy<Value = Model> {
     let point = [-3..=3i32, -3..=3i32, -3..=3i32].prop_map(|at| at.map(|along| along as f32));
-    let shapes = (vec(point, 3..12), 1..25usize).prop_flat_map(|(points, count)| {
-        let corners = vec(0..points.len() as u32, 3 * count);
-        (Just(points), corners, prop_oneof![Just(None), (0..180u32).prop_map(Some)])
+    let shapes = (3..12usize).prop_flat_map(move |count| {
+        let triangle = [0..count as u32, 0..count as u32, 0..count as u32];
+        (vec(point.clone(), count), vec(triangle, 1..25))
     });
-    (shapes, any::<u32>(), dress()).prop_map(|((points, corners, smoothing), seed, dress)| {
-        let mut mesh = shaded(&points, &corners, smoothing.unwrap_or(60) as f32);
-        if smoothing.is_none() {
-            let mut noise = Noise(seed);
-            mesh.normals.iter_mut().for_each(|normal| *normal = noise.unit().to_array());
-        }
-        Model(dress.put_on(mesh))
-    })
+    let smoothing = prop_oneof![Just(None), (0..180u32).prop_map(Some)];
+    (shapes, smoothing, any::<u32>(), dress()).prop_map(
+        |((points, triangles), smoothing, seed, dress)| {
+            let mut mesh =
+                shaded(&points, triangles.as_flattened(), smoothing.unwrap_or(60) as f32);
+            if smoothing.is_none() {
+                let mut noise = Noise(seed);
+                mesh.normals.iter_mut().for_each(|normal| *normal = noise.unit().to_array());
+            }
+            Model(dress.put_on(mesh))
+        },
+    )
 }
 
 /// A shear, a turn and a shift.
@@ -329,7 +333,7 @@ impl Dress {
             mesh.tangents = mesh.normals.iter().map(across).map(|t| t.to_array()).collect();
         }
         if self.has_colors {
-            let mut color = || [0; 4].map(|_| noise.share());
+            let mut color = || [0; 4].map(|_| if noise.coin() { 1.0 } else { 0.0 });
             mesh.colors = (0..count).map(|_| color()).collect();
         }
         mesh
