@@ -1,0 +1,62 @@
+//! The built `chamfer` on all the real models beside the project: every file goes through, and
+//! what comes out reads back as the report says.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use chamfer_cli::document::ReadOptions;
+use chamfer_cli::format;
+use serde_json::Value;
+
+/// The models live beside the repository and are no part of it.
+const CORPUS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared/corpus");
+
+/// Models, as the folder's own list has it.
+const MODELS: usize = 120;
+
+#[test]
+fn every_real_model_goes_through_and_reads_back() {
+    if !Path::new(CORPUS).is_dir() {
+        // Straight to the stream: what is printed is only shown for tests that fail.
+        let skipped = format!("SKIPPED: {CORPUS} is not there: no real model was tried\n");
+        std::io::stderr().write_all(skipped.as_bytes()).unwrap();
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let report = chamfer_all(folder.path());
+    let files = report["files"].as_array().unwrap();
+    assert_eq!(files.len(), MODELS);
+    for file in files {
+        let output = PathBuf::from(file["output"].as_str().unwrap());
+        let expected: u64 = triangles_out(file).iter().sum();
+        assert_eq!(triangles_of(&output), expected, "{}", output.display());
+    }
+}
+
+/// Runs the command on the whole folder, at half a percent, and returns its report.
+fn chamfer_all(folder: &Path) -> Value {
+    let report = folder.join("report.json");
+    let run = Command::new(env!("CARGO_BIN_EXE_chamfer"))
+        .args([CORPUS, "--width-percent", "0.5", "-o"])
+        .arg(folder.join("out/"))
+        .arg("--report")
+        .arg(&report)
+        .output()
+        .unwrap();
+    assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
+    serde_json::from_slice(&std::fs::read(&report).unwrap()).unwrap()
+}
+
+fn triangles_out(file: &Value) -> Vec<u64> {
+    let meshes = file["meshes"].as_array().unwrap();
+    meshes.iter().map(|mesh| mesh["triangles_out"].as_u64().unwrap()).collect()
+}
+
+/// How many triangles the reader finds in a file.
+fn triangles_of(path: &Path) -> u64 {
+    let document = format::read(path, &ReadOptions { smoothing_angle: 30.0 })
+        .unwrap_or_else(|error| panic!("{}: {error:#}", path.display()));
+    let indices: usize = document.meshes().iter().map(|mesh| mesh.mesh.indices.len()).sum();
+    indices as u64 / 3
+}

@@ -1,0 +1,69 @@
+//! The real models beside the project, through the whole-mesh checker.
+
+#[path = "corpus/measure.rs"]
+mod measure;
+
+use std::io::Write;
+use std::path::Path;
+
+use chamfer::Verify;
+use measure::{FOLDER, Measured, Sum, measure, models};
+
+/// Models, as the folder's own list has it.
+const MODELS: usize = 120;
+
+/// Chamfers all models by a width in percent of the extent; none, and loudly, without the folder.
+fn measured(percent: f32) -> Option<Vec<Measured>> {
+    let paths = models(Path::new(FOLDER));
+    if paths.is_empty() {
+        // Straight to the stream: what is printed is only shown for tests that fail.
+        let skipped = format!("SKIPPED: there are no models in {FOLDER}: nothing real was tried\n");
+        std::io::stderr().write_all(skipped.as_bytes()).unwrap();
+        return None;
+    }
+    assert_eq!(paths.len(), MODELS, "models in {FOLDER}");
+    let meshes = |path: &std::path::PathBuf| {
+        measure(path, percent, Verify::Fast)
+            .unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+    };
+    Some(paths.iter().flat_map(meshes).collect())
+}
+
+/// Passes if every model is sound.
+fn assert_all_sound(meshes: &[Measured], percent: f32) {
+    let unsound: Vec<String> = meshes
+        .iter()
+        .filter(|mesh| !mesh.findings.is_sound())
+        .map(|mesh| format!("{}:\n{}", mesh.name, mesh.findings))
+        .collect();
+    assert!(
+        unsound.is_empty(),
+        "{} of {} meshes are not sound at {percent} %:\n{}",
+        unsound.len(),
+        meshes.len(),
+        unsound.join("\n")
+    );
+}
+
+#[test]
+fn at_a_fifth_of_a_percent_all_are_sound_and_nearly_all_edges_chamfered() {
+    let Some(meshes) = measured(0.2) else { return };
+    assert_all_sound(&meshes, 0.2);
+    let mut sum = Sum::default();
+    meshes.iter().for_each(|mesh| sum.add(mesh));
+    assert!(sum.chamfered_share() >= 0.97, "{sum}");
+}
+
+#[test]
+fn at_half_a_percent_all_are_sound() {
+    if let Some(meshes) = measured(0.5) {
+        assert_all_sound(&meshes, 0.5);
+    }
+}
+
+#[test]
+fn at_two_percent_all_are_sound() {
+    if let Some(meshes) = measured(2.0) {
+        assert_all_sound(&meshes, 2.0);
+    }
+}

@@ -1,0 +1,124 @@
+//! What holds for every mesh, tried on random ones.
+//!
+//! The same cases on every run, so that a failure is a change's and not the day's. To look for
+//! more: `PROPTEST_RNG_SEED=2 PROPTEST_CASES=20000 cargo test --release --test properties`.
+
+#[path = "support/random.rs"]
+mod random;
+#[path = "support/solids.rs"]
+mod solids;
+
+use chamfer::check::{Findings, check};
+use chamfer::{Chamfered, MeshBuffers, Options, Verify, Width, chamfer};
+use proptest::prelude::*;
+use proptest::test_runner::{Config, RngSeed};
+
+use random::{Model, clean_mesh, convex_mesh, soup};
+
+fn config(cases: u32) -> Config {
+    let asked = Config::default();
+    Config {
+        cases: if std::env::var_os("PROPTEST_CASES").is_some() { asked.cases } else { cases },
+        rng_seed: match asked.rng_seed {
+            RngSeed::Random => RngSeed::Fixed(1),
+            fixed => fixed,
+        },
+        failure_persistence: None,
+        ..asked
+    }
+}
+
+/// From hair-fine to a fifth of the extent, which is wider than most features.
+fn percent() -> impl Strategy<Value = f32> {
+    prop_oneof![0.01..1.0f32, 1.0..20.0f32]
+}
+
+fn chamfered(mesh: &MeshBuffers, percent: f32, verify: Verify) -> Chamfered {
+    let options = Options { width: Width::PercentOfExtent(percent), verify, ..Options::default() };
+    chamfer(&mesh.as_mesh(), &options).unwrap()
+}
+
+fn findings(mesh: &MeshBuffers, percent: f32, verify: Verify) -> Findings {
+    check(&mesh.as_mesh(), &chamfered(mesh, percent, verify), verify)
+}
+
+fn any_mesh() -> impl Strategy<Value = Model> {
+    prop_oneof![4 => clean_mesh(), 1 => soup()]
+}
+
+proptest! {
+    #![proptest_config(config(400))]
+
+    #[test]
+    fn a_chamfered_mesh_is_sound(Model(mesh) in clean_mesh(), percent in percent()) {
+        let findings = findings(&mesh, percent, Verify::Fast);
+        prop_assert!(findings.is_sound(), "{findings}");
+    }
+
+    #[test]
+    fn a_chamfered_soup_is_sound(Model(mesh) in soup(), percent in percent()) {
+        let findings = findings(&mesh, percent, Verify::Fast);
+        prop_assert!(findings.is_sound(), "{findings}");
+    }
+
+    #[test]
+    fn a_chamfered_convex_solid_does_not_cut_itself(Model(mesh) in convex_mesh(), percent in percent()) {
+        let findings = findings(&mesh, percent, Verify::Full);
+        prop_assert!(findings.is_sound(), "{findings}");
+    }
+}
+
+proptest! {
+    #![proptest_config(config(150))]
+
+    #[test]
+    fn twice_the_same_gives_the_same_bytes(Model(mesh) in any_mesh(), percent in percent()) {
+        let [one, other] = [0, 1].map(|_| chamfered(&mesh, percent, Verify::Full));
+        prop_assert!(one.mesh == other.mesh);
+        prop_assert_eq!(one.vertex_sources, other.vertex_sources);
+        prop_assert_eq!(one.triangle_sources, other.triangle_sources);
+        prop_assert_eq!(one.verdicts, other.verdicts);
+    }
+
+    #[test]
+    fn width_zero_changes_nothing(Model(mesh) in any_mesh()) {
+        prop_assert!(chamfered(&mesh, 0.0, Verify::Full).mesh == mesh);
+    }
+
+    #[test]
+    fn what_comes_out_can_go_in_again(Model(mesh) in any_mesh(), percent in percent()) {
+        let once = chamfered(&mesh, percent, Verify::Fast).mesh;
+        let findings = findings(&once, percent, Verify::Fast);
+        prop_assert!(findings.is_sound(), "{findings}");
+    }
+
+    #[test]
+    fn a_mesh_scaled_by_a_power_of_two_is_chamfered_alike(
+        Model(mesh) in any_mesh(),
+        percent in percent(),
+        power in -20..20i32,
+    ) {
+        let scale = 2.0_f32.powi(power);
+        let scaled = |mesh: &MeshBuffers| {
+            let positions = mesh.positions.iter().map(|p| p.map(|along| along * scale)).collect();
+            MeshBuffers { positions, ..mesh.clone() }
+        };
+        let expected = scaled(&chamfered(&mesh, percent, Verify::Fast).mesh);
+        prop_assert!(chamfered(&scaled(&mesh), percent, Verify::Fast).mesh == expected);
+    }
+
+    #[test]
+    fn the_order_of_triangles_does_not_matter(
+        (Model(mesh), order) in clean_mesh().prop_flat_map(|model| {
+            let order: Vec<usize> = (0..model.0.indices.len() / 3).collect();
+            (Just(model), Just(order).prop_shuffle())
+        }),
+        percent in percent(),
+    ) {
+        let corners = order.iter().flat_map(|&triangle| 3 * triangle..3 * triangle + 3);
+        let indices = corners.map(|corner| mesh.indices[corner]).collect();
+        let shuffled = MeshBuffers { indices, ..mesh.clone() };
+        let findings = findings(&shuffled, percent, Verify::Fast);
+        prop_assert!(findings.is_sound(), "{findings}");
+    }
+}
