@@ -85,10 +85,15 @@ fn resample(
 /// Where a corner's vertex comes from when its sector takes a share of the offset.
 fn vertex_source(plan: &Plan, sector: Sector, corner: Corner, share: f64) -> VertexSource {
     let own = plan.view.vertex_at(corner).0;
-    let from_own =
-        |blend: Blend| Blend { vertices: [own, blend.vertices[1], blend.vertices[2]], ..blend };
+    let chart = chart_foot(plan, sector, corner);
+    // Where the way begins at the vertex itself, that is the one to begin with.
+    let from_own = |blend: Blend| match chart.start {
+        [0.0, 0.0] => Blend { vertices: [own, blend.vertices[1], blend.vertices[2]], ..blend },
+        _ => blend,
+    };
+
     VertexSource {
         surface: surface_foot(plan, sector, corner).blend(plan, share),
-        chart: from_own(chart_foot(plan, sector, corner).blend(plan, share)),
+        chart: from_own(chart.blend(plan, share)),
     }
 }

@@ -1,7 +1,9 @@
 //! Edges: which of them are hard, and which of those are chamfered.
 
+use glam::DVec3;
+
+use crate::faces::Faces;
 use crate::ids::{Corner, Edge, IdVec};
-use crate::math::{area_vector, unit};
 use crate::report::Reason;
 use crate::topology::Topology;
 use crate::view::View;
@@ -30,7 +32,7 @@ pub struct Edges {
     pub chamfered_at: IdVec<Corner, Edge>,
 }
 
-pub fn edges(view: &View, topology: &Topology) -> Edges {
+pub fn edges(view: &View, topology: &Topology, faces: &Faces) -> Edges {
     let mut hard = IdVec::default();
     let mut chamfered_at = IdVec::filled(Edge::NONE, view.corner_count());
     for corner in topology.twin.ids() {
@@ -38,7 +40,7 @@ pub fn edges(view: &View, topology: &Topology) -> Edges {
         if twin.is_none() || twin < corner || !is_hard(view, corner, twin) {
             continue;
         }
-        let skipped = obstacle(view, topology, corner, twin);
+        let skipped = obstacle(topology, faces, corner, twin);
         let edge = hard.push(HardEdge { sides: [corner, twin], skipped });
         if skipped.is_none() {
             chamfered_at[corner] = edge;
@@ -61,26 +63,19 @@ pub fn is_hard(view: &View, side: Corner, other: Corner) -> bool {
 }
 
 /// What keeps a hard edge from being chamfered whatever the width.
-fn obstacle(view: &View, topology: &Topology, side: Corner, other: Corner) -> Option<Reason> {
-    let is_doubled = topology.doubled.binary_search(&side).is_ok();
-    let [one, other] = [side, other].map(|half_edge| {
-        let points = view.triangle(half_edge.triangle());
-        let longest = (0..3).map(|k| points[k].distance(points[(k + 1) % 3])).fold(0.0, f64::max);
-        let area = area_vector(points);
-        (unit(area), area.length() <= longest * view.resolution)
-    });
-    if one.1 || other.1 {
-        Some(Reason::NoArea)
-    } else if one.0.dot(other.0) < BACK_TO_BACK_COSINE || is_doubled {
-        Some(Reason::ZeroThickness)
-    } else {
-        None
+fn obstacle(topology: &Topology, faces: &Faces, side: Corner, other: Corner) -> Option<Reason> {
+    let [one, two] = [side, other].map(|half_edge| faces.normal[half_edge.triangle()]);
+    if one == DVec3::ZERO || two == DVec3::ZERO {
+        return Some(Reason::NoArea);
     }
+    let is_doubled = topology.doubled.binary_search(&side).is_ok();
+    (is_doubled || one.dot(two) < BACK_TO_BACK_COSINE).then_some(Reason::ZeroThickness)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::faces::faces;
     use crate::mesh::Mesh;
     use crate::options::Options;
     use crate::topology::topology;
@@ -112,7 +107,8 @@ mod tests {
             ..Mesh::default()
         };
         let view = view(&mesh, &Options::default()).unwrap();
-        let edges = edges(&view, &topology(&view, &weld(&mesh)));
+        let topology = topology(&view, &weld(&mesh));
+        let edges = edges(&view, &topology, &faces(&view, &topology));
         edges.hard.iter().map(|edge| edge.skipped).collect()
     }
 

@@ -29,6 +29,7 @@ mod bvh;
 mod corners;
 mod edges;
 mod error;
+mod faces;
 #[allow(unsafe_code)]
 mod ffi;
 mod groups;

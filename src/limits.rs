@@ -8,6 +8,8 @@
 mod collisions;
 mod room;
 
+use glam::DVec3;
+
 use crate::corners;
 use crate::ids::{Corner, Edge, IdVec, Ring, Sector, Triangle};
 use crate::math::unit;
@@ -16,7 +18,7 @@ use crate::placement::Placement;
 use crate::plan::Plan;
 use crate::report::Reason;
 use crate::strips;
-use crate::validity::survives;
+use crate::validity::{stays_line, survives};
 
 /// How much a sector that takes part in something bad keeps in each round.
 const SHRINK: f64 = 0.5;
@@ -185,7 +187,14 @@ fn is_valid(plan: &Plan, placement: &Placement, element: Element) -> bool {
 fn surface_is_valid(plan: &Plan, placement: &Placement, triangle: Triangle) -> bool {
     let old = plan.view.triangle(triangle);
     let new = triangle.corners().map(|corner| placement.position_at(plan, corner));
-    old == new || survives(old, new)
+    let faces = &plan.faces;
+    if old == new {
+        true
+    } else if faces.normal[triangle] == DVec3::ZERO || faces.is_line(triangle) {
+        stays_line(old, new, faces.normal[triangle], plan.view.resolution)
+    } else {
+        survives(old, new)
+    }
 }
 
 fn strip_is_valid(plan: &Plan, placement: &Placement, edge: Edge) -> bool {

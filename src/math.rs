@@ -58,6 +58,10 @@ impl Turn {
         if self.half_turns.is_multiple_of(2) { self.sin } else { -self.sin }
     }
 
+    pub fn cos(self) -> f64 {
+        if self.half_turns.is_multiple_of(2) { self.cos } else { -self.cos }
+    }
+
     /// Whether the angle is below 180 degrees.
     pub fn is_convex(self) -> bool {
         self.half_turns == 0
@@ -106,8 +110,7 @@ mod tests {
     fn assert_close(turn: Turn, degrees: f64) {
         let (sin, cos) = degrees.to_radians().sin_cos();
         assert!((turn.sin() - sin).abs() < 1e-12, "{turn:?} is not {degrees} degrees");
-        let turn_cos = if turn.half_turns.is_multiple_of(2) { turn.cos } else { -turn.cos };
-        assert!((turn_cos - cos).abs() < 1e-12, "{turn:?} is not {degrees} degrees");
+        assert!((turn.cos() - cos).abs() < 1e-12, "{turn:?} is not {degrees} degrees");
     }
 
     #[test]

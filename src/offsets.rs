@@ -11,8 +11,10 @@
 use glam::DVec3;
 
 use crate::edges::is_hard;
+use crate::faces::Faces;
 use crate::ids::{Corner, IdVec, Sector};
-use crate::math::{Turn, area_vector, unit};
+use crate::math::{Turn, unit};
+use crate::resample::{Foot, locate};
 use crate::sectors::{Fan, Sectors};
 use crate::topology::Topology;
 use crate::view::View;
@@ -40,8 +42,8 @@ pub struct Offset {
     pub vector: DVec3,
     /// The corner of the triangle that the direction lies on.
     pub within: Corner,
-    /// The same vector in terms of the edges from `within` to its next and its previous corner.
-    pub along: [f64; 2],
+    /// Where the vector ends on the surface.
+    pub foot: Foot,
     /// Whether the distance was cut off at the miter limit.
     pub is_capped: bool,
 }
@@ -53,16 +55,22 @@ impl Offset {
 }
 
 /// `#sectors`.
-pub fn offsets(view: &View, topology: &Topology, sectors: &Sectors) -> IdVec<Sector, Offset> {
+pub fn offsets(
+    view: &View,
+    topology: &Topology,
+    faces: &Faces,
+    sectors: &Sectors,
+) -> IdVec<Sector, Offset> {
     let mut spread = Vec::new();
     let offset = |sector| {
         unfold(view, topology, sectors, sector, &mut spread);
         let fan = &sectors.fans[sector];
-        let chosen = course(view, topology, fan, &spread).and_then(|course| place(view, &course));
+        let chosen = course(view, topology, faces, fan, &spread)
+            .and_then(|course| place(view, faces, &course));
         chosen.unwrap_or(Offset {
             vector: DVec3::ZERO,
             within: fan.first,
-            along: [0.0; 2],
+            foot: Foot::at(fan.first),
             is_capped: false,
         })
     };
@@ -110,18 +118,24 @@ struct Course {
     is_capped: bool,
 }
 
-fn course(view: &View, topology: &Topology, fan: &Fan, spread: &[Blade]) -> Option<Course> {
+fn course(
+    view: &View,
+    topology: &Topology,
+    faces: &Faces,
+    fan: &Fan,
+    spread: &[Blade],
+) -> Option<Course> {
     let (first, last) = (spread.first()?, spread.last()?);
     let total = last.start.plus(last.angle);
     match (fan.starts_at_border, fan.ends_at_border()) {
         (true, true) => None,
         // At a border the vertex has to stay on it, which no hard edge inside the fan allows.
-        (true, false) | (false, true) if crease(view, spread).is_hard() => None,
+        (true, false) | (false, true) if crease(view, faces, spread).is_hard() => None,
         (true, false) => slide(view, first.corner, Turn::ZERO, &[total]),
         (false, true) => slide(view, last.corner, last.angle, &[total]),
         // One edge on both sides: it ends here, and its chamfer tapers to a point.
         (false, false) if topology.twin[fan.first] == fan.last.prev() => None,
-        (false, false) => match crease(view, spread) {
+        (false, false) => match crease(view, faces, spread) {
             Crease::None => bisect(view, total, spread),
             Crease::Soft(blade) => {
                 slide_inside(view, total, blade).or_else(|| bisect(view, total, spread))
@@ -185,13 +199,13 @@ impl Crease<'_> {
 }
 
 /// The hard edge that is not chamfered, if there is one, or else the sharpest bend.
-fn crease<'a>(view: &View, spread: &'a [Blade]) -> Crease<'a> {
+fn crease<'a>(view: &View, faces: &Faces, spread: &'a [Blade]) -> Crease<'a> {
     let mut sharpest = (CREASE_COSINE, Crease::None);
     let mut kept = Crease::None;
     let mut before = DVec3::ZERO;
     let mut crosses_hard = false;
     for (place, blade) in spread.iter().enumerate() {
-        let behind = unit(area_vector(view.triangle(blade.corner.triangle())));
+        let behind = faces.normal[blade.corner.triangle()];
         crosses_hard |= place > 0 && is_hard(view, blade.corner, spread[place - 1].corner.prev());
         // A triangle without area has no normal: the bend is to the face behind it.
         if behind == DVec3::ZERO {
@@ -213,25 +227,14 @@ fn crease<'a>(view: &View, spread: &'a [Blade]) -> Crease<'a> {
 }
 
 /// The offset in space; none where the corner has no plane.
-fn place(view: &View, course: &Course) -> Option<Offset> {
-    let [to_next, to_prev] = arms(view, course.corner);
-    let corner_angle = Turn::between(to_next, to_prev);
-    let sine = corner_angle.sin();
-    let along = if course.angle == Turn::ZERO {
-        [course.distance / to_next.length(), 0.0]
-    } else if course.angle == corner_angle {
-        [0.0, course.distance / to_prev.length()]
-    } else {
-        [
-            course.distance * corner_angle.minus(course.angle).sin() / (sine * to_next.length()),
-            course.distance * course.angle.sin() / (sine * to_prev.length()),
-        ]
-    };
-    let vector = to_next * along[0] + to_prev * along[1];
-    (vector.is_finite() && along.iter().all(|share| share.is_finite())).then_some(Offset {
-        vector,
-        within: course.corner,
-        along,
-        is_capped: course.is_capped,
-    })
+fn place(view: &View, faces: &Faces, course: &Course) -> Option<Offset> {
+    let triangle = course.corner.triangle();
+    let (at, normal) = (view.position_at(course.corner), faces.normal[triangle]);
+    let ahead = unit(view.position_at(course.corner.next()) - at);
+    let aside = normal.cross(ahead);
+    let vector = (ahead * course.angle.cos() + aside * course.angle.sin()) * course.distance;
+    let carrier = if faces.is_line(triangle) { faces.lender[triangle] } else { course.corner };
+    let foot = locate(view, carrier, at, vector)?;
+    let is_sound = normal != DVec3::ZERO && vector.is_finite();
+    is_sound.then_some(Offset { vector, within: course.corner, foot, is_capped: course.is_capped })
 }

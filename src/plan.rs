@@ -1,6 +1,7 @@
 //! Plan: all that is known of a mesh before the limits decide how much of it is done.
 
 use crate::edges::Edges;
+use crate::faces::Faces;
 use crate::ids::{IdVec, Sector};
 use crate::offsets::Offset;
 use crate::sectors::Sectors;
@@ -11,6 +12,7 @@ use crate::view::View;
 pub struct Plan<'a> {
     pub view: View<'a>,
     pub topology: Topology,
+    pub faces: Faces,
     pub edges: Edges,
     pub sectors: Sectors,
     /// `#sectors`: the move at full width.

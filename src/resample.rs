@@ -7,28 +7,58 @@ use glam::DVec3;
 
 use crate::edges::HARD_COSINE;
 use crate::ids::{Corner, Sector, Vertex};
-use crate::math::{area_vector, unit};
+use crate::math::unit;
 use crate::plan::Plan;
 use crate::report::Blend;
+use crate::view::View;
 
-/// A place in the plane of a source triangle, as seen from one of its corners.
+/// A way in the plane of a source triangle, in terms of the edges from one of its corners to the
+/// next and to the previous one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Foot {
     pub corner: Corner,
-    /// In terms of the edges to the next and to the previous corner.
+    /// Where the way begins: at the corner, but for vertices in the middle of a side.
+    pub start: [f64; 2],
+    /// The whole way from there.
     pub along: [f64; 2],
 }
 
+/// Weights below this are rounding: a vertex that slides along an edge is on that edge.
+const LEAST_WEIGHT: f64 = 1e-9;
+
 impl Foot {
-    /// The blend of the triangle's vertices at a share of the way from the corner to the foot.
+    /// No way at all.
+    pub fn at(corner: Corner) -> Foot {
+        Foot { corner, start: [0.0; 2], along: [0.0; 2] }
+    }
+
+    /// The blend of the triangle's vertices at a share of the way.
     pub fn blend(&self, plan: &Plan, share: f64) -> Blend {
-        let [to_next, to_prev] = self.along.map(|along| along * share);
+        let [to_next, to_prev] = [0, 1].map(|k| self.start[k] + self.along[k] * share);
         Blend {
             vertices: [self.corner, self.corner.next(), self.corner.prev()]
                 .map(|corner| plan.view.vertex_at(corner).0),
             weights: [1.0 - to_next - to_prev, to_next, to_prev].map(|weight| weight as f32),
         }
     }
+}
+
+/// The way from a point along a vector, projected onto the plane of a corner's triangle; none
+/// where the triangle has no area.
+pub fn locate(view: &View, corner: Corner, from: DVec3, vector: DVec3) -> Option<Foot> {
+    let at = view.position_at(corner);
+    let to_next = view.position_at(corner.next()) - at;
+    let to_prev = view.position_at(corner.prev()) - at;
+    let normal = to_next.cross(to_prev);
+    let in_edges = |way: DVec3| {
+        [way.cross(to_prev), to_next.cross(way)].map(|part| {
+            let weight = part.dot(normal) / normal.length_squared();
+            if weight.abs() < LEAST_WEIGHT { 0.0 } else { weight }
+        })
+    };
+    let foot = Foot { corner, start: in_edges(from - at), along: in_edges(vector) };
+    let is_sound = foot.start.iter().chain(&foot.along).all(|weight| weight.is_finite());
+    is_sound.then_some(foot)
 }
 
 /// Where a sector's full offset takes one of its corners on the surface: the triangle that the
@@ -55,10 +85,23 @@ fn foot(
     let offset = &plan.offsets[sector];
     let vertex = plan.view.vertex_at(corner);
     let at_offset = plan.view.vertex_at(offset.within);
-    if vertex == at_offset || agree(vertex, at_offset) {
-        return Foot { corner: offset.within, along: offset.along };
+    let carrier = offset.foot.corner;
+    // A line's way lies on its neighbour, which may belong to something else.
+    let is_carried = carrier == offset.within || lends_chart(plan, offset.within, &agree);
+    if (vertex == at_offset || agree(vertex, at_offset)) && is_carried {
+        return offset.foot;
     }
-    project(plan, nearest_own(plan, sector, vertex, &agree), offset.vector)
+    let own = nearest_own(plan, sector, vertex, &agree);
+    locate(&plan.view, own, plan.view.position_at(own), offset.vector).unwrap_or(Foot::at(own))
+}
+
+/// Whether a line's neighbour agrees with it at both ends of the side between them.
+fn lends_chart(plan: &Plan, line: Corner, agree: &impl Fn(Vertex, Vertex) -> bool) -> bool {
+    let lender = plan.faces.lender[line.triangle()];
+    let side = plan.topology.twin[lender];
+    let ends = [(lender, side.next()), (lender.next(), side)];
+    let vertices = |(one, other)| (plan.view.vertex_at(one), plan.view.vertex_at(other));
+    ends.map(vertices).into_iter().all(|(one, other)| one == other || agree(one, other))
 }
 
 /// The corner of the sector, of those that agree with the vertex, that is fewest steps round the
@@ -91,22 +134,6 @@ fn nearest_own(
     before.map_or(within, |(_, corner)| corner)
 }
 
-/// The vector's projection onto the plane of a corner's triangle.
-fn project(plan: &Plan, corner: Corner, vector: DVec3) -> Foot {
-    let at = plan.view.position_at(corner);
-    let to_next = plan.view.position_at(corner.next()) - at;
-    let to_prev = plan.view.position_at(corner.prev()) - at;
-    let normal = to_next.cross(to_prev);
-    let area = normal.length_squared();
-    if area == 0.0 {
-        return Foot { corner, along: [0.0; 2] };
-    }
-    let along =
-        [vector.cross(to_prev).dot(normal) / area, to_next.cross(vector).dot(normal) / area];
-    let is_sound = along.iter().all(|share| share.is_finite());
-    Foot { corner, along: if is_sound { along } else { [0.0; 2] } }
-}
-
 /// Whether two vertices at one position belong to one chart: equal in all that a chart carries.
 pub fn same_chart(plan: &Plan, one: Vertex, other: Vertex) -> bool {
     let mesh = &plan.view.mesh;
@@ -136,9 +163,4 @@ pub fn blended_normal(plan: &Plan, blend: &Blend) -> DVec3 {
 pub fn weighted_sum(blend: &Blend, values: [DVec3; 3]) -> DVec3 {
     let [a, b, c] = blend.weights.map(f64::from);
     values[0] * a + values[1] * b + values[2] * c
-}
-
-/// The unit normal of a source triangle's plane; zero without area.
-pub fn face_normal(plan: &Plan, corner: Corner) -> DVec3 {
-    unit(area_vector(plan.view.triangle(corner.triangle())))
 }

@@ -14,7 +14,7 @@ use crate::mesh::UV_CHANNELS;
 use crate::placement::{Placement, base};
 use crate::plan::Plan;
 use crate::report::Blend;
-use crate::resample::{face_normal, uv_at};
+use crate::resample::uv_at;
 use crate::strips;
 
 /// UV values that differ by less than this share of their size are one: exporters round.
@@ -197,7 +197,7 @@ pub fn fill_owner(plan: &Plan, placement: &Placement, ring: &[Sector], owners: &
         let at = base(plan, sector);
         let first = plan.view.position_at(fan.first.next()) - at;
         let last = plan.view.position_at(fan.last.prev()) - at;
-        first.cross(last).dot(face_normal(plan, fan.first)) > 0.0
+        first.cross(last).dot(plan.faces.normal[fan.first.triangle()]) > 0.0
     };
     let rank = |&place: &usize| {
         let sector = ring[place];

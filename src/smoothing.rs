@@ -6,8 +6,9 @@
 
 use glam::DVec3;
 
+use crate::faces::faces;
 use crate::ids::{Corner, Id, IdVec, Triangle, Vertex};
-use crate::math::{area_vector, unit};
+use crate::math::unit;
 use crate::mesh::Mesh;
 use crate::topology::{Topology, topology};
 use crate::view::{View, resolution, wide};
@@ -48,7 +49,7 @@ pub fn split_by_angle(positions: &[[f32; 3]], indices: &[u32], angle_degrees: f3
     };
     let view = View { mesh, width: 0.0, resolution: resolution(&mesh) };
     let topology = topology(&view, &weld(&mesh));
-    let faces = face_normals(&view, &topology);
+    let faces = faces(&view, &topology).normal;
     let cosine = libm::cos(f64::from(angle_degrees).to_radians());
     let is_smooth = |side: Corner| {
         let twin = topology.twin[side];
@@ -69,34 +70,6 @@ pub fn split_by_angle(positions: &[[f32; 3]], indices: &[u32], angle_degrees: f3
 
 /// No unit normal looks like this.
 const UNSET: [f32; 3] = [0.0; 3];
-
-/// `#triangles`, unit.
-fn face_normals(view: &View, topology: &Topology) -> IdVec<Triangle, DVec3> {
-    let own: Vec<DVec3> = view.triangles().map(|t| flat_normal(view, t)).collect();
-    let own: IdVec<Triangle, DVec3> = IdVec::from_vec(own);
-    let borrowed = view.triangles().map(|triangle| {
-        if own[triangle] != DVec3::ZERO {
-            return own[triangle];
-        }
-        let length =
-            |side: &Corner| view.position_at(*side).distance(view.position_at(side.next()));
-        let longest = triangle
-            .corners()
-            .into_iter()
-            .max_by(|one, other| length(one).total_cmp(&length(other)));
-        let behind = longest.map_or(Corner::NONE, |side| topology.twin[side]);
-        if behind.is_some() { own[behind.triangle()] } else { DVec3::ZERO }
-    });
-    IdVec::from_vec(borrowed.collect())
-}
-
-/// Zero where the triangle is lower than single precision can tell.
-fn flat_normal(view: &View, triangle: Triangle) -> DVec3 {
-    let points = view.triangle(triangle);
-    let area = area_vector(points);
-    let longest = (0..3).map(|k| points[k].distance(points[(k + 1) % 3])).fold(0.0, f64::max);
-    if area.length() > longest * view.resolution { unit(area) } else { DVec3::ZERO }
-}
 
 /// The mean over the fan of corners that smooth edges join to this one.
 fn corner_normal(

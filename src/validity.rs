@@ -17,17 +17,29 @@ const LEAST_UPRIGHT_COSINE: f64 = 0.3;
 /// knife's edge is that steep, and anything beyond would face inwards.
 const LEAST_FACING_COSINE: f64 = 0.05;
 
+/// Twice an area that is less than this share of the longest side squared is none: it is what
+/// rounding leaves in double precision.
+const LEAST_AREA: f64 = 1e-10;
+
 /// Twice the area of a triangle is more than this share of its longest side squared, or single
 /// precision cannot tell its normal.
 const LEAST_SLENDERNESS: f64 = 1e-7;
 
+/// Whether a source triangle that is hardly more than a line may become the new one: it may open,
+/// but not fold over its neighbours, which lie in a plane of this normal.
+pub fn stays_line(old: [DVec3; 3], new: [DVec3; 3], normal: DVec3, resolution: f64) -> bool {
+    let (old_area, new_area) = (area_vector(old), area_vector(new));
+    // As long as it has any area of its own, a line has a side that it may not turn away from.
+    let has_area = old_area.length() > longest_side(old).powi(2) * LEAST_AREA;
+    if has_area && old_area.dot(new_area) <= 0.0 {
+        return false;
+    }
+    new_area.dot(normal) >= old_area.dot(normal).min(0.0) - longest_side(new) * resolution
+}
+
 /// Whether a source triangle may become the new one.
 pub fn survives(old: [DVec3; 3], new: [DVec3; 3]) -> bool {
     let (old_area, new_area) = (area_vector(old), area_vector(new));
-    if old_area == DVec3::ZERO {
-        // Nothing can be said of a triangle that had no area, except that it may stay so.
-        return true;
-    }
     let facing = old_area.dot(new_area);
     let share = new_area.length() / old_area.length();
     let is_upright = facing >= LEAST_UPRIGHT_COSINE * old_area.length() * new_area.length();

@@ -26,6 +26,10 @@ const ROUNDING: f64 = 4.0 * f32::EPSILON as f64;
 /// Normals that differ by more than this (a twentieth of a degree) shade a surface as curved.
 const CURVED_SHADING: f64 = 1e-3;
 
+/// A triangle lower than this, relative to the largest coordinate, has no plane to speak of:
+/// rounding its corners turns it by a degree and more.
+const LEAST_HEIGHT: f64 = 64.0 * f32::EPSILON as f64;
+
 /// How much a normal may change where all around it are the same: rounding when it is made unit
 /// length again.
 const NORMAL_TOLERANCE: f64 = 1e-6;
@@ -97,9 +101,10 @@ fn fans(surface: &Surface) -> Vec<u32> {
 /// `#corners`, by the first corner of each fan.
 fn measure(surface: &Surface, fan_of: &[u32]) -> Vec<Fan> {
     let mut fans = vec![Fan::default(); fan_of.len()];
+    let least_height = LEAST_HEIGHT * largest_coordinate(surface);
     for (corner, &fan) in (0u32..).zip(fan_of) {
         let triangle = corner / 3;
-        fans[fan as usize].add_plane(surface.triangle(triangle));
+        fans[fan as usize].add_plane(surface.triangle(triangle), least_height);
         for side in 0..3 {
             fans[fan as usize].add_normal(surface.normal(3 * triangle + side));
         }
@@ -116,9 +121,13 @@ fn measure(surface: &Surface, fan_of: &[u32]) -> Vec<Fan> {
 }
 
 impl Fan {
-    fn add_plane(&mut self, triangle: [DVec3; 3]) {
+    fn add_plane(&mut self, triangle: [DVec3; 3], least_height: f64) {
         let Some(normal) = normal_with_area(triangle) else { return };
         let area = normal.length();
+        let sides = [0, 1, 2].map(|k| triangle[k].distance(triangle[(k + 1) % 3]));
+        if area < least_height * sides.into_iter().fold(0.0, f64::max) {
+            return;
+        }
         if self.plane.is_none_or(|(_, _, largest)| area > largest) {
             self.plane = Some((triangle[0], normal / area, area));
         }

@@ -78,8 +78,12 @@ struct Moving {
     start: [DVec3; 3],
     /// How each corner moves; zero where it stopped.
     growth: [DVec3; 3],
-    /// Of the source triangle: twice its area along its normal.
+    /// Its area counts along this direction.
     normal: DVec3,
+    /// The least that it may come down to.
+    least: f64,
+    /// What it may be off that by rounding.
+    slack: f64,
 }
 
 impl Filling<'_> {
@@ -89,7 +93,8 @@ impl Filling<'_> {
 
     fn moving(&self, triangle: Triangle) -> Moving {
         let old = self.plan.view.triangle(triangle);
-        let mut moving = Moving { start: old, growth: [DVec3::ZERO; 3], normal: area_vector(old) };
+        let (normal, least, slack) = self.allowance(triangle, old);
+        let mut moving = Moving { start: old, growth: [DVec3::ZERO; 3], normal, least, slack };
         for (k, sector) in self.sectors(triangle).into_iter().enumerate() {
             if sector.is_some() {
                 let vector = self.plan.offsets[sector].vector;
@@ -100,6 +105,21 @@ impl Filling<'_> {
             }
         }
         moving
+    }
+
+    /// Along which direction a triangle's area counts, how little of it may be left, and how exact
+    /// that is.
+    fn allowance(&self, triangle: Triangle, old: [DVec3; 3]) -> (DVec3, f64, f64) {
+        let (faces, area) = (&self.plan.faces, area_vector(old));
+        if !faces.is_line(triangle) {
+            let whole = area.length_squared();
+            return (area, LEAST_SHARE * whole, EXHAUSTED * whole);
+        }
+        // A line may not fold over, but for what rounding does.
+        let longest = (0..3).map(|k| old[k].distance(old[(k + 1) % 3])).fold(0.0, f64::max);
+        let rounding = longest * self.plan.view.resolution / 2.0;
+        let normal = faces.normal[triangle];
+        (normal, area.dot(normal).min(0.0) - rounding, rounding * EXHAUSTED)
     }
 
     /// Notes when the triangle will have given away all it can, from a share on.
@@ -145,11 +165,11 @@ impl Moving {
         let [grow_a, grow_b, grow_c] = self.growth;
         let (ab, ac) = (b - a, c - a);
         let (grow_ab, grow_ac) = (grow_b - grow_a, grow_c - grow_a);
-        let spare = self.normal.dot(ab.cross(ac)) - LEAST_SHARE * self.normal.length_squared();
+        let spare = self.normal.dot(ab.cross(ac)) - self.least;
         let linear = self.normal.dot(ab.cross(grow_ac) + grow_ab.cross(ac));
         let square = self.normal.dot(grow_ab.cross(grow_ac));
         // Rounding leaves a triangle that was stopped a little above or below its limit.
-        if spare <= EXHAUSTED * self.normal.length_squared() {
+        if spare <= self.slack {
             return (linear < 0.0).then_some(from);
         }
         first_root(square, linear, spare).map(|further| from + further)
@@ -197,7 +217,8 @@ mod tests {
     /// A unit right triangle whose corners move along x as given.
     fn moving(growth: [f64; 3]) -> Moving {
         let start = [DVec3::ZERO, DVec3::X, DVec3::Y];
-        Moving { start, growth: growth.map(|x| DVec3::X * x), normal: DVec3::Z }
+        let growth = growth.map(|x| DVec3::X * x);
+        Moving { start, growth, normal: DVec3::Z, least: LEAST_SHARE, slack: EXHAUSTED }
     }
 
     #[test]

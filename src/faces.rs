@@ -1,0 +1,114 @@
+//! Faces: the normal of each triangle's plane.
+//!
+//! A triangle that is hardly more than a line has none of its own: exporters leave such triangles
+//! where an edge meets the middle of another. It lies in the plane of a neighbour, across its
+//! longest soft side, and borrows the normal from there.
+
+use glam::DVec3;
+
+use crate::edges::is_hard;
+use crate::ids::{Corner, IdVec, Triangle};
+use crate::math::{area_vector, unit};
+use crate::topology::Topology;
+use crate::view::View;
+
+/// A triangle lower than this many times the resolution is a line: rounding its corners would
+/// turn its normal by more than a degree.
+const LINE_HEIGHT: f64 = 16.0;
+
+/// Lines lie next to lines where an edge meets several others; more than so many in a row are
+/// broken geometry.
+const MOST_LINES: usize = 4;
+
+pub struct Faces {
+    /// `#triangles`: unit, or zero where nothing is known.
+    pub normal: IdVec<Triangle, DVec3>,
+    /// `#triangles`: for a line, the half-edge of the triangle whose normal it has.
+    pub lender: IdVec<Triangle, Corner>,
+}
+
+impl Faces {
+    /// Whether the triangle is hardly more than a line.
+    pub fn is_line(&self, triangle: Triangle) -> bool {
+        self.lender[triangle].is_some()
+    }
+}
+
+pub fn faces(view: &View, topology: &Topology) -> Faces {
+    let normal = view.triangles().map(|triangle| own_normal(view, triangle)).collect();
+    let mut faces = Faces {
+        normal: IdVec::from_vec(normal),
+        lender: IdVec::filled(Corner::NONE, view.corner_count() / 3),
+    };
+    let is_unknown = |&triangle: &Triangle| faces.normal[triangle] == DVec3::ZERO;
+    let mut lines: Vec<Triangle> = view.triangles().filter(is_unknown).collect();
+    for _ in 0..MOST_LINES {
+        let found: Vec<(Triangle, Corner)> = lines
+            .iter()
+            .filter_map(|&line| Some((line, lender(view, topology, &faces, line)?)))
+            .collect();
+        for &(line, lender) in &found {
+            faces.lender[line] = lender;
+            faces.normal[line] = faces.normal[lender.triangle()];
+        }
+        lines.retain(|&line| faces.normal[line] == DVec3::ZERO);
+    }
+    faces
+}
+
+/// Zero for a line.
+fn own_normal(view: &View, triangle: Triangle) -> DVec3 {
+    let points = view.triangle(triangle);
+    let area = area_vector(points);
+    let longest = (0..3).map(|k| points[k].distance(points[(k + 1) % 3])).fold(0.0, f64::max);
+    let is_line = area.length() <= longest * view.resolution * LINE_HEIGHT;
+    if is_line { DVec3::ZERO } else { unit(area) }
+}
+
+/// The half-edge behind a line's longest soft side that has a face with a normal.
+fn lender(view: &View, topology: &Topology, faces: &Faces, line: Triangle) -> Option<Corner> {
+    let length = |side: Corner| view.position_at(side).distance(view.position_at(side.next()));
+    let can_lend = |side: &Corner| {
+        let twin = topology.twin[*side];
+        twin.is_some()
+            && faces.normal[twin.triangle()] != DVec3::ZERO
+            && !is_hard(view, *side, twin)
+    };
+    let sides = line.corners().into_iter().filter(can_lend);
+    let longest = sides.max_by(|&one, &other| length(one).total_cmp(&length(other)))?;
+    let twin = topology.twin[longest];
+    let lender = faces.lender[twin.triangle()];
+    Some(if lender.is_some() { lender } else { twin })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::Mesh;
+    use crate::options::Options;
+    use crate::topology::topology;
+    use crate::view::view;
+    use crate::weld::weld;
+
+    // 3-------2
+    // |     / |     0, 1 and 4 are a line: it closes the gap between the
+    // |   /   |     edge 0-1 above and the two edges below
+    // 0---4---1
+    #[test]
+    fn a_line_has_the_normal_of_the_face_behind_its_longest_side() {
+        let positions =
+            [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 1.0, 0.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]];
+        let mesh = Mesh {
+            positions: &positions,
+            normals: &[[0.0, 0.0, 1.0]; 5],
+            indices: &[0, 1, 2, 0, 2, 3, 0, 4, 1],
+            submesh_index_counts: &[9],
+            ..Mesh::default()
+        };
+        let view = view(&mesh, &Options::default()).unwrap();
+        let faces = faces(&view, &topology(&view, &weld(&mesh)));
+        assert_eq!(faces.normal[Triangle(2)], DVec3::Z);
+        assert_eq!(faces.lender[Triangle(2)], Corner(0));
+        assert!(!faces.is_line(Triangle(0)));
+    }
+}
