@@ -8,7 +8,7 @@ mod random;
 #[path = "support/solids.rs"]
 mod solids;
 
-use chamfer::check::{Findings, check};
+use chamfer::check::{Findings, Rule, check};
 use chamfer::{Chamfered, MeshBuffers, Options, Verify, Width, chamfer};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
@@ -42,6 +42,14 @@ fn findings(mesh: &MeshBuffers, percent: f32, verify: Verify) -> Findings {
     check(&mesh.as_mesh(), &chamfered(mesh, percent, verify), verify)
 }
 
+/// As [`Findings::is_sound`], but an edge of many sides may come apart into two of fewer, which
+/// counts as one edge more with too many sides.
+fn is_sound_for_soup(findings: &Findings) -> bool {
+    let had_crowded_edges = findings.before.non_manifold_edges > 0;
+    let may_be = |rule: Rule| had_crowded_edges && rule == Rule::NonManifold;
+    findings.breaches.iter().all(|breach| may_be(breach.rule))
+}
+
 fn any_mesh() -> impl Strategy<Value = Model> {
     prop_oneof![4 => clean_mesh(), 1 => soup()]
 }
@@ -58,7 +66,7 @@ proptest! {
     #[test]
     fn a_chamfered_soup_is_sound(Model(mesh) in soup(), percent in percent()) {
         let findings = findings(&mesh, percent, Verify::Fast);
-        prop_assert!(findings.is_sound(), "{findings}");
+        prop_assert!(is_sound_for_soup(&findings), "{findings}");
     }
 
     #[test]
@@ -89,7 +97,7 @@ proptest! {
     fn what_comes_out_can_go_in_again(Model(mesh) in any_mesh(), percent in percent()) {
         let once = chamfered(&mesh, percent, Verify::Fast).mesh;
         let findings = findings(&once, percent, Verify::Fast);
-        prop_assert!(findings.is_sound(), "{findings}");
+        prop_assert!(is_sound_for_soup(&findings), "{findings}");
     }
 
     #[test]
