@@ -5,7 +5,6 @@
 //! input is not held against the output.
 
 mod flatness;
-mod groups;
 mod intersections;
 mod origins;
 mod rules;

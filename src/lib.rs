@@ -4,6 +4,22 @@
 //! apart inside their own faces, and the gap is closed with a strip that shades smoothly from
 //! one face normal to the other. The method is that of Diana Algma, *Edge Chamfering Algorithm*
 //! (Tartu 2018); `docs/pipeline.md` says where this library goes on from there.
+//!
+//! A mesh goes in as flat arrays ([`Mesh`]), with the distance that its edges are pulled by; out
+//! come the same arrays, where each vertex and triangle is from, and what became of each edge:
+//!
+//! ```
+//! use chamfer::{Options, Outcome, Width, chamfer, shapes};
+//!
+//! let cube = shapes::plain_cube(2.0);
+//! let options = Options { width: Width::Units(0.1), ..Options::default() };
+//! let result = chamfer(&cube.as_mesh(), &options)?;
+//!
+//! assert_eq!(result.mesh.positions.len(), 24);
+//! assert_eq!(result.mesh.indices.len() / 3, 44);
+//! assert!(result.verdicts.iter().all(|edge| edge.outcome == Outcome::Full));
+//! # Ok::<(), chamfer::Error>(())
+//! ```
 
 pub mod check;
 pub mod shapes;
@@ -15,6 +31,7 @@ mod edges;
 mod error;
 #[allow(unsafe_code)]
 mod ffi;
+mod groups;
 mod ids;
 mod intersect;
 mod limits;
@@ -47,3 +64,8 @@ pub use report::{
     VertexSource,
 };
 pub use smoothing::{Smoothed, split_by_angle};
+
+/// The examples of the README, compiled as tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -5,11 +5,13 @@
 //! leave, build strips and fills, shrink the sectors of whatever fails, and give back what is safe.
 //! A ring that still fails keeps its old position, so the result is never worse than the source.
 
+mod collisions;
 mod room;
 
 use crate::corners;
 use crate::ids::{Corner, Edge, IdVec, Ring, Sector, Triangle};
 use crate::math::unit;
+use crate::options::Verify;
 use crate::placement::Placement;
 use crate::plan::Plan;
 use crate::report::Reason;
@@ -35,18 +37,21 @@ pub struct Limits {
     pub reason: IdVec<Sector, Reason>,
 }
 
-pub fn limits(plan: &Plan) -> Limits {
-    let mut limits = bounded(plan);
-    shrink(plan, &mut limits);
+pub fn limits(plan: &Plan, verify: Verify) -> Limits {
+    let room = room::room(plan);
+    let mut limits = bounded(plan, &room);
+    shrink(plan, &mut limits, all_elements(plan));
     for _ in 0..GROW_PASSES {
-        grow(plan, &mut limits);
+        grow(plan, &room, &mut limits);
+    }
+    if verify == Verify::Full {
+        collisions::resolve(plan, &mut limits);
     }
     limits
 }
 
 /// Every sector at the width that its own triangles leave room for.
-fn bounded(plan: &Plan) -> Limits {
-    let shares = room::room(plan);
+fn bounded(plan: &Plan, shares: &IdVec<Sector, f64>) -> Limits {
     let mut placement = Placement::unmoved(plan);
     let mut reason = IdVec::filled(Reason::None, shares.len());
     for sector in shares.ids().filter(|&sector| plan.offsets[sector].moves()) {
@@ -66,28 +71,37 @@ enum Element {
     Fill(Ring),
 }
 
-fn shrink(plan: &Plan, limits: &mut Limits) {
-    let mut suspects = all_elements(plan);
+/// Shrinks whatever is bad among the suspects, and then around what has shrunk.
+fn shrink(plan: &Plan, limits: &mut Limits, mut suspects: Vec<Element>) {
     let mut round = 0;
     loop {
         let mut shrunk = Vec::new();
         for element in suspects {
             if !is_valid(plan, &limits.placement, element) {
-                blame(plan, limits, element, round >= SHRINK_ROUNDS, &mut shrunk);
+                let reason = match element {
+                    Element::Surface(_) => Reason::NoRoom,
+                    Element::Strip(_) | Element::Fill(_) => Reason::Folds,
+                };
+                blame(plan, limits, element, reason, round, &mut shrunk);
             }
         }
-        shrunk.sort_unstable();
-        shrunk.dedup();
         if shrunk.is_empty() {
             return;
         }
-        for &sector in &shrunk {
-            let share = limits.placement.share[sector];
-            let smaller = if round < SHRINK_ROUNDS { share * SHRINK } else { 0.0 };
-            limits.placement.set(plan, sector, smaller);
-        }
+        apply(plan, limits, round, &mut shrunk);
         suspects = around(plan, &shrunk);
         round += 1;
+    }
+}
+
+/// Shrinks sectors, each once.
+fn apply(plan: &Plan, limits: &mut Limits, round: usize, shrunk: &mut Vec<Sector>) {
+    shrunk.sort_unstable();
+    shrunk.dedup();
+    for &sector in shrunk.iter() {
+        let share = limits.placement.share[sector];
+        let smaller = if round < SHRINK_ROUNDS { share * SHRINK } else { 0.0 };
+        limits.placement.set(plan, sector, smaller);
     }
 }
 
@@ -110,17 +124,14 @@ fn blame(
     plan: &Plan,
     limits: &mut Limits,
     element: Element,
-    whole_rings: bool,
+    reason: Reason,
+    round: usize,
     shrunk: &mut Vec<Sector>,
 ) {
-    let reason = match element {
-        Element::Surface(_) => Reason::NoRoom,
-        Element::Strip(_) | Element::Fill(_) => Reason::Folds,
-    };
     for sector in sectors_of(plan, element) {
         let ring = plan.sectors.ring(plan.sectors.fans[sector].ring);
         let one = [sector];
-        for &blamed in if whole_rings { ring } else { &one } {
+        for &blamed in if round >= SHRINK_ROUNDS { ring } else { &one } {
             if limits.placement.share[blamed] > 0.0 {
                 limits.reason[blamed] = reason;
                 shrunk.push(blamed);
@@ -195,16 +206,16 @@ pub fn fill(plan: &Plan, placement: &Placement, ring: Ring) -> Option<corners::F
     corners::fill(&points, &normals, plan.view.resolution)
 }
 
-/// Gives every limited sector as much as it can take with all others where they are.
-fn grow(plan: &Plan, limits: &mut Limits) {
-    for sector in limits.placement.share.ids() {
-        let share = limits.placement.share[sector];
-        if share == 1.0 || !plan.offsets[sector].moves() {
+/// Gives back to every sector that was shrunk, up to its room, as much as it can take with all
+/// others where they are.
+fn grow(plan: &Plan, room: &IdVec<Sector, f64>, limits: &mut Limits) {
+    for sector in room.ids().filter(|&sector| plan.offsets[sector].moves()) {
+        let (mut good, mut bad) = (limits.placement.share[sector], room[sector]);
+        if good == bad {
             continue;
         }
-        let (mut good, mut bad) = (share, 1.0);
-        if fits(plan, &mut limits.placement, sector, 1.0) {
-            limits.reason[sector] = Reason::None;
+        if fits(plan, &mut limits.placement, sector, bad) {
+            limits.reason[sector] = if bad < 1.0 { Reason::NoRoom } else { Reason::None };
             continue;
         }
         for _ in 0..GROW_STEPS {

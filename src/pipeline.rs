@@ -48,7 +48,7 @@ pub fn chamfer_with_progress(
     let offsets = offsets(&view, &topology, &sectors);
     done(0.4)?;
     let plan = Plan { view, topology, edges, sectors, offsets };
-    let limits = limits(&plan);
+    let limits = limits(&plan, options.verify);
     done(0.8)?;
     let attributes = attributes(&plan, &limits.placement);
     let chamfered = output(&plan, &limits, attributes, options.chamfer_submesh);

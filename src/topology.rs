@@ -18,6 +18,8 @@ pub struct Topology {
     pub twin: IdVec<Corner, Corner>,
     /// Half-edges, sorted, that lie with both their faces on another edge: sheets of two sides.
     pub doubled: Vec<Corner>,
+    /// Half-edges that lie on one edge though they are no twins: parts touch there.
+    pub touching: Vec<[Corner; 2]>,
 }
 
 impl Topology {
@@ -33,11 +35,15 @@ pub fn topology(view: &View, weld: &Weld) -> Topology {
     let cluster_at = IdVec::from_vec(
         corners.map(|corner| weld.cluster_of[view.vertex_at(corner)]).collect::<Vec<_>>(),
     );
-    let mut joined =
-        Twins { twin: IdVec::filled(Corner::NONE, view.corner_count()), doubled: Vec::new() };
+    let mut joined = Twins {
+        twin: IdVec::filled(Corner::NONE, view.corner_count()),
+        doubled: Vec::new(),
+        touching: Vec::new(),
+    };
     join_all(view, &cluster_at, weld.first_vertex.len(), &mut joined);
     joined.doubled.sort_unstable();
-    Topology { cluster_at, twin: joined.twin, doubled: joined.doubled }
+    let Twins { twin, doubled, touching } = joined;
+    Topology { cluster_at, twin, doubled, touching }
 }
 
 fn is_collapsed(cluster_at: &IdVec<Corner, Cluster>, triangle: Triangle) -> bool {
@@ -57,6 +63,7 @@ struct Spoke {
 struct Twins {
     twin: IdVec<Corner, Corner>,
     doubled: Vec<Corner>,
+    touching: Vec<[Corner; 2]>,
 }
 
 impl Twins {
@@ -113,10 +120,14 @@ fn join(view: &View, cluster_at: &IdVec<Corner, Cluster>, edge: &[Spoke], joined
         [one, other] => {
             if cluster_at[one.half_edge] != cluster_at[other.half_edge] {
                 joined.marry([one.half_edge, other.half_edge]);
+            } else {
+                joined.touching.push([one.half_edge, other.half_edge]);
             }
         }
         _ => {
-            let near = cluster_at[edge[0].half_edge].min(edge[0].far);
+            let first = edge[0].half_edge;
+            joined.touching.extend(edge[1..].iter().map(|spoke| [first, spoke.half_edge]));
+            let near = cluster_at[first].min(edge[0].far);
             let (forth, back): (Vec<_>, Vec<_>) = edge
                 .iter()
                 .map(|spoke| spoke.half_edge)

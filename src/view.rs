@@ -141,7 +141,8 @@ fn check_length(stream: Stream, expected: usize, found: usize) -> Result<(), Err
     }
 }
 
-fn check_indices(mesh: &Mesh) -> Result<(), Error> {
+/// Whether the indices are in range and make whole triangles.
+pub fn check_indices(mesh: &Mesh) -> Result<(), Error> {
     let counts = mesh.submesh_index_counts;
     if let Some(submesh) = counts.iter().position(|count| count % 3 != 0) {
         return Err(Error::IndexCount { submesh: submesh as u32, count: counts[submesh] });
@@ -173,7 +174,8 @@ fn check_finite(mesh: &Mesh) -> Result<(), Error> {
     Ok(())
 }
 
-fn check_stream(stream: Stream, values: &[f32], components: usize) -> Result<(), Error> {
+/// Whether all values of a stream, so many to a vertex, are finite.
+pub fn check_stream(stream: Stream, values: &[f32], components: usize) -> Result<(), Error> {
     // A plain pass over all values is much faster than a search, and nearly always enough.
     if values.iter().fold(true, |all, value| all & value.is_finite()) {
         return Ok(());

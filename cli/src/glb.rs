@@ -1,16 +1,15 @@
 //! A binary glTF of one mesh, for models that come from formats without normals or materials.
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use chamfer::{MeshBuffers, UvBuffer};
 use serde_json::{Value, json};
+
+use crate::gltf_file::write_glb;
 
 const ARRAY_BUFFER: u32 = 34962;
 const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 const UNSIGNED_INT: u32 = 5125;
 const FLOAT: u32 = 5126;
-const JSON_CHUNK: &[u8; 4] = b"JSON";
-const BINARY_CHUNK: &[u8; 4] = b"BIN\0";
-const HEADER_LENGTH: usize = 12;
 
 /// Encodes a mesh as .glb. `materials` names the material of each submesh (`#submeshes`; those
 /// missing have none); the submeshes of one material become one primitive.
@@ -38,7 +37,7 @@ pub fn encode(name: &str, mesh: &MeshBuffers, materials: &[Option<String>]) -> R
             root["materials"] = Value::Array(builder.materials);
         }
     }
-    container(serde_json::to_vec(&root)?, builder.binary)
+    write_glb(&serde_json::to_vec(&root)?, &builder.binary, &[])
 }
 
 /// The indices of all submeshes of one material.
@@ -164,26 +163,6 @@ fn first_two(uv: &UvBuffer) -> Vec<f32> {
     uv.values.chunks_exact(uv.components as usize).flat_map(|uv| [uv[0], uv[1]]).collect()
 }
 
-fn container(mut json: Vec<u8>, mut binary: Vec<u8>) -> Result<Vec<u8>> {
-    json.resize(json.len().next_multiple_of(4), b' ');
-    binary.resize(binary.len().next_multiple_of(4), 0);
-    let mut chunks = vec![(JSON_CHUNK, json)];
-    if !binary.is_empty() {
-        chunks.push((BINARY_CHUNK, binary));
-    }
-    let total = HEADER_LENGTH + chunks.iter().map(|(_, bytes)| 8 + bytes.len()).sum::<usize>();
-    let total = u32::try_from(total).context("the .glb would be larger than 4 GiB")?;
-    let mut file = b"glTF".to_vec();
-    file.extend(2u32.to_le_bytes());
-    file.extend(total.to_le_bytes());
-    for (kind, bytes) in chunks {
-        file.extend((bytes.len() as u32).to_le_bytes());
-        file.extend(kind);
-        file.extend(bytes);
-    }
-    Ok(file)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -202,7 +181,7 @@ mod tests {
     fn json_of(file: &[u8]) -> Value {
         let word = |at: usize| u32::from_le_bytes(file[at..at + 4].try_into().unwrap()) as usize;
         assert_eq!((&file[..4], word(4), word(8)), (b"glTF".as_slice(), 2, file.len()));
-        assert_eq!(&file[16..20], JSON_CHUNK);
+        assert_eq!(&file[16..20], b"JSON");
         serde_json::from_slice(&file[20..20 + word(12)]).unwrap()
     }
 

@@ -197,14 +197,16 @@ fn every_kind_of_bad_file_gives_one_line() {
         ("text.gltf", "hello"),
         ("what.xyz", ""),
     ]);
-    for name in ["cut.stl", "nan.stl", "word.obj", "empty.glb", "text.gltf", "what.xyz", "gone.obj"]
-    {
+    let missing = ["gone.obj", "gone.glb"];
+    let broken = ["cut.stl", "nan.stl", "word.obj", "empty.glb", "text.gltf", "what.xyz"];
+    for name in broken.into_iter().chain(missing) {
         let run = folder.run(&format!("{name} -o out/")).exits(1);
         assert_eq!(run.err().lines().count(), 1, "{}", run.err());
         assert!(run.err().starts_with(&format!("{name}: ")), "{}", run.err());
+        assert_eq!(run.err().matches(name).count(), 1, "{}", run.err());
         assert_eq!(run.out(), "");
     }
-    assert_eq!(folder.files().len(), 6);
+    assert_eq!(folder.files().len(), broken.len());
 }
 
 #[test]

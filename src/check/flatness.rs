@@ -2,12 +2,12 @@
 
 use glam::DVec3;
 
-use super::groups::Groups;
 use super::origins::Origins;
 use super::rules::{Element, Findings, Rule};
 use super::surface::Surface;
 use super::triangles::normal_with_area;
 use super::values::is_unit;
+use crate::groups::Groups;
 
 /// How far, relative to the extent, corners may be off a plane that counts as flat.
 const FLAT_TOLERANCE: f64 = 1e-6;

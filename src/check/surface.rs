@@ -1,8 +1,8 @@
 //! A mesh welded by position: its edges, borders and connected parts.
 
-use super::groups::Groups;
 use super::rules::{Element, Facts, Findings, Rule};
 use super::values::vector;
+use crate::groups::Groups;
 use crate::mesh::Mesh;
 use glam::DVec3;
 

@@ -2,8 +2,9 @@
 
 use super::status::Failure;
 use super::types::CHAMFER_STATUS_BAD_ANGLE;
+use crate::view::{check_indices, check_stream};
 use crate::{
-    Blend, Chamfered, Error, Mesh, MeshBuffers, Smoothed, Stream, TriangleKind, TriangleSource, Uv,
+    Blend, Chamfered, Mesh, MeshBuffers, Smoothed, Stream, TriangleKind, TriangleSource, Uv,
     UvBuffer, VertexSource, split_by_angle,
 };
 
@@ -15,7 +16,9 @@ pub fn with_normals(mesh: &Mesh, angle_degrees: f32) -> Result<Chamfered, Failur
             format!("the smoothing angle is {angle_degrees}: give 0 to 180 degrees"),
         ));
     }
-    check_geometry(mesh)?;
+    // `split_by_angle` takes positions and indices on trust.
+    check_indices(mesh)?;
+    check_stream(Stream::Positions, mesh.positions.as_flattened(), 3)?;
     let smoothed = split_by_angle(mesh.positions, mesh.indices, angle_degrees);
     let triangles = smoothed.indices.len() as u32 / 3;
     Ok(Chamfered {
@@ -26,32 +29,6 @@ pub fn with_normals(mesh: &Mesh, angle_degrees: f32) -> Result<Chamfered, Failur
         mesh: gather(mesh, smoothed),
         ..Chamfered::default()
     })
-}
-
-/// `split_by_angle` takes positions and indices on trust.
-fn check_geometry(mesh: &Mesh) -> Result<(), Error> {
-    let counts = mesh.submesh_index_counts;
-    if let Some(submesh) = counts.iter().position(|count| count % 3 != 0) {
-        return Err(Error::IndexCount { submesh: submesh as u32, count: counts[submesh] });
-    }
-    let expected = counts.iter().map(|&count| u64::from(count)).sum();
-    let found = mesh.indices.len() as u64;
-    if expected != found {
-        return Err(Error::IndexTotal { expected, found });
-    }
-    let vertices = mesh.positions.len() as u32;
-    if let Some(place) = mesh.indices.iter().position(|&index| index >= vertices) {
-        return Err(Error::IndexRange {
-            place: place as u32,
-            index: mesh.indices[place],
-            vertices,
-        });
-    }
-    let mut positions = mesh.positions.iter();
-    match positions.position(|position| !position.iter().all(|value| value.is_finite())) {
-        Some(vertex) => Err(Error::NotFinite { stream: Stream::Positions, vertex: vertex as u32 }),
-        None => Ok(()),
-    }
 }
 
 fn copy_of(vertex: u32) -> VertexSource {

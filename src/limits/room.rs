@@ -1,4 +1,12 @@
-//! Room: the share of the offsets at which a source triangle would have lost its area.
+//! Room: the shares at which the source triangles keep enough of their area.
+//!
+//! All sectors grow together. When a triangle has given away what it can, the sectors that press
+//! on it stop, and the others grow on: so no sector gets less than it must, and two that compete
+//! for one face get the same (progressive filling; D. Bertsekas and R. Gallager, "Data Networks",
+//! 1992, calls the outcome max-min fair).
+
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
 
 use glam::DVec3;
 
@@ -6,42 +14,161 @@ use crate::ids::{IdVec, Sector, Triangle};
 use crate::math::area_vector;
 use crate::plan::Plan;
 
-/// A triangle may give away all but this share of its area before anything else is looked at.
-/// Somewhat more than what validity asks for, so that rounding does not undo it.
+/// A triangle may give away all but this share of its area. Somewhat more than what validity asks
+/// for, so that rounding does not undo it.
 const LEAST_SHARE: f64 = 0.02;
 
-/// `#sectors`: the largest share, up to 1, that leaves room in all triangles of the sector when
-/// all sectors take the same.
+/// `#sectors`: the largest share, up to 1, that leaves room in all triangles of the sector.
 pub fn room(plan: &Plan) -> IdVec<Sector, f64> {
-    let mut shares = IdVec::filled(1.0_f64, plan.offsets.len());
-    for triangle in plan.view.triangles() {
-        let sectors = triangle.corners().map(|corner| plan.sectors.sector_of[corner]);
-        if sectors.iter().all(|sector| sector.is_none()) {
-            continue;
-        }
-        let most = most_share(plan, triangle, sectors);
-        for sector in sectors.into_iter().filter(|sector| sector.is_some()) {
-            shares[sector] = shares[sector].min(most);
-        }
+    let mut filling = Filling {
+        plan,
+        stopped_at: IdVec::filled(None, plan.offsets.len()),
+        events: BinaryHeap::new(),
+    };
+    for sector in plan.offsets.ids().filter(|&sector| !plan.offsets[sector].moves()) {
+        filling.stopped_at[sector] = Some(0.0);
     }
-    shares
+    for triangle in plan.view.triangles() {
+        filling.watch(triangle, 0.0);
+    }
+    while let Some(event) = filling.events.pop() {
+        filling.stop_around(&event);
+    }
+    let share = |stopped: &Option<f64>| stopped.unwrap_or(1.0);
+    IdVec::from_vec(filling.stopped_at.iter().map(share).collect())
 }
 
-/// The area along the old normal is a quadratic function of the share: its first root.
-fn most_share(plan: &Plan, triangle: Triangle, sectors: [Sector; 3]) -> f64 {
-    let [a, b, c] = plan.view.triangle(triangle);
-    let move_of = |sector: Sector| {
-        if sector.is_none() { DVec3::ZERO } else { plan.offsets[sector].vector }
-    };
-    let [move_a, move_b, move_c] = sectors.map(move_of);
-    let normal = area_vector([a, b, c]);
-    let (ab, ac) = (b - a, c - a);
-    let (grow_ab, grow_ac) = (move_b - move_a, move_c - move_a);
-    let whole = normal.length_squared();
-    let linear = normal.dot(ab.cross(grow_ac) + grow_ab.cross(ac));
-    let square = normal.dot(grow_ab.cross(grow_ac));
-    first_root(square, linear, whole * (1.0 - LEAST_SHARE)).unwrap_or(1.0).min(1.0)
+/// A triangle that has given away all it can when everything has grown to a share.
+struct Event {
+    share: f64,
+    triangle: Triangle,
 }
+
+impl Ord for Event {
+    /// The smallest share comes first, and of equal ones the first triangle.
+    fn cmp(&self, other: &Event) -> Ordering {
+        other.share.total_cmp(&self.share).then(other.triangle.cmp(&self.triangle))
+    }
+}
+
+impl PartialOrd for Event {
+    fn partial_cmp(&self, other: &Event) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Event {
+    fn eq(&self, other: &Event) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Event {}
+
+struct Filling<'a> {
+    plan: &'a Plan<'a>,
+    /// `#sectors`: the share at which a sector stopped; none while it grows.
+    stopped_at: IdVec<Sector, Option<f64>>,
+    events: BinaryHeap<Event>,
+}
+
+/// A triangle whose corners move in proportion to a common share, or stopped before.
+struct Moving {
+    /// The corners at share 0, the stopped ones where they stopped.
+    start: [DVec3; 3],
+    /// How each corner moves; zero where it stopped.
+    growth: [DVec3; 3],
+    /// Of the source triangle: twice its area along its normal.
+    normal: DVec3,
+}
+
+impl Filling<'_> {
+    fn sectors(&self, triangle: Triangle) -> [Sector; 3] {
+        triangle.corners().map(|corner| self.plan.sectors.sector_of[corner])
+    }
+
+    fn moving(&self, triangle: Triangle) -> Moving {
+        let old = self.plan.view.triangle(triangle);
+        let mut moving = Moving { start: old, growth: [DVec3::ZERO; 3], normal: area_vector(old) };
+        for (k, sector) in self.sectors(triangle).into_iter().enumerate() {
+            if sector.is_some() {
+                let vector = self.plan.offsets[sector].vector;
+                match self.stopped_at[sector] {
+                    Some(share) => moving.start[k] += vector * share,
+                    None => moving.growth[k] = vector,
+                }
+            }
+        }
+        moving
+    }
+
+    /// Notes when the triangle will have given away all it can, from a share on.
+    fn watch(&mut self, triangle: Triangle, from: f64) {
+        let is_growing = |sector: Sector| sector.is_some() && self.stopped_at[sector].is_none();
+        if self.sectors(triangle).into_iter().any(is_growing)
+            && let Some(share) = self.moving(triangle).exhausted_at(from)
+            && share < 1.0
+        {
+            self.events.push(Event { share, triangle });
+        }
+    }
+
+    /// Stops the sectors that press on an exhausted triangle.
+    fn stop_around(&mut self, event: &Event) {
+        let moving = self.moving(event.triangle);
+        // Sectors may have stopped since the event was noted: then another one has taken its place.
+        if moving.exhausted_at(event.share).is_none_or(|share| share > event.share) {
+            return;
+        }
+        let sectors = self.sectors(event.triangle);
+        let pressing = moving.pressing(event.share);
+        for k in (0..3).filter(|&k| pressing[k]) {
+            self.stopped_at[sectors[k]] = Some(event.share);
+        }
+        for k in (0..3).filter(|&k| pressing[k]) {
+            for corner in self.plan.sectors.corners(&self.plan.topology, sectors[k]) {
+                self.watch(corner.triangle(), event.share);
+            }
+        }
+    }
+}
+
+impl Moving {
+    fn at(&self, share: f64) -> [DVec3; 3] {
+        [0, 1, 2].map(|k| self.start[k] + self.growth[k] * share)
+    }
+
+    /// The first share, not before `from`, at which only the least area is left: a root of a
+    /// quadratic function.
+    fn exhausted_at(&self, from: f64) -> Option<f64> {
+        let [a, b, c] = self.at(from);
+        let [grow_a, grow_b, grow_c] = self.growth;
+        let (ab, ac) = (b - a, c - a);
+        let (grow_ab, grow_ac) = (grow_b - grow_a, grow_c - grow_a);
+        let spare = self.normal.dot(ab.cross(ac)) - LEAST_SHARE * self.normal.length_squared();
+        let linear = self.normal.dot(ab.cross(grow_ac) + grow_ab.cross(ac));
+        let square = self.normal.dot(grow_ab.cross(grow_ac));
+        // Rounding leaves a triangle that was stopped a little above or below its limit.
+        if spare <= EXHAUSTED * self.normal.length_squared() {
+            return (linear < 0.0).then_some(from);
+        }
+        first_root(square, linear, spare).map(|further| from + further)
+    }
+
+    /// Which growing corners take area away; all of them if none does alone.
+    fn pressing(&self, share: f64) -> [bool; 3] {
+        let corners = self.at(share);
+        let grows = self.growth.map(|growth| growth != DVec3::ZERO);
+        let pressing = [0, 1, 2].map(|k| {
+            let opposite = corners[(k + 1) % 3] - corners[(k + 2) % 3];
+            grows[k] && self.normal.dot(self.growth[k].cross(opposite)) < 0.0
+        });
+        if pressing.contains(&true) { pressing } else { grows }
+    }
+}
+
+/// Within this share of the old area of its limit, a triangle is taken to have reached it.
+const EXHAUSTED: f64 = 1e-9;
 
 /// The smallest positive root of `square t^2 + linear t + constant`, for a positive constant.
 fn first_root(square: f64, linear: f64, constant: f64) -> Option<f64> {
@@ -65,5 +192,26 @@ mod tests {
         assert_eq!(first_root(-1.0, 0.0, 4.0), Some(2.0));
         assert_eq!(first_root(1.0, 1.0, 1.0), None);
         assert_eq!(first_root(1.0, 3.0, 2.0), None, "both roots are negative");
+    }
+
+    /// A unit right triangle whose corners move along x as given.
+    fn moving(growth: [f64; 3]) -> Moving {
+        let start = [DVec3::ZERO, DVec3::X, DVec3::Y];
+        Moving { start, growth: growth.map(|x| DVec3::X * x), normal: DVec3::Z }
+    }
+
+    #[test]
+    fn corners_that_approach_each_other_stop_together() {
+        let moving = moving([1.0, -1.0, 0.0]);
+        let share = moving.exhausted_at(0.0).unwrap();
+        assert!((share - 0.49).abs() < 1e-12);
+        assert_eq!(moving.pressing(share), [true, true, false]);
+    }
+
+    #[test]
+    fn a_corner_that_gives_room_does_not_stop() {
+        let moving = moving([2.0, 0.5, 0.0]);
+        let share = moving.exhausted_at(0.0).unwrap();
+        assert_eq!(moving.pressing(share), [true, false, false]);
     }
 }

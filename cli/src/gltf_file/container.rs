@@ -117,7 +117,7 @@ fn push_chunk(out: &mut Vec<u8>, kind: &[u8], content: &[u8], padding: u8) -> Re
 }
 
 fn chunk_length(length: usize) -> Result<u32> {
-    u32::try_from(length).context("the result does not fit the 4 GiB of a .glb: write a .gltf")
+    u32::try_from(length).context("the result does not fit the 4 GiB of a .glb: split the model")
 }
 
 #[cfg(test)]

@@ -47,6 +47,8 @@ use references::Replaced;
 use rewrite::Rewrite;
 use uri::Target;
 
+pub(crate) use container::write_glb;
+
 /// A glTF file that was read.
 pub struct GltfDocument {
     path: PathBuf,
@@ -69,8 +71,7 @@ impl GltfDocument {
     /// Where the file, or one that it refers to, cannot be read; where it breaks a rule of glTF
     /// that its geometry or its nodes depend on; where its geometry is compressed.
     pub fn read(path: &Path, options: &ReadOptions) -> Result<GltfDocument> {
-        let bytes = uri::read_file(path)?;
-        Self::parse(path, bytes, options).with_context(|| path.display().to_string())
+        Self::parse(path, uri::read_file(path)?, options)
     }
 
     fn parse(path: &Path, bytes: Vec<u8>, options: &ReadOptions) -> Result<GltfDocument> {

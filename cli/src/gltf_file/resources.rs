@@ -7,7 +7,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Result, bail};
+use anyhow::{Context, Result, bail};
 use serde_json::Value;
 
 use super::json;
@@ -49,7 +49,8 @@ pub fn copies(json: &Value, key: &str, from: &Path, to: &Path) -> Result<Vec<Out
         if !source.exists() || copies.iter().any(|copy| copy.path == place) {
             continue;
         }
-        copies.push(OutputFile { bytes: uri::read_file(&source)?, path: place });
+        let bytes = uri::read_file(&source).with_context(|| source.display().to_string())?;
+        copies.push(OutputFile { bytes, path: place });
     }
     Ok(copies)
 }

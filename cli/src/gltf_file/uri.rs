@@ -79,7 +79,10 @@ fn relative(uri: &str) -> Result<Target> {
 pub fn read(uri: &str, folder: &Path) -> Result<Vec<u8>> {
     match target(uri)? {
         Target::Data(bytes) => Ok(bytes),
-        Target::Inside(path) => read_file(&folder.join(path)),
+        Target::Inside(path) => {
+            let path = folder.join(path);
+            read_file(&path).with_context(|| path.display().to_string())
+        }
         Target::Above | Target::Elsewhere => bail!(
             "the URI {uri:?} leaves the model's folder: put the file beside the model and name it relatively"
         ),
@@ -87,12 +90,14 @@ pub fn read(uri: &str, folder: &Path) -> Result<Vec<u8>> {
 }
 
 /// Reads a plain file: a pipe or a device could block for ever.
+///
+/// # Errors
+/// Where it is missing, may not be read, or is something else. Callers say which file it was.
 pub fn read_file(path: &Path) -> Result<Vec<u8>> {
-    let name = || path.display().to_string();
-    if !fs::metadata(path).with_context(name)?.is_file() {
-        bail!("{} is not a file", name());
+    if !fs::metadata(path)?.is_file() {
+        bail!("not a file");
     }
-    fs::read(path).with_context(name)
+    Ok(fs::read(path)?)
 }
 
 /// A data URI of a buffer.

@@ -2,7 +2,7 @@
 
 /// A partition of the numbers from 0.
 #[derive(Clone)]
-pub(super) struct Groups {
+pub struct Groups {
     parent: Vec<u32>,
 }
 

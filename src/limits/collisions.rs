@@ -1,0 +1,136 @@
+//! Collisions: parts of the mesh that would cut through each other, though no triangle flips.
+//!
+//! Only edge-connected parts that are clean in the source are kept clean: where a part cuts
+//! through itself already, a chamfer across the cut has to cut as well.
+
+use crate::corners;
+use crate::groups::Groups;
+use crate::ids::{Corner, Id, Sector, Triangle};
+use crate::intersect::self_intersections;
+use crate::plan::Plan;
+use crate::report::Reason;
+use crate::strips;
+
+use super::{Element, Limits, apply, around, blame, fill, sectors_of, shrink};
+
+/// Shrinks the sectors of all that cuts, until nothing does that did not in the source.
+pub fn resolve(plan: &Plan, limits: &mut Limits) {
+    let part_of = parts(plan);
+    let mut was_cut: Option<Vec<bool>> = None;
+    for round in 0.. {
+        let soup = soup(plan, limits, &part_of);
+        let cutting = soup.cutting(plan, limits);
+        if cutting.is_empty() {
+            return;
+        }
+        let was_cut = was_cut.get_or_insert_with(|| parts_that_cut(plan, &part_of));
+        let mut shrunk = Vec::new();
+        let new = cutting.into_iter().filter(|pair| !was_cut[soup.part_of[pair[0]] as usize]);
+        for element in new.flatten().map(|place| soup.elements[place]) {
+            blame(plan, limits, element, Reason::Intersects, round, &mut shrunk);
+        }
+        if shrunk.is_empty() {
+            return;
+        }
+        apply(plan, limits, round, &mut shrunk);
+        let changed = around(plan, &shrunk);
+        shrink(plan, limits, changed);
+    }
+}
+
+/// The result as loose triangles, and what each is.
+struct Soup {
+    points: Vec<[f32; 3]>,
+    triangles: Vec<[u32; 3]>,
+    part_of: Vec<u32>,
+    elements: Vec<Element>,
+}
+
+impl Soup {
+    fn push(&mut self, corners: [glam::DVec3; 3], part: u32, element: Element) {
+        let first = self.points.len() as u32;
+        self.points.extend(corners.map(|point| point.as_vec3().to_array()));
+        self.triangles.push([first, first + 1, first + 2]);
+        self.part_of.push(part);
+        self.elements.push(element);
+    }
+
+    /// The pairs that cut each other, of which at least one is new or has moved.
+    fn cutting(&self, plan: &Plan, limits: &Limits) -> Vec<[usize; 2]> {
+        let has_moved = |&sector: &Sector| limits.placement.has_moved(plan, sector);
+        let changed: Vec<bool> = self
+            .elements
+            .iter()
+            .map(|&element| sectors_of(plan, element).iter().any(has_moved))
+            .collect();
+        let pairs = self_intersections(&self.points, &self.triangles, &self.part_of, |place| {
+            changed[place as usize]
+        });
+        pairs.into_iter().map(|(one, other)| [one as usize, other as usize]).collect()
+    }
+}
+
+fn soup(plan: &Plan, limits: &Limits, part_of: &[u32]) -> Soup {
+    let placement = &limits.placement;
+    let mut soup = Soup {
+        points: Vec::new(),
+        triangles: Vec::new(),
+        part_of: Vec::new(),
+        elements: Vec::new(),
+    };
+    for triangle in plan.view.triangles() {
+        let corners = triangle.corners().map(|corner| placement.position_at(plan, corner));
+        soup.push(corners, part_of[triangle.index()], Element::Surface(triangle));
+    }
+    for edge in plan.edges.hard.ids().filter(|&edge| plan.edges.hard[edge].skipped.is_none()) {
+        let hard = &plan.edges.hard[edge];
+        let quad = strips::quad(plan, placement, hard);
+        let part = part_of[hard.sides[0].triangle().index()];
+        for corners in strips::cut(&quad) {
+            soup.push(corners.map(|place| quad.points[place]), part, Element::Strip(edge));
+        }
+    }
+    for ring in plan.sectors.rings.ids() {
+        let sectors = plan.sectors.ring(ring);
+        let part = part_of[plan.sectors.fans[sectors[0]].first.triangle().index()];
+        let fill = fill(plan, placement, ring).unwrap_or_default();
+        let mut points: Vec<_> = sectors.iter().map(|&sector| placement.point[sector]).collect();
+        let middles: Vec<_> =
+            fill.middles.iter().map(|places| corners::middle(&points, places)).collect();
+        points.extend(middles);
+        for corners in &fill.triangles {
+            soup.push(corners.map(|place| points[place]), part, Element::Fill(ring));
+        }
+    }
+    soup
+}
+
+/// `#triangles`: a number for each part whose triangles are joined by edges, touching ones
+/// included.
+fn parts(plan: &Plan) -> Vec<u32> {
+    let mut groups = Groups::singles(plan.view.corner_count() / 3);
+    let mut join = |one: Corner, other: Corner| groups.join(one.triangle().0, other.triangle().0);
+    for corner in plan.topology.twin.ids() {
+        let twin = plan.topology.twin[corner];
+        if twin.is_some() && corner < twin {
+            join(corner, twin);
+        }
+    }
+    plan.topology.touching.iter().for_each(|&[one, other]| join(one, other));
+    groups.labels()
+}
+
+/// `#triangles`, by the number of a part: whether it cuts through itself in the source.
+fn parts_that_cut(plan: &Plan, part_of: &[u32]) -> Vec<bool> {
+    let mut cuts = vec![false; part_of.len()];
+    let triangles: Vec<[u32; 3]> = plan
+        .view
+        .triangles()
+        .map(|triangle: Triangle| triangle.corners().map(|corner| plan.view.vertex_at(corner).0))
+        .collect();
+    let positions = plan.view.mesh.positions;
+    for (triangle, _) in self_intersections(positions, &triangles, part_of, |_| true) {
+        cuts[part_of[triangle as usize] as usize] = true;
+    }
+    cuts
+}

@@ -1,0 +1,41 @@
+//! The pages agree with the code that they show and explain.
+
+use std::fs;
+use std::path::Path;
+
+const ROOT: &str = env!("CARGO_MANIFEST_DIR");
+
+#[test]
+fn the_readme_shows_the_c_example_that_is_tested() {
+    let example = include_str!("../examples/c/chamfer_cube.c");
+    let block = format!("```c\n{example}```\n");
+    assert!(
+        include_str!("../README.md").contains(&block),
+        "README.md does not show examples/c/chamfer_cube.c as it is: copy the file there"
+    );
+}
+
+/// A stage or helper is a file in src whose header begins with its name and a colon.
+#[test]
+fn the_pipeline_page_has_a_section_for_each_stage() {
+    let page = include_str!("../docs/pipeline.md");
+    let mut stages = 0;
+    for entry in fs::read_dir(Path::new(ROOT).join("src")).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_none_or(|extension| extension != "rs") {
+            continue;
+        }
+        let text = fs::read_to_string(&path).unwrap();
+        let Some((title, _)) = text.strip_prefix("//! ").and_then(|text| text.split_once(':'))
+        else {
+            continue;
+        };
+        let stem = path.file_stem().unwrap().to_string_lossy();
+        if title.to_lowercase() == stem {
+            stages += 1;
+            let heading = format!("\n## {title}\n");
+            assert!(page.contains(&heading), "docs/pipeline.md lacks a section {title}");
+        }
+    }
+    assert!(stages > 0, "no file in src is headed by its name");
+}
