@@ -9,7 +9,8 @@ use glam::{DMat3, DVec2, DVec3};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
-use crate::solids::{FLAT, prism, shaded};
+use crate::prism::prism;
+use crate::shaded::{FLAT, shaded};
 
 /// A random mesh; a failing one prints as literals.
 #[derive(Clone)]
@@ -34,16 +35,6 @@ pub fn clean_mesh() -> impl Strategy<Value = Model> {
     let shapes = prop_oneof![prism_mesh(), roofed_mesh(), gridded_box(), blocks(), height_field()];
     (shapes, placement(), dress()).prop_map(|(mesh, placement, dress)| {
         Model(dress.put_on(reshaded(mesh, |point| placement.apply(point))))
-    })
-}
-
-/// Small convex solids.
-pub fn convex_mesh() -> impl Strategy<Value = Model> {
-    let outline = (3..9usize).prop_flat_map(|count| outline(count, 10..11));
-    (outline, 1..30i32, placement()).prop_map(|(outline, height, placement)| {
-        let cap = fan(outline.len() as u32);
-        let mesh = prism(&outline, &cap, height as f32 / 8.0);
-        Model(reshaded(mesh, |point| placement.apply(point)))
     })
 }
 
@@ -142,10 +133,6 @@ fn roofed_mesh() -> impl Strategy<Value = MeshBuffers> {
         }
         shaded(&points, &indices, smoothing as f32)
     })
-}
-
-fn fan(count: u32) -> Vec<[u32; 3]> {
-    (2..count).map(|k| [0, k - 1, k]).collect()
 }
 
 /// The triangles of a simple polygon that runs counter-clockwise.
