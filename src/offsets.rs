@@ -235,3 +235,92 @@ fn place(view: &View, course: &Course) -> Option<Offset> {
         is_capped: course.is_capped,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ids::Id;
+    use crate::mesh::MeshBuffers;
+    use crate::plan::tests::plan_of;
+    use crate::shapes;
+
+    /// The offsets of the sectors whose vertex stands at a point and has a normal.
+    fn offsets_at(mesh: &MeshBuffers, width: f32, at: [f32; 3], normal: [f32; 3]) -> Vec<Offset> {
+        let plan = plan_of(mesh, width);
+        let is_meant = |sector: &Sector| {
+            let vertex = plan.view.vertex_at(plan.sectors.fans[*sector].first).index();
+            mesh.positions[vertex] == at && mesh.normals[vertex] == normal
+        };
+        plan.sectors.fans.ids().filter(is_meant).map(|sector| plan.offsets[sector]).collect()
+    }
+
+    #[track_caller]
+    fn assert_goes(offsets: &[Offset], expected: [f64; 3]) {
+        assert_eq!(offsets.len(), 1);
+        let vector = offsets[0].vector;
+        assert!(vector.distance(DVec3::from(expected)) < 1e-6, "{vector}");
+    }
+
+    const UP: [f32; 3] = [0.0, 1.0, 0.0];
+
+    #[test]
+    fn at_a_right_angle_the_vertex_goes_by_the_width_along_both_edges() {
+        let cube = shapes::plain_cube(2.0);
+        assert_goes(&offsets_at(&cube, 0.1, [1.0; 3], UP), [-0.1, 0.0, -0.1]);
+    }
+
+    #[test]
+    fn at_a_reflex_angle_the_vertex_goes_away_from_the_notch() {
+        let l = shapes::l_shape();
+        let front = [0.0, 0.0, 1.0];
+        assert_goes(&offsets_at(&l, 0.1, [1.0; 3], front), [-0.1, -0.1, 0.0]);
+    }
+
+    #[test]
+    fn on_a_crease_the_vertex_slides_along_it() {
+        let cylinder = shapes::cylinder(12);
+        let front = [0.0, 0.0, 1.0];
+        assert_goes(&offsets_at(&cylinder, 0.1, [0.0, 1.0, 0.5], front), [0.0, -0.1, 0.0]);
+    }
+
+    #[test]
+    fn on_a_border_the_vertex_slides_along_it() {
+        let open = shapes::open_box();
+        let front = [0.0, 0.0, 1.0];
+        assert_goes(&offsets_at(&open, 0.1, [1.0; 3], front), [-0.1, 0.0, 0.0]);
+    }
+
+    #[test]
+    fn where_one_hard_edge_ends_the_vertex_stays() {
+        let block = shapes::wedge_end();
+        let at_end = offsets_at(&block, 0.1, [1.0; 3], UP);
+        assert_eq!(at_end.len(), 1);
+        assert!(!at_end[0].moves());
+    }
+
+    /// A blade of 2.3 degrees: the exact distance would be fifty widths.
+    #[test]
+    fn at_a_sharp_tip_the_distance_is_cut_off() {
+        let points = [
+            [0.0, 0.0, 0.0],
+            [10.0, -0.2, 0.0],
+            [10.0, 0.2, 0.0],
+            [0.0, 0.0, 1.0],
+            [10.0, -0.2, 1.0],
+            [10.0, 0.2, 1.0],
+        ];
+        let sides = [0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4, 2, 0, 3, 2, 3, 5];
+        let indices = [&[0, 2, 1, 3, 4, 5][..], &sides[..]].concat();
+        let smoothed = crate::split_by_angle(&points, &indices, 1.0);
+        let blade = MeshBuffers {
+            positions: smoothed.source_of.iter().map(|&point| points[point as usize]).collect(),
+            normals: smoothed.normals,
+            submesh_index_counts: vec![indices.len() as u32],
+            indices: smoothed.indices,
+            ..MeshBuffers::default()
+        };
+        let tip = offsets_at(&blade, 0.01, [0.0, 0.0, 1.0], [0.0, 0.0, 1.0]);
+        assert!(tip[0].is_capped);
+        assert!((tip[0].vector.length() - 0.01 * MITER_LIMIT).abs() < 1e-6);
+    }
+}

@@ -163,7 +163,7 @@ fn clip_ears(outline: &[[f32; 2]]) -> Vec<[u32; 3]> {
 fn gridded_box() -> impl Strategy<Value = MeshBuffers> {
     let cuts = || proptest::collection::btree_set(1..16i32, 2..5);
     ([cuts(), cuts(), cuts()], any::<u32>()).prop_map(|(cuts, seed)| {
-        let cuts = cuts.map(|along| Vec::from_iter(along));
+        let cuts = cuts.map(Vec::from_iter);
         let mut noise = Noise(seed);
         let mut net = Net::default();
         for axis in 0..3 {
