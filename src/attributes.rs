@@ -97,3 +97,55 @@ fn vertex_source(plan: &Plan, sector: Sector, corner: Corner, share: f64) -> Ver
         chart: from_own(chart.blend(plan, share)),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::limits::limits;
+    use crate::mesh::MeshBuffers;
+    use crate::options::Verify;
+    use crate::plan::tests::plan_of;
+    use crate::shapes;
+
+    fn attributes_of(mesh: &MeshBuffers, width: f32) -> Attributes {
+        let plan = plan_of(mesh, width);
+        attributes(&plan, &limits(&plan, Verify::Fast).placement)
+    }
+
+    #[test]
+    fn a_vertex_of_one_sector_keeps_its_index() {
+        let cube = shapes::cube(1.0);
+        let result = attributes_of(&cube, 0.1);
+        assert_eq!(result.streams.count(), 24);
+        assert!(result.vertex_at.iter().eq(&cube.indices));
+    }
+
+    #[test]
+    fn a_vertex_of_two_sectors_becomes_two() {
+        let cubes = shapes::extruding_cubes();
+        let result = attributes_of(&cubes, 0.1);
+        let sources = result.streams.count() as usize;
+        assert_eq!(sources, cubes.positions.len() + 3, "three vertices are corner-connected");
+    }
+
+    #[test]
+    fn each_stream_is_read_at_the_new_place() {
+        let cube = shapes::cube(1.0);
+        let moved = attributes_of(&cube, 0.1).streams.vertices;
+        for (old, new) in cube.uvs[0].values.iter().zip(&moved.uvs[0].values) {
+            // A tenth of a side is as much of its square in the atlas: 0.3 wide, 0.45 high.
+            let step = (old - new).abs();
+            assert!((step - 0.03).abs() < 1e-6 || (step - 0.045).abs() < 1e-6, "{step}");
+        }
+        assert_eq!(moved.tangents, cube.tangents);
+    }
+
+    #[test]
+    fn colours_stay_between_those_around() {
+        let table = shapes::table();
+        let moved = attributes_of(&table, 0.01).streams.vertices;
+        for (color, [_, y, _]) in moved.colors.iter().zip(&moved.positions) {
+            assert!((color[0] - (0.3 + 0.6 * y)).abs() < 1e-5, "{color:?} at {y}");
+        }
+    }
+}

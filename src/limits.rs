@@ -244,3 +244,51 @@ fn fits(plan: &Plan, placement: &mut Placement, sector: Sector, share: f64) -> b
     placement.set(plan, sector, share);
     elements_of(plan, sector).all(|element| is_valid(plan, placement, element))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::MeshBuffers;
+    use crate::plan::tests::plan_of;
+    use crate::shapes;
+
+    /// The shares of all sectors that can move.
+    fn shares(mesh: &MeshBuffers, width: f32) -> Vec<f64> {
+        let plan = plan_of(mesh, width);
+        let limits = limits(&plan, Verify::Fast);
+        assert!(all_elements(&plan).into_iter().all(|e| is_valid(&plan, &limits.placement, e)));
+        let movable = plan.sectors.fans.ids().filter(|&sector| plan.offsets[sector].moves());
+        movable.map(|sector| limits.placement.share[sector]).collect()
+    }
+
+    #[test]
+    fn with_room_every_sector_gets_all() {
+        assert_eq!(shares(&shapes::plain_cube(1.0), 0.1), [1.0; 24]);
+    }
+
+    #[test]
+    fn without_room_every_sector_gets_some() {
+        let shares = shares(&shapes::plate(), 0.5);
+        assert!(shares.iter().all(|&share| share > 0.0), "{shares:?}");
+        assert!(shares.iter().any(|&share| share < 0.1), "{shares:?}");
+    }
+
+    #[test]
+    fn one_narrow_part_does_not_narrow_another() {
+        // A cube, and far from it a plate that is too thin for the width.
+        let (mut both, plate) = (shapes::plain_cube(2.0), shapes::plate());
+        let first = both.positions.len() as u32;
+        both.positions.extend(plate.positions.iter().map(|[x, y, z]| [x + 9.0, *y, *z]));
+        both.normals.extend(&plate.normals);
+        both.indices.extend(plate.indices.iter().map(|index| first + index));
+        both.submesh_index_counts = vec![both.indices.len() as u32];
+        let shares = shares(&both, 0.1);
+        assert!(shares[..24].iter().all(|&share| share == 1.0), "{shares:?}");
+        assert!(shares[24..].iter().any(|&share| share < 1.0), "{shares:?}");
+    }
+
+    #[test]
+    fn a_width_of_nothing_leaves_nothing_to_limit() {
+        assert_eq!(shares(&shapes::plain_cube(1.0), 0.0), []);
+    }
+}

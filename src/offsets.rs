@@ -12,8 +12,8 @@ use glam::DVec3;
 
 use crate::edges::is_hard;
 use crate::faces::Faces;
-use crate::ids::{Corner, IdVec, Sector};
-use crate::math::{Turn, unit};
+use crate::ids::{Corner, IdVec, Sector, Triangle};
+use crate::math::{Turn, area_vector, unit};
 use crate::resample::{Foot, locate};
 use crate::sectors::{Fan, Sectors};
 use crate::topology::Topology;
@@ -30,6 +30,10 @@ const CREASE_COSINE: f64 = 0.996_194_698_091_745_5;
 
 /// Below a tenth of a degree a hard edge does not bend the surface by more than rounding does.
 const FLAT_COSINE: f64 = 0.999_998_476_913_288;
+
+/// Triangles that lean by less than half a degree from each other may lie in one plane: the corners
+/// of a small one are rounded.
+const LEVEL_COSINE: f64 = 0.999_961_923_064_171;
 
 /// A vertex slides along a border or crease that is at least this far (as a sine, 5.7 degrees)
 /// from the direction of the chamfered edge; nearer, sliding hardly opens the edge.
@@ -66,7 +70,7 @@ pub fn offsets(
         unfold(view, topology, sectors, sector, &mut spread);
         let fan = &sectors.fans[sector];
         let chosen = course(view, topology, faces, fan, &spread)
-            .and_then(|course| place(view, faces, &course));
+            .and_then(|course| place(view, faces, &spread, &course));
         chosen.unwrap_or(Offset {
             vector: DVec3::ZERO,
             within: fan.first,
@@ -226,10 +230,24 @@ fn crease<'a>(view: &View, faces: &Faces, spread: &'a [Blade]) -> Crease<'a> {
     }
 }
 
+/// The normal of the plane that a triangle lies in: of all that lie in it, the largest knows best.
+fn steady_normal(view: &View, faces: &Faces, spread: &[Blade], triangle: Triangle) -> DVec3 {
+    let own = faces.normal[triangle];
+    if spread.len() == 1 {
+        return own;
+    }
+    let area = |triangle: &Triangle| area_vector(view.triangle(*triangle)).length_squared();
+    let is_level = |other: &Triangle| faces.normal[*other].dot(own) > LEVEL_COSINE;
+    let level = spread.iter().map(|blade| blade.corner.triangle()).filter(is_level);
+    let largest = level.max_by(|one, other| area(one).total_cmp(&area(other)));
+    largest.map_or(own, |largest| faces.normal[largest])
+}
+
 /// The offset in space; none where the corner has no plane.
-fn place(view: &View, faces: &Faces, course: &Course) -> Option<Offset> {
+fn place(view: &View, faces: &Faces, spread: &[Blade], course: &Course) -> Option<Offset> {
     let triangle = course.corner.triangle();
-    let (at, normal) = (view.position_at(course.corner), faces.normal[triangle]);
+    let (at, normal) =
+        (view.position_at(course.corner), steady_normal(view, faces, spread, triangle));
     let ahead = unit(view.position_at(course.corner.next()) - at);
     let aside = normal.cross(ahead);
     let vector = (ahead * course.angle.cos() + aside * course.angle.sin()) * course.distance;
@@ -237,4 +255,93 @@ fn place(view: &View, faces: &Faces, course: &Course) -> Option<Offset> {
     let foot = locate(view, carrier, at, vector)?;
     let is_sound = normal != DVec3::ZERO && vector.is_finite();
     is_sound.then_some(Offset { vector, within: course.corner, foot, is_capped: course.is_capped })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ids::Id;
+    use crate::mesh::MeshBuffers;
+    use crate::plan::tests::plan_of;
+    use crate::shapes;
+
+    /// The offsets of the sectors whose vertex stands at a point and has a normal.
+    fn offsets_at(mesh: &MeshBuffers, width: f32, at: [f32; 3], normal: [f32; 3]) -> Vec<Offset> {
+        let plan = plan_of(mesh, width);
+        let is_meant = |sector: &Sector| {
+            let vertex = plan.view.vertex_at(plan.sectors.fans[*sector].first).index();
+            mesh.positions[vertex] == at && mesh.normals[vertex] == normal
+        };
+        plan.sectors.fans.ids().filter(is_meant).map(|sector| plan.offsets[sector]).collect()
+    }
+
+    #[track_caller]
+    fn assert_goes(offsets: &[Offset], expected: [f64; 3]) {
+        assert_eq!(offsets.len(), 1);
+        let vector = offsets[0].vector;
+        assert!(vector.distance(DVec3::from(expected)) < 1e-6, "{vector}");
+    }
+
+    const UP: [f32; 3] = [0.0, 1.0, 0.0];
+
+    #[test]
+    fn at_a_right_angle_the_vertex_goes_by_the_width_along_both_edges() {
+        let cube = shapes::plain_cube(2.0);
+        assert_goes(&offsets_at(&cube, 0.1, [1.0; 3], UP), [-0.1, 0.0, -0.1]);
+    }
+
+    #[test]
+    fn at_a_reflex_angle_the_vertex_goes_away_from_the_notch() {
+        let l = shapes::l_shape();
+        let front = [0.0, 0.0, 1.0];
+        assert_goes(&offsets_at(&l, 0.1, [1.0; 3], front), [-0.1, -0.1, 0.0]);
+    }
+
+    #[test]
+    fn on_a_crease_the_vertex_slides_along_it() {
+        let cylinder = shapes::cylinder(12);
+        let front = [0.0, 0.0, 1.0];
+        assert_goes(&offsets_at(&cylinder, 0.1, [0.0, 1.0, 0.5], front), [0.0, -0.1, 0.0]);
+    }
+
+    #[test]
+    fn on_a_border_the_vertex_slides_along_it() {
+        let open = shapes::open_box();
+        let front = [0.0, 0.0, 1.0];
+        assert_goes(&offsets_at(&open, 0.1, [1.0; 3], front), [-0.1, 0.0, 0.0]);
+    }
+
+    #[test]
+    fn where_one_hard_edge_ends_the_vertex_stays() {
+        let block = shapes::wedge_end();
+        let at_end = offsets_at(&block, 0.1, [1.0; 3], UP);
+        assert_eq!(at_end.len(), 1);
+        assert!(!at_end[0].moves());
+    }
+
+    /// A blade of 2.3 degrees: the exact distance would be fifty widths.
+    #[test]
+    fn at_a_sharp_tip_the_distance_is_cut_off() {
+        let points = [
+            [0.0, 0.0, 0.0],
+            [10.0, -0.2, 0.0],
+            [10.0, 0.2, 0.0],
+            [0.0, 0.0, 1.0],
+            [10.0, -0.2, 1.0],
+            [10.0, 0.2, 1.0],
+        ];
+        let sides = [0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4, 2, 0, 3, 2, 3, 5];
+        let indices = [&[0, 2, 1, 3, 4, 5][..], &sides[..]].concat();
+        let smoothed = crate::split_by_angle(&points, &indices, 1.0);
+        let blade = MeshBuffers {
+            positions: smoothed.source_of.iter().map(|&point| points[point as usize]).collect(),
+            normals: smoothed.normals,
+            submesh_index_counts: vec![indices.len() as u32],
+            indices: smoothed.indices,
+            ..MeshBuffers::default()
+        };
+        let tip = offsets_at(&blade, 0.01, [0.0, 0.0, 1.0], [0.0, 0.0, 1.0]);
+        assert!(tip[0].is_capped);
+        assert!((tip[0].vector.length() - 0.01 * MITER_LIMIT).abs() < 1e-6);
+    }
 }

@@ -38,7 +38,9 @@ pub fn output(
         submeshes: Submeshes::new(plan, target),
         new: Vec::new(),
     };
-    collapsed::close(plan, &mut surface.attributes.vertex_at);
+    if plan.sectors.fans.ids().any(|sector| limits.placement.has_moved(plan, sector)) {
+        collapsed::close(plan, &mut surface.attributes.vertex_at);
+    }
     plan.edges.hard.ids().for_each(|edge| surface.add_strip(edge));
     plan.sectors.rings.ids().for_each(|ring| surface.add_fill(ring));
     surface.finish()
@@ -238,5 +240,47 @@ impl Submeshes {
                 self.starts.partition_point(|&start| start <= owner.0) as u32 - 1
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::tests::plan_of;
+    use crate::shapes;
+
+    #[test]
+    fn new_triangles_go_where_they_are_asked_to() {
+        let bolt = shapes::bolt();
+        let plan = plan_of(&bolt, 0.02);
+        let head = bolt.submesh_index_counts[0] / 3;
+        let submesh_of = |target: ChamferSubmesh| {
+            let submeshes = Submeshes::new(&plan, target);
+            [0, head - 1, head].map(|triangle| submeshes.for_new(Triangle(triangle)))
+        };
+        assert_eq!(submesh_of(ChamferSubmesh::Owner), [0, 0, 1]);
+        assert_eq!(submesh_of(ChamferSubmesh::Own), [2; 3]);
+        assert_eq!(submesh_of(ChamferSubmesh::Given(1)), [1; 3]);
+    }
+
+    #[test]
+    fn each_submesh_has_its_own_triangles_and_a_new_one_has_none() {
+        let bolt = shapes::bolt();
+        let plan = plan_of(&bolt, 0.02);
+        let submeshes = Submeshes::new(&plan, ChamferSubmesh::Own);
+        let counts = [0, 1, 2].map(|submesh| submeshes.source_triangles(submesh).count() as u32);
+        let [head, shank] = [0, 1].map(|submesh| bolt.submesh_index_counts[submesh] / 3);
+        assert_eq!((submeshes.count(), counts), (3, [head, shank, 0]));
+    }
+
+    #[test]
+    fn strips_stand_before_fills_in_the_order_of_their_edges() {
+        let cube = shapes::plain_cube(1.0);
+        let options = crate::Options { width: crate::Width::Units(0.1), ..Default::default() };
+        let result = crate::chamfer(&cube.as_mesh(), &options).unwrap();
+        let kinds: Vec<TriangleKind> = result.triangle_sources.iter().map(|s| s.kind).collect();
+        assert!(kinds.is_sorted_by_key(|&kind| kind as u32));
+        let edges = result.triangle_sources.iter().filter(|s| s.kind == TriangleKind::Edge);
+        assert!(edges.map(|source| source.index).is_sorted());
     }
 }

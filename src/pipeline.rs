@@ -39,6 +39,21 @@ pub fn chamfer_with_progress(
         ControlFlow::Continue(()) => Ok(()),
         ControlFlow::Break(()) => Err(Error::Cancelled),
     };
+    let plan = plan(mesh, options, &mut done)?;
+    let limits = limits(&plan, options.verify);
+    done(0.8)?;
+    let attributes = attributes(&plan, &limits.placement);
+    let chamfered = output(&plan, &limits, attributes, options.chamfer_submesh);
+    done(1.0)?;
+    Ok(chamfered)
+}
+
+/// The stages up to the offsets.
+pub(crate) fn plan<'a>(
+    mesh: &Mesh<'a>,
+    options: &Options,
+    done: &mut dyn FnMut(f32) -> Result<(), Error>,
+) -> Result<Plan<'a>, Error> {
     let view = view(mesh, options)?;
     let weld = weld(mesh);
     done(0.1)?;
@@ -49,11 +64,5 @@ pub fn chamfer_with_progress(
     let sectors = sectors(&topology, &edges);
     let offsets = offsets(&view, &topology, &faces, &sectors);
     done(0.4)?;
-    let plan = Plan { view, topology, faces, edges, sectors, offsets };
-    let limits = limits(&plan, options.verify);
-    done(0.8)?;
-    let attributes = attributes(&plan, &limits.placement);
-    let chamfered = output(&plan, &limits, attributes, options.chamfer_submesh);
-    done(1.0)?;
-    Ok(chamfered)
+    Ok(Plan { view, topology, faces, edges, sectors, offsets })
 }

@@ -18,3 +18,17 @@ pub struct Plan<'a> {
     /// `#sectors`: the move at full width.
     pub offsets: IdVec<Sector, Offset>,
 }
+
+#[cfg(test)]
+pub mod tests {
+    use super::*;
+    use crate::mesh::MeshBuffers;
+    use crate::options::{Options, Width};
+    use crate::pipeline::plan;
+
+    /// The plan of a sound mesh for a width in mesh units.
+    pub fn plan_of(mesh: &MeshBuffers, width: f32) -> Plan<'_> {
+        let options = Options { width: Width::Units(width), ..Options::default() };
+        plan(&mesh.as_mesh(), &options, &mut |_| Ok(())).unwrap()
+    }
+}

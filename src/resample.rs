@@ -164,3 +164,61 @@ pub fn weighted_sum(blend: &Blend, values: [DVec3; 3]) -> DVec3 {
     let [a, b, c] = blend.weights.map(f64::from);
     values[0] * a + values[1] * b + values[2] * c
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ids::Id;
+    use crate::plan::tests::plan_of;
+    use crate::shapes;
+
+    #[test]
+    fn a_foot_blends_the_corners_of_its_triangle() {
+        let cube = shapes::plain_cube(1.0);
+        let plan = plan_of(&cube, 0.1);
+        let blend =
+            Foot { corner: Corner(1), start: [0.0; 2], along: [0.5, 0.25] }.blend(&plan, 0.5);
+        assert_eq!(blend.vertices, [cube.indices[1], cube.indices[2], cube.indices[0]]);
+        assert_eq!(blend.weights, [0.625, 0.25, 0.125]);
+    }
+
+    #[test]
+    fn equal_normals_blend_to_the_very_same() {
+        let sphere = shapes::sphere(5, 7);
+        let plan = plan_of(&sphere, 0.1);
+        let normal = plan.view.normal(Vertex(9));
+        let blend = Blend { vertices: [9; 3], weights: [0.3, 0.3, 0.4] };
+        assert_eq!(blended_normal(&plan, &blend), normal);
+    }
+
+    #[test]
+    fn the_two_sides_of_a_seam_are_two_charts() {
+        let cylinder = shapes::cylinder(6);
+        let plan = plan_of(&cylinder, 0.1);
+        let side = |v: &usize| cylinder.normals[*v][1] == 0.0;
+        let at = |v: usize| cylinder.positions[v] == [0.0, 1.0, 0.5];
+        let seam: Vec<usize> =
+            (0..cylinder.positions.len()).filter(|&v| at(v)).filter(side).collect();
+        let [one, other] = [0, 1].map(|place| Vertex::new(seam[place]));
+        assert!(!same_chart(&plan, one, other));
+        assert!(same_chart(&plan, one, one));
+    }
+
+    #[test]
+    fn a_vector_is_projected_onto_the_plane_of_a_triangle() {
+        let cube = shapes::plain_cube(1.0);
+        let plan = plan_of(&cube, 0.1);
+        let corner = Corner(0);
+        let [a, b, _] = plan.view.triangle(corner.triangle());
+        let normal = plan.faces.normal[corner.triangle()];
+        let foot = locate(&plan.view, corner, a, (b - a) * 0.5 + normal).unwrap();
+        assert!((foot.along[0] - 0.5).abs() < 1e-12 && foot.along[1].abs() < 1e-12);
+    }
+
+    #[test]
+    fn uv_values_are_taken_by_the_width_of_their_channel() {
+        let uv = crate::mesh::Uv { components: 3, values: &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0] };
+        assert_eq!(uv_at(&uv, 1), [4.0, 5.0, 6.0]);
+        assert!(uv_at(&crate::mesh::Uv::default(), 1).is_empty());
+    }
+}

@@ -253,3 +253,67 @@ pub fn fill_feet(
     });
     behind.chain(before).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::tests::plan_of;
+    use crate::shapes;
+
+    #[test]
+    fn a_channel_that_differs_across_an_edge_is_a_seam_there() {
+        let (seamed, plain) = (shapes::cube(1.0), shapes::plain_cube(1.0));
+        let channels = |mesh| {
+            let plan = plan_of(mesh, 0.1);
+            plan.edges.hard.iter().map(|edge| seam_channels(&plan, edge)).collect::<Vec<_>>()
+        };
+        assert_eq!(channels(&seamed), [1; 12]);
+        assert_eq!(channels(&plain), [0; 12]);
+    }
+
+    #[test]
+    fn a_chain_of_edges_between_two_regions_has_one_owner() {
+        let cylinder = shapes::cylinder(12);
+        let plan = plan_of(&cylinder, 0.05);
+        let owners = owners(&plan);
+        let first = regions(&plan);
+        for edge in plan.edges.hard.ids() {
+            let owner = plan.edges.hard[edge].sides[owners.side[edge]].triangle();
+            assert_eq!(first[owner], Triangle(0), "the side of the cylinder comes first");
+        }
+    }
+
+    #[test]
+    fn a_region_ends_at_hard_edges() {
+        let cube = shapes::plain_cube(1.0);
+        let region = regions(&plan_of(&cube, 0.1));
+        let expected = (0..12).map(|triangle| Triangle(triangle - triangle % 2));
+        assert!(region.iter().copied().eq(expected));
+    }
+
+    #[test]
+    fn between_two_vertices_both_weigh_their_share() {
+        let [a, b] = [Blend::one(3), Blend::one(5)];
+        assert_eq!(between(a, b, 0.0), a);
+        assert_eq!(between(a, b, 1.0), b);
+        let mixed = between(a, b, 0.25);
+        let weight_of = |vertex: u32| {
+            let pairs = mixed.vertices.into_iter().zip(mixed.weights);
+            pairs.filter(|(v, _)| *v == vertex).map(|(_, weight)| weight).sum::<f32>()
+        };
+        assert_eq!([3, 5].map(weight_of), [0.75, 0.25]);
+    }
+
+    #[test]
+    fn the_foot_of_a_pulled_vertex_lies_on_the_old_edge() {
+        let cube = shapes::cube(1.0);
+        let plan = plan_of(&cube, 0.1);
+        let mut placement = Placement::unmoved(&plan);
+        let sector = Sector(0);
+        placement.set(&plan, sector, 1.0);
+        let side = plan.sectors.fans[sector].first;
+        let foot = foot_on_edge(&plan, &placement, side, sector);
+        let weights: Vec<f32> = foot.weights.into_iter().filter(|weight| *weight != 0.0).collect();
+        assert!((weights[0] - 0.9).abs() < 1e-6 && (weights[1] - 0.1).abs() < 1e-6, "{foot:?}");
+    }
+}

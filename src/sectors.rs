@@ -138,3 +138,70 @@ fn add_ring(sectors: &mut Sectors, first: Sector) {
     let closed = sector.is_some();
     sectors.rings.push(RingRange { start, end: sectors.members.len() as u32, closed });
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::tests::plan_of;
+    use crate::shapes;
+
+    /// For each ring, how many sectors it has and whether it closes; sorted.
+    fn rings(sectors: &Sectors) -> Vec<(usize, bool)> {
+        let ring = |ring| (sectors.ring(ring).len(), sectors.rings[ring].closed);
+        let mut rings: Vec<_> = sectors.rings.ids().map(ring).collect();
+        rings.sort_unstable();
+        rings
+    }
+
+    #[test]
+    fn around_each_corner_of_a_cube_three_sectors_close_a_ring() {
+        let cube = shapes::plain_cube(1.0);
+        let plan = plan_of(&cube, 0.1);
+        assert_eq!(rings(&plan.sectors), [(3, true); 8]);
+        assert!(plan.sectors.sector_of.iter().all(|sector| sector.is_some()));
+    }
+
+    #[test]
+    fn at_a_border_a_ring_stays_open() {
+        let open = shapes::open_box();
+        let sectors = plan_of(&open, 0.1).sectors;
+        let expected = [[(2, false); 4], [(3, true); 4]].concat();
+        assert_eq!(rings(&sectors), expected);
+        for ring in sectors.rings.ids().filter(|&ring| !sectors.rings[ring].closed) {
+            let [first, last] = [0, 1].map(|place| sectors.fans[sectors.ring(ring)[place]]);
+            assert!(first.starts_at_border && last.ends_at_border());
+        }
+    }
+
+    #[test]
+    fn a_sector_is_a_fan_over_soft_edges() {
+        let cylinder = shapes::cylinder(8);
+        let plan = plan_of(&cylinder, 0.1);
+        // A vertex of the side has one or two corners in each of the two quads beside it.
+        for sector in plan.sectors.fans.ids() {
+            let corners: Vec<_> = plan.sectors.corners(&plan.topology, sector).collect();
+            let [first, last] = [corners[0], corners[corners.len() - 1]];
+            assert!(plan.edges.chamfered_at[first].is_some());
+            assert!(plan.edges.chamfered_at[last.prev()].is_some());
+            assert!(corners.iter().all(|&corner| plan.sectors.sector_of[corner] == sector));
+        }
+    }
+
+    #[test]
+    fn the_corners_of_one_vertex_may_lie_in_two_sectors() {
+        let cubes = shapes::extruding_cubes();
+        let plan = plan_of(&cubes, 0.1);
+        let vertex = cubes.positions.iter().position(|&at| at == [1.0; 3]).unwrap();
+        let at_vertex = |corner: &Corner| plan.view.vertex_at(*corner).index() == vertex;
+        let corners = plan.sectors.sector_of.ids().filter(at_vertex);
+        let mut sectors: Vec<_> = corners.map(|corner| plan.sectors.sector_of[corner]).collect();
+        sectors.dedup();
+        assert_eq!(sectors.len(), 2);
+    }
+
+    #[test]
+    fn without_hard_edges_there_are_no_sectors() {
+        let sphere = shapes::sphere(4, 6);
+        assert_eq!(plan_of(&sphere, 0.1).sectors.fans.len(), 0);
+    }
+}

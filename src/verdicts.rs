@@ -80,3 +80,52 @@ pub fn totals(plan: &Plan, verdicts: &[EdgeVerdict]) -> Totals {
     totals.mean_width = if whole > 0.0 { (got / whole) as f32 } else { 0.0 };
     totals
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::limits::limits;
+    use crate::mesh::MeshBuffers;
+    use crate::options::Verify;
+    use crate::plan::tests::plan_of;
+    use crate::shapes;
+
+    fn judge(mesh: &MeshBuffers, width: f32) -> (Vec<EdgeVerdict>, Totals) {
+        let plan = plan_of(mesh, width);
+        let verdicts = verdicts(&plan, &limits(&plan, Verify::Fast));
+        let totals = totals(&plan, &verdicts);
+        (verdicts, totals)
+    }
+
+    #[test]
+    fn a_cube_gets_full_width_everywhere() {
+        let (verdicts, totals) = judge(&shapes::plain_cube(1.0), 0.1);
+        for verdict in &verdicts {
+            assert_eq!((verdict.outcome, verdict.reason), (Outcome::Full, Reason::None));
+            assert!(verdict.widths.iter().all(|width| (width - 0.1).abs() < 1e-6));
+        }
+        assert_eq!((totals.hard_edges, totals.chamfered), (12, 12));
+        assert!((totals.mean_width - 1.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn without_room_an_edge_is_narrowed() {
+        let (verdicts, totals) = judge(&shapes::plate(), 0.5);
+        assert!(verdicts.iter().all(|verdict| verdict.reason == Reason::NoRoom));
+        assert_eq!((totals.chamfered, totals.narrowed), (0, 12));
+        assert!(totals.mean_width < 0.9);
+    }
+
+    #[test]
+    fn a_width_below_the_precision_of_the_positions_is_too_fine() {
+        let (verdicts, totals) = judge(&shapes::plain_cube(1.0), 1e-9);
+        assert!(verdicts.iter().all(|verdict| verdict.reason == Reason::TooFine));
+        assert_eq!(totals.skipped[Reason::TooFine as usize], 12);
+        assert_eq!(totals.mean_width, 0.0);
+    }
+
+    #[test]
+    fn no_hard_edges_no_verdicts() {
+        assert_eq!(judge(&shapes::sphere(4, 6), 0.1), (vec![], Totals::default()));
+    }
+}

@@ -23,7 +23,7 @@ fn measured(percent: f32) -> Option<Vec<Measured>> {
     }
     assert_eq!(paths.len(), MODELS, "models in {FOLDER}");
     let meshes = |path: &std::path::PathBuf| {
-        measure(path, percent, Verify::Fast)
+        measure(path, percent, Verify::Full)
             .unwrap_or_else(|error| panic!("{}: {error}", path.display()))
     };
     Some(paths.iter().flat_map(meshes).collect())

@@ -3,17 +3,19 @@
 //! The same cases on every run, so that a failure is a change's and not the day's. To look for
 //! more: `PROPTEST_RNG_SEED=2 PROPTEST_CASES=20000 cargo test --release --test properties`.
 
+#[path = "support/prism.rs"]
+mod prism;
 #[path = "support/random.rs"]
 mod random;
-#[path = "support/solids.rs"]
-mod solids;
+#[path = "support/shaded.rs"]
+mod shaded;
 
-use chamfer::check::{Findings, check};
+use chamfer::check::{Findings, Rule, check};
 use chamfer::{Chamfered, MeshBuffers, Options, Verify, Width, chamfer};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
 
-use random::{Model, clean_mesh, convex_mesh, soup};
+use random::{Model, clean_mesh, soup};
 
 fn config(cases: u32) -> Config {
     let asked = Config::default();
@@ -42,6 +44,14 @@ fn findings(mesh: &MeshBuffers, percent: f32, verify: Verify) -> Findings {
     check(&mesh.as_mesh(), &chamfered(mesh, percent, verify), verify)
 }
 
+/// As [`Findings::is_sound`], but an edge of many sides may come apart into two of fewer, which
+/// counts as one edge more with too many sides.
+fn is_sound_for_soup(findings: &Findings) -> bool {
+    let had_crowded_edges = findings.before.non_manifold_edges > 0;
+    let may_be = |rule: Rule| had_crowded_edges && rule == Rule::NonManifold;
+    findings.breaches.iter().all(|breach| may_be(breach.rule))
+}
+
 fn any_mesh() -> impl Strategy<Value = Model> {
     prop_oneof![4 => clean_mesh(), 1 => soup()]
 }
@@ -51,20 +61,14 @@ proptest! {
 
     #[test]
     fn a_chamfered_mesh_is_sound(Model(mesh) in clean_mesh(), percent in percent()) {
-        let findings = findings(&mesh, percent, Verify::Fast);
+        let findings = findings(&mesh, percent, Verify::Full);
         prop_assert!(findings.is_sound(), "{findings}");
     }
 
     #[test]
     fn a_chamfered_soup_is_sound(Model(mesh) in soup(), percent in percent()) {
         let findings = findings(&mesh, percent, Verify::Fast);
-        prop_assert!(findings.is_sound(), "{findings}");
-    }
-
-    #[test]
-    fn a_chamfered_convex_solid_does_not_cut_itself(Model(mesh) in convex_mesh(), percent in percent()) {
-        let findings = findings(&mesh, percent, Verify::Full);
-        prop_assert!(findings.is_sound(), "{findings}");
+        prop_assert!(is_sound_for_soup(&findings), "{findings}");
     }
 }
 
@@ -81,7 +85,7 @@ proptest! {
     }
 
     #[test]
-    fn width_zero_changes_nothing(Model(mesh) in any_mesh()) {
+    fn width_zero_changes_nothing(Model(mesh) in clean_mesh()) {
         prop_assert!(chamfered(&mesh, 0.0, Verify::Full).mesh == mesh);
     }
 
@@ -89,7 +93,7 @@ proptest! {
     fn what_comes_out_can_go_in_again(Model(mesh) in any_mesh(), percent in percent()) {
         let once = chamfered(&mesh, percent, Verify::Fast).mesh;
         let findings = findings(&once, percent, Verify::Fast);
-        prop_assert!(findings.is_sound(), "{findings}");
+        prop_assert!(is_sound_for_soup(&findings), "{findings}");
     }
 
     #[test]

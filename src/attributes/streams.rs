@@ -147,9 +147,9 @@ fn blend_value(blend: &Blend, values: [f32; 3]) -> f32 {
     (terms[0] + terms[1] + terms[2]) as f32
 }
 
-/// A blend may reach past its triangle: it stays within 0 to 1, or what the source goes up to.
+/// A blend may reach past its triangle: it stays within what the source holds.
 fn color_range(colors: &[[f32; 4]]) -> [[f32; 2]; 4] {
-    let mut range = [[0.0_f32, 1.0_f32]; 4];
+    let mut range = [[f32::INFINITY, f32::NEG_INFINITY]; 4];
     for color in colors {
         for (bounds, &value) in range.iter_mut().zip(color) {
             *bounds = [bounds[0].min(value), bounds[1].max(value)];
@@ -158,7 +158,8 @@ fn color_range(colors: &[[f32; 4]]) -> [[f32; 2]; 4] {
     range
 }
 
-/// Unit, orthogonal to the normal, with the handedness of the chart.
+/// Unit, orthogonal to the normal, with the handedness of the chart. Where the chart goes on over
+/// an edge, its tangent is turned along from its own normal.
 fn tangent(plan: &Plan, chart: &Blend, normal: DVec3) -> [f32; 4] {
     let tangents = plan.view.mesh.tangents;
     let own = tangents[chart.vertices[0] as usize];
@@ -171,8 +172,11 @@ fn tangent(plan: &Plan, chart: &Blend, normal: DVec3) -> [f32; 4] {
         let [x, y, z, _] = tangents[vertex as usize];
         wide([x, y, z])
     });
-    let mixed = weighted_sum(chart, directions);
-    let across = |direction: DVec3| unit(direction - normal * direction.dot(normal));
+    let mixed = turned(weighted_sum(chart, directions), blended_normal(plan, chart), normal);
+    let across = |direction: DVec3| {
+        let rest = direction - normal * direction.dot(normal);
+        if rest.length() > LEAST_REST * direction.length() { unit(rest) } else { DVec3::ZERO }
+    };
     let direction = [mixed, directions[0], normal.any_orthonormal_vector()]
         .into_iter()
         .map(across)
@@ -181,6 +185,19 @@ fn tangent(plan: &Plan, chart: &Blend, normal: DVec3) -> [f32; 4] {
     let [x, y, z] = direction.as_vec3().to_array();
     [x, y, z, own[3]]
 }
+
+/// A direction turned by the shortest turn that takes one unit vector to another.
+fn turned(direction: DVec3, from: DVec3, to: DVec3) -> DVec3 {
+    let cosine = from.dot(to);
+    if cosine < LEAST_REST - 1.0 {
+        return direction;
+    }
+    let middle = from + to;
+    direction - middle * (middle.dot(direction) / (1.0 + cosine)) + to * (2.0 * from.dot(direction))
+}
+
+/// What is left of a direction across a normal is rounding if it is shorter than this share of it.
+const LEAST_REST: f64 = 1e-3;
 
 /// A stored tangent that is orthogonal up to the rounding of its components needs no repair.
 const ORTHOGONAL: f64 = 1e-6;

@@ -9,7 +9,8 @@ use glam::{DMat3, DVec2, DVec3};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
-use crate::solids::{FLAT, prism, shaded};
+use crate::prism::prism;
+use crate::shaded::{FLAT, shaded};
 
 /// A random mesh; a failing one prints as literals.
 #[derive(Clone)]
@@ -34,16 +35,6 @@ pub fn clean_mesh() -> impl Strategy<Value = Model> {
     let shapes = prop_oneof![prism_mesh(), roofed_mesh(), gridded_box(), blocks(), height_field()];
     (shapes, placement(), dress()).prop_map(|(mesh, placement, dress)| {
         Model(dress.put_on(reshaded(mesh, |point| placement.apply(point))))
-    })
-}
-
-/// Small convex solids.
-pub fn convex_mesh() -> impl Strategy<Value = Model> {
-    let outline = (3..9usize).prop_flat_map(|count| outline(count, 10..11));
-    (outline, 1..30i32, placement()).prop_map(|(outline, height, placement)| {
-        let cap = fan(outline.len() as u32);
-        let mesh = prism(&outline, &cap, height as f32 / 8.0);
-        Model(reshaded(mesh, |point| placement.apply(point)))
     })
 }
 
@@ -144,10 +135,6 @@ fn roofed_mesh() -> impl Strategy<Value = MeshBuffers> {
     })
 }
 
-fn fan(count: u32) -> Vec<[u32; 3]> {
-    (2..count).map(|k| [0, k - 1, k]).collect()
-}
-
 /// The triangles of a simple polygon that runs counter-clockwise.
 fn clip_ears(outline: &[[f32; 2]]) -> Vec<[u32; 3]> {
     let point = |k: u32| DVec2::from(outline[k as usize].map(f64::from));
@@ -176,7 +163,7 @@ fn clip_ears(outline: &[[f32; 2]]) -> Vec<[u32; 3]> {
 fn gridded_box() -> impl Strategy<Value = MeshBuffers> {
     let cuts = || proptest::collection::btree_set(1..16i32, 2..5);
     ([cuts(), cuts(), cuts()], any::<u32>()).prop_map(|(cuts, seed)| {
-        let cuts = cuts.map(|along| Vec::from_iter(along));
+        let cuts = cuts.map(Vec::from_iter);
         let mut noise = Noise(seed);
         let mut net = Net::default();
         for axis in 0..3 {

@@ -2,11 +2,13 @@
 //! as a small model. All of them also go through the whole-mesh checker.
 
 mod corners;
+#[path = "../support/prism.rs"]
+mod prism;
 mod pulling;
 mod result;
 mod seams;
-#[path = "../support/solids.rs"]
-mod solids;
+#[path = "../support/shaded.rs"]
+mod shaded;
 mod touching;
 
 use chamfer::check::assert_sound;

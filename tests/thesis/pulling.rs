@@ -2,7 +2,7 @@
 
 use chamfer::{Outcome, TriangleKind, shapes};
 
-use crate::solids::prism;
+use crate::prism::prism;
 use crate::{assert_at, chamfered, count, pulled, triangles, vector};
 
 const UP: [f32; 3] = [0.0, 1.0, 0.0];

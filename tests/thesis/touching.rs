@@ -1,15 +1,15 @@
 //! Bodies that merely touch are chamfered each on its own.
 
 use chamfer::shapes::{self, Touch};
-use chamfer::{Outcome, Reason, TriangleKind};
+use chamfer::{Outcome, TriangleKind};
 
 use crate::{chamfered, count, vector};
 
-const APART: [Touch; 3] = [Touch::Vertex, Touch::Edge, Touch::HalfEdge];
+const ALL: [Touch; 4] = [Touch::Vertex, Touch::Edge, Touch::HalfEdge, Touch::Face];
 
 #[test]
 fn two_cubes_that_touch_become_two_chamfered_cubes() {
-    for touch in APART {
+    for touch in ALL {
         let result = chamfered(&shapes::two_cubes_touching(touch), 0.1);
         assert_eq!(result.mesh.positions.len(), 2 * 24, "{touch:?}");
         assert_eq!(result.mesh.indices.len() / 3, 2 * 44, "{touch:?}");
@@ -26,23 +26,11 @@ fn a_cube_that_touches_another_is_chamfered_as_if_alone() {
         *position = position.map(|along| along + 0.5);
     }
     let alone = chamfered(&alone, 0.1);
-    for touch in APART {
+    for touch in ALL {
         let result = chamfered(&shapes::two_cubes_touching(touch), 0.1);
         let pairs = alone.mesh.positions.iter().zip(&result.mesh.positions);
         for (&expected, &found) in pairs {
             assert!(vector(expected).distance(vector(found)) < 1e-6, "{touch:?}");
         }
     }
-}
-
-/// Where whole faces touch, the other sides run on from cube to cube without a change of normal,
-/// so the two are one bar. The faces between them stand back to back: there is nothing to cut.
-#[test]
-fn two_cubes_that_share_a_face_become_one_bar() {
-    let result = chamfered(&shapes::two_cubes_touching(Touch::Face), 0.1);
-    let around_the_face = |reason: Reason| reason == Reason::ZeroThickness;
-    let skipped = result.verdicts.iter().filter(|v| v.outcome == Outcome::Skipped);
-    assert!(skipped.clone().all(|v| around_the_face(v.reason)));
-    assert_eq!((skipped.count(), result.totals.chamfered), (4, 16));
-    assert_eq!(count(&result, TriangleKind::Corner), 8);
 }

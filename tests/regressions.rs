@@ -1,0 +1,88 @@
+//! Small meshes that random ones were whittled down to, each for what once went wrong on it.
+
+#[path = "support/shaded.rs"]
+mod shaded;
+
+use chamfer::check::{Rule, assert_sound, check};
+use chamfer::{Chamfered, MeshBuffers, Options, Verify, Width, chamfer, shapes};
+use glam::{DQuat, DVec3};
+
+fn chamfered(mesh: &MeshBuffers, width: Width) -> Chamfered {
+    chamfer(&mesh.as_mesh(), &Options { width, ..Options::default() }).unwrap()
+}
+
+/// Two vertices at one position are not exchanged for each other.
+#[test]
+fn width_zero_keeps_the_vertices_of_a_collapsed_triangle() {
+    let mesh = MeshBuffers {
+        positions: vec![[0.0; 3], [0.0; 3]],
+        normals: vec![[0.0, 1.0, 0.0], [1.0, 0.0, 0.0]],
+        indices: vec![0, 0, 1],
+        submesh_index_counts: vec![3],
+        ..MeshBuffers::default()
+    };
+    assert_eq!(chamfered(&mesh, Width::Units(0.0)).mesh, mesh);
+}
+
+/// The tangent of a strip's owner is the normal of its other side, but for rounding: what is left
+/// of it across that normal is noise.
+#[test]
+fn the_far_side_of_a_seam_on_a_turned_cube_has_a_right_tangent() {
+    let mut cube = shapes::cube(1.0);
+    let turn = DQuat::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), 0.07);
+    let turned =
+        |[x, y, z]: [f32; 3]| (turn * DVec3::from([x, y, z].map(f64::from))).as_vec3().to_array();
+    for tangent in &mut cube.tangents {
+        let [x, y, z, handedness] = *tangent;
+        let [x, y, z] = turned([x, y, z]);
+        *tangent = [x, y, z, handedness];
+    }
+    cube.positions.iter_mut().for_each(|position| *position = turned(*position));
+    cube.normals.iter_mut().for_each(|normal| *normal = turned(*normal));
+    assert_sound("turned cube", &cube.as_mesh(), &chamfered(&cube, Width::Units(0.1)));
+}
+
+/// A vertex that is pulled past its triangle reads past the triangle's colours.
+#[test]
+fn a_colour_read_past_its_triangle_stays_in_range() {
+    let mut strip = shapes::aligned_strip();
+    strip.positions.iter_mut().for_each(|[_, y, z]| (*y, *z) = (*y * 3.0, *z * 3.0));
+    for bright in 0..strip.positions.len() {
+        strip.colors = vec![[0.5; 4]; strip.positions.len()];
+        strip.colors[bright] = [0.6; 4];
+        let result = chamfered(&strip, Width::Units(0.9));
+        let findings = check(&strip.as_mesh(), &result, Verify::Fast);
+        assert_eq!(findings.count(Rule::Colors), 0, "vertex {bright}: {findings}");
+    }
+}
+
+/// At 3, 4 and 5 the outline is nearly straight, so the cap's triangle there is a sliver, and its
+/// plane mostly rounding. A long pull in that plane leaves the cap.
+#[test]
+fn a_flat_face_with_a_sliver_stays_flat() {
+    let points = [
+        [-33.785378, -33.60235, -33.785965],
+        [-34.15611, -33.670914, -33.61246],
+        [-35.3882, -34.455154, -33.524628],
+        [-34.665382, -34.94596, -34.41154],
+        [-33.89849, -34.358974, -34.37937],
+        [-33.60833, -34.06064, -34.300213],
+        [-32.676353, -33.262383, -34.18652],
+        [-33.41082, -34.124268, -33.191887],
+        [-33.781548, -34.19283, -33.018383],
+        [-35.013638, -34.97707, -32.930546],
+        [-34.29082, -35.467876, -33.81746],
+        [-33.52393, -34.880894, -33.78529],
+        [-33.233772, -34.582558, -33.706135],
+        [-32.301796, -33.7843, -33.59244],
+    ];
+    let mut indices = vec![7, 8, 9, 0, 2, 1, 13, 7, 9, 6, 2, 0, 13, 9, 10, 6, 3, 2];
+    indices.extend([10, 11, 12, 3, 5, 4, 10, 12, 13, 3, 6, 5]);
+    for a in 0..7 {
+        let b = (a + 1) % 7;
+        indices.extend([a, b, b + 7, a, b + 7, a + 7]);
+    }
+    let mesh = shaded::shaded(&points, &indices, shaded::FLAT);
+    let result = chamfered(&mesh, Width::PercentOfExtent(12.964855));
+    assert_sound("prism", &mesh.as_mesh(), &result);
+}
