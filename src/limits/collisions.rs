@@ -5,36 +5,91 @@
 
 use crate::corners;
 use crate::groups::Groups;
-use crate::ids::{Corner, Id, Sector, Triangle};
+use crate::ids::{Corner, Id, IdVec, Sector, Triangle};
 use crate::intersect::self_intersections;
 use crate::plan::Plan;
 use crate::report::Reason;
 use crate::strips;
 
-use super::{Element, Limits, apply, around, blame, fill, sectors_of, shrink};
+use super::{Element, Limits, apply, around, blame, fill, is_valid, sectors_of, shrink};
 
-/// Shrinks the sectors of all that cuts, until nothing does that did not in the source.
+/// Rounds in which width is given back: the rest is within an eighth of what would fit.
+const GIVE_BACK_ROUNDS: usize = 3;
+
+/// Shrinks the sectors of all that cuts, until nothing does that did not in the source, and gives
+/// back what is safe.
 pub fn resolve(plan: &Plan, limits: &mut Limits) {
-    let part_of = parts(plan);
-    let mut was_cut: Option<Vec<bool>> = None;
+    let mut search = Search { plan, part_of: parts(plan), was_cut: None };
+    let free = limits.placement.share.clone();
     for round in 0.. {
-        let soup = soup(plan, limits, &part_of);
-        let cutting = soup.cutting(plan, limits);
-        if cutting.is_empty() {
-            return;
-        }
-        let was_cut = was_cut.get_or_insert_with(|| parts_that_cut(plan, &part_of));
         let mut shrunk = Vec::new();
-        let new = cutting.into_iter().filter(|pair| !was_cut[soup.part_of[pair[0]] as usize]);
-        for element in new.flatten().map(|place| soup.elements[place]) {
+        for element in search.new_cuts(limits) {
             blame(plan, limits, element, Reason::Intersects, round, &mut shrunk);
         }
         if shrunk.is_empty() {
-            return;
+            break;
         }
         apply(plan, limits, round, &mut shrunk);
         let changed = around(plan, &shrunk);
         shrink(plan, limits, changed);
+    }
+    give_back(&mut search, limits, &free);
+}
+
+/// Bisects the shares of all sectors that lost some, together: whatever takes part in a cut goes
+/// back to what was safe.
+fn give_back(search: &mut Search, limits: &mut Limits, free: &IdVec<Sector, f64>) {
+    let plan = search.plan;
+    let mut safe = limits.placement.share.clone();
+    let mut unsafe_from = free.clone();
+    let shrunk: Vec<Sector> = free.ids().filter(|&s| safe[s] < free[s]).collect();
+    if shrunk.is_empty() {
+        return;
+    }
+    for _ in 0..GIVE_BACK_ROUNDS {
+        for &sector in &shrunk {
+            limits.placement.set(plan, sector, (safe[sector] + unsafe_from[sector]) / 2.0);
+        }
+        loop {
+            let mut bad = search.new_cuts(limits);
+            let suspects = around(plan, &shrunk);
+            bad.extend(suspects.into_iter().filter(|&e| !is_valid(plan, &limits.placement, e)));
+            let mut back: Vec<Sector> = bad.iter().flat_map(|&e| sectors_of(plan, e)).collect();
+            back.retain(|&sector| limits.placement.share[sector] > safe[sector]);
+            if back.is_empty() {
+                break;
+            }
+            for sector in back {
+                unsafe_from[sector] = limits.placement.share[sector].min(unsafe_from[sector]);
+                limits.placement.set(plan, sector, safe[sector]);
+            }
+        }
+        for &sector in &shrunk {
+            safe[sector] = limits.placement.share[sector];
+        }
+    }
+}
+
+/// What has to be known of the source to tell new cuts from old ones.
+struct Search<'a> {
+    plan: &'a Plan<'a>,
+    /// `#triangles`.
+    part_of: Vec<u32>,
+    /// By part: whether it cuts through itself in the source. Only looked for once it matters.
+    was_cut: Option<Vec<bool>>,
+}
+
+impl Search<'_> {
+    /// All that takes part in a cut in a part that had none.
+    fn new_cuts(&mut self, limits: &Limits) -> Vec<Element> {
+        let soup = soup(self.plan, limits, &self.part_of);
+        let cuts = soup.cuts(self.plan, limits);
+        if cuts.is_empty() {
+            return Vec::new();
+        }
+        let was_cut = self.was_cut.get_or_insert_with(|| parts_that_cut(self.plan, &self.part_of));
+        let new = cuts.into_iter().filter(|pair| !was_cut[soup.part_of[pair[0]] as usize]);
+        new.flatten().map(|place| soup.elements[place]).collect()
     }
 }
 
@@ -56,7 +111,7 @@ impl Soup {
     }
 
     /// The pairs that cut each other, of which at least one is new or has moved.
-    fn cutting(&self, plan: &Plan, limits: &Limits) -> Vec<[usize; 2]> {
+    fn cuts(&self, plan: &Plan, limits: &Limits) -> Vec<[usize; 2]> {
         let has_moved = |&sector: &Sector| limits.placement.has_moved(plan, sector);
         let changed: Vec<bool> = self
             .elements
