@@ -42,6 +42,9 @@ pub(crate) fn self_intersections(
 
 /// Whether the insides of two triangles cross. Triangles without area have none.
 pub(crate) fn cut_each_other(a: &Triangle, b: &Triangle) -> bool {
+    if let Some(neighbours) = Neighbours::of(a, b) {
+        return neighbours.lie_on_each_other() && overlap_in_plane(a, b);
+    }
     let b_sides = b.map(|point| side(a, point));
     if b_sides == [0; 3] {
         return overlap_in_plane(a, b);
@@ -52,6 +55,41 @@ pub(crate) fn cut_each_other(a: &Triangle, b: &Triangle) -> bool {
     let a_sides = a.map(|point| side(b, point));
     straddle(a_sides) && overlap_on_line(*a, a_sides, *b, b_sides)
 }
+
+/// Two triangles with a side in common: most pairs that meet are such, and they have nothing else
+/// in common unless one is folded flat onto the other.
+struct Neighbours {
+    side: [[f32; 3]; 2],
+    /// The corners that are not on the common side.
+    apexes: [[f32; 3]; 2],
+}
+
+impl Neighbours {
+    fn of(a: &Triangle, b: &Triangle) -> Option<Neighbours> {
+        let other = |triangle: &Triangle, than: &Triangle| {
+            let mut lone = triangle.iter().filter(|point| !than.contains(point));
+            lone.next().copied().filter(|_| lone.next().is_none())
+        };
+        let apexes = [other(a, b)?, other(b, a)?];
+        let place = a.iter().position(|point| *point == apexes[0])?;
+        let side = [a[(place + 1) % 3], a[(place + 2) % 3]];
+        (side[0] != side[1]).then_some(Neighbours { side, apexes })
+    }
+
+    fn lie_on_each_other(&self) -> bool {
+        let [from, to] = self.side.map(|point| DVec3::from(point.map(f64::from)));
+        let [one, other] = self.apexes.map(|apex| {
+            let apex = DVec3::from(apex.map(f64::from));
+            (apex - from).cross(to - from)
+        });
+        // Apexes on two sides of the line cannot fold; rounding decides only where it is close.
+        let may_fold = one.dot(other) > -NEARLY_FLAT * one.length() * other.length();
+        may_fold && side(&[self.side[0], self.side[1], self.apexes[0]], self.apexes[1]) == 0
+    }
+}
+
+/// Far more than double precision loses in a cross product.
+const NEARLY_FLAT: f64 = 1e-9;
 
 /// 1 where a point is on the side of a triangle's plane that its normal points to, -1 on the
 /// other, 0 in the plane.

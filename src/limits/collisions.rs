@@ -112,15 +112,15 @@ impl Soup {
 
     /// The pairs that cut each other, of which at least one is new or has moved.
     fn cuts(&self, plan: &Plan, limits: &Limits) -> Vec<[usize; 2]> {
-        let has_moved = |&sector: &Sector| limits.placement.has_moved(plan, sector);
-        let changed: Vec<bool> = self
-            .elements
-            .iter()
-            .map(|&element| sectors_of(plan, element).iter().any(has_moved))
-            .collect();
-        let pairs = self_intersections(&self.points, &self.triangles, &self.part_of, |place| {
-            changed[place as usize]
-        });
+        let has_moved = |corner: Corner| {
+            let sector = plan.sectors.sector_of[corner];
+            sector.is_some() && limits.placement.has_moved(plan, sector)
+        };
+        let is_changed = |place: u32| match self.elements[place as usize] {
+            Element::Surface(triangle) => triangle.corners().into_iter().any(has_moved),
+            Element::Strip(_) | Element::Fill(_) => true,
+        };
+        let pairs = self_intersections(&self.points, &self.triangles, &self.part_of, is_changed);
         pairs.into_iter().map(|(one, other)| [one as usize, other as usize]).collect()
     }
 }
