@@ -145,6 +145,9 @@ fn facts_of_a_cube() {
         border_loops: 0,
         non_manifold_edges: 0,
         hard_edges: 12,
+        flat_triangles: 0,
+        odd_normals: 0,
+        odd_tangents: 0,
         self_intersections: None,
     };
     assert_eq!(facts(&shapes::cube(1.0)), expected);
@@ -504,7 +507,8 @@ fn a_comparison_without_provenance_finds_the_same() {
     after.indices.truncate(9);
     after.submesh_index_counts = vec![9, 0];
     let found = compare(&before.as_mesh(), &after.as_mesh(), Verify::Full);
-    assert_eq!(found.count(Rule::Origins), 1);
+    let lost = before.indices.len() / 3 - 3;
+    assert_eq!(found.count(Rule::Origins), lost);
 }
 
 #[test]

@@ -15,10 +15,6 @@ const FLAT_TOLERANCE: f64 = 1e-6;
 /// How far, relative to the extent, a pulled corner may be off the plane it was in.
 const PLANE_TOLERANCE: f64 = 1e-5;
 
-/// How far off it may be by rounding alone, relative to the largest coordinate: a few of the
-/// smallest steps of single precision.
-const ROUNDING: f64 = 4.0 * f32::EPSILON as f64;
-
 /// How much a normal may change where all around it are the same: rounding when it is made unit
 /// length again.
 const NORMAL_TOLERANCE: f64 = 1e-6;
@@ -45,11 +41,11 @@ pub(super) fn check_flatness(
     let fan_of = fans(before);
     let fans = measure(before, &fan_of);
     let extent = f64::from(before.mesh.extent());
-    let tolerance = (PLANE_TOLERANCE * extent).max(ROUNDING * largest_coordinate(before));
+    let tolerance = (PLANE_TOLERANCE * extent).max(before.rounding());
     for (triangle, source) in (0u32..).zip(&origins.triangles) {
         let Some(source) = source else { continue };
         let corners = [0, 1, 2].map(|side| {
-            (&fans[fan_of[(3 * source + side) as usize] as usize], 3 * triangle + side)
+            (&fans[fan_of[source[side as usize] as usize] as usize], 3 * triangle + side)
         });
         if corners.iter().any(|(fan, corner)| {
             fan.off_plane <= FLAT_TOLERANCE * extent
@@ -121,9 +117,4 @@ impl Fan {
         let kept = self.normal.filter(|&kept| !self.has_uneven_normals && is_unit(kept));
         kept.is_some_and(|kept| kept.normalize().distance(normal.normalize()) > NORMAL_TOLERANCE)
     }
-}
-
-fn largest_coordinate(surface: &Surface) -> f64 {
-    let largest = surface.mesh.positions.as_flattened().iter().map(|along| along.abs());
-    f64::from(largest.fold(0.0, f32::max))
 }

@@ -21,7 +21,7 @@ pub(super) fn check_triangles(
     for (triangle, &origin) in (0u32..).zip(&origins.triangles) {
         let now = normal_with_area(after.triangle(triangle));
         let reference = match origin {
-            Some(source) => normal_with_area(before.triangle(source)),
+            Some([corner, ..]) => normal_with_area(before.triangle(corner / 3)),
             None => Some([0, 1, 2].map(|side| after.normal(3 * triangle + side)).iter().sum()),
         };
         match (reference, now) {
