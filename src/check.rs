@@ -51,20 +51,44 @@ pub fn check(before: &Mesh, after: &Chamfered, depth: Verify) -> Findings {
 
 /// Checks a mesh against its source where only the two are known, as from files.
 ///
-/// The source's triangles are taken to be the first of each submesh, in their order; where that
-/// does not fit what is there, each is looked for where it was ([`Findings::matching`]). The
-/// result may have more streams than the source, and its triangles in other submeshes: other tools
-/// may have worked on it.
+/// The first triangles of each submesh are taken to be those of the source, in their order. Other
+/// tools may have changed that: if rules are broken, each triangle is also looked for where it was,
+/// and what breaks less is what counts ([`Findings::matching`]). The result may have more streams
+/// than the source, and its triangles in other submeshes.
 pub fn compare(before: &Mesh, after: &Mesh, depth: Verify) -> Findings {
     let mut findings = Findings::default();
     values::check_lost_streams(before, after, &mut findings);
-    if well_formed(before, after, &mut findings) {
-        let surfaces = [before, after].map(Surface::new);
-        state_facts(&surfaces, &mut findings);
-        let origins = Origins::inferred(&surfaces, &mut findings);
-        check_geometry(&surfaces, &origins, depth, &mut findings);
+    if !well_formed(before, after, &mut findings) {
+        return findings;
+    }
+    let surfaces = [before, after].map(Surface::new);
+    state_facts(&surfaces, &mut findings);
+    let (origins, mut findings) = likelier_origins(&surfaces, findings);
+    if depth == Verify::Full {
+        let [source, result] = &surfaces;
+        intersections::check_intersections(source, result, &origins, &mut findings);
     }
     findings
+}
+
+/// By order or by geometry, with what is found that way.
+fn likelier_origins(surfaces: &[Surface; 2], findings: Findings) -> (Origins<'static>, Findings) {
+    let found_with = |origins: Origins<'static>, matching: Matching| {
+        let mut findings = Findings { matching, ..findings.clone() };
+        origins.check_lost(&mut findings);
+        check_geometry(surfaces, &origins, Verify::Fast, &mut findings);
+        (origins, findings)
+    };
+    let in_order = Origins::in_order(surfaces).map(|origins| found_with(origins, Matching::Order));
+    match in_order {
+        Some(in_order) if in_order.1.is_sound() => in_order,
+        in_order => {
+            let by_geometry = found_with(Origins::by_geometry(surfaces), Matching::Geometry);
+            in_order
+                .filter(|in_order| in_order.1.defects() <= by_geometry.1.defects())
+                .unwrap_or(by_geometry)
+        }
+    }
 }
 
 /// Passes if [`check`] in full depth finds nothing.

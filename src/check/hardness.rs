@@ -4,7 +4,8 @@ use super::origins::Origins;
 use super::rules::{Element, Findings, Rule};
 use super::surface::{HalfEdge, Surface};
 
-/// Every hard edge is one of the source's, between the same two triangles. Where a chamfer tapers
+/// Every hard edge is one of the source's, between the same two triangles; where some of those are
+/// not found, one that is not between two that are may be theirs. Where a chamfer tapers
 /// to a point on a hard edge, both normals are left at that point, and edges of new triangles may
 /// be hard at that end.
 pub(super) fn check_hard_edges(
@@ -19,6 +20,7 @@ pub(super) fn check_hard_edges(
         let ([forward], [backward]) = edge else { continue };
         let is_old = match [forward, backward].map(|side| source_side(side, origins)) {
             [Some(one), Some(other)] => hard_before[one as usize] && hard_before[other as usize],
+            _ if findings.lost > 0 => true,
             _ => [0, 1].iter().all(|&end| {
                 let corners = [forward.corners[end], backward.corners[1 - end]];
                 after.share_normal(corners) || is_crease[after.cluster(corners[0]) as usize]

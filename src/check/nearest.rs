@@ -48,8 +48,14 @@ impl NearestTree {
     }
 
     /// Shows points that are nearer than `limit` (a squared distance) to `visit`, near ones early.
-    /// It is told their number and the limit, and returns the limit from then on.
-    pub fn visit_near(&self, to: &Point, mut limit: f64, mut visit: impl FnMut(u32, f64) -> f64) {
+    /// It is told their number, their squared distance and the limit, and returns the limit from
+    /// then on.
+    pub fn visit_near(
+        &self,
+        to: &Point,
+        mut limit: f64,
+        mut visit: impl FnMut(u32, f64, f64) -> f64,
+    ) {
         let mut visits = 0;
         let mut ranges = vec![(0, self.order.len(), 0.0)];
         while let Some((start, end, gap)) = ranges.pop() {
@@ -60,8 +66,9 @@ impl NearestTree {
             let middle = start + (end - start) / 2;
             let number = self.order[middle];
             let point = &self.points[number as usize];
-            if squared_distance(to, point) < limit {
-                limit = visit(number, limit);
+            let distance = squared_distance(to, point);
+            if distance < limit {
+                limit = visit(number, distance, limit);
             }
             let axis = usize::from(self.axis[middle]);
             let past = f64::from(to[axis]) - f64::from(point[axis]);
@@ -86,7 +93,7 @@ fn widest_axis(points: &[Point], order: &[u32]) -> usize {
     (0..9).max_by(|a, b| width(a).total_cmp(&width(b))).unwrap_or(0)
 }
 
-pub(super) fn squared_distance(one: &Point, other: &Point) -> f64 {
+fn squared_distance(one: &Point, other: &Point) -> f64 {
     one.iter().zip(other).map(|(a, b)| (f64::from(*a) - f64::from(*b)).powi(2)).sum()
 }
 
@@ -111,10 +118,10 @@ mod tests {
         may_take: impl Fn(u32) -> bool,
     ) -> Option<u32> {
         let mut best = None;
-        tree.visit_near(to, limit, |number, limit| {
+        tree.visit_near(to, limit, |number, distance, limit| {
             if may_take(number) {
                 best = Some(number);
-                return squared_distance(to, &tree.points[number as usize]);
+                return distance;
             }
             limit
         });

@@ -1,9 +1,8 @@
 //! Which source triangle and which source vertices an element comes from.
 
-use super::matching::{Matched, match_triangles};
-use super::rules::{Element, Findings, Matching, Rule};
+use super::matching::match_triangles;
+use super::rules::{Element, Facts, Findings, Rule};
 use super::surface::Surface;
-use super::triangles::normal_with_area;
 use crate::mesh::Mesh;
 use crate::report::{Blend, Chamfered, TriangleKind, TriangleSource, VertexSource};
 
@@ -45,17 +44,44 @@ impl<'a> Origins<'a> {
         })
     }
 
-    /// By the order of the triangles, or by where they are; a breach for each that is lost.
-    pub fn inferred([before, after]: &[Surface; 2], findings: &mut Findings) -> Self {
-        let Matched { triangles, lost, order_kept } = match_triangles(before, after);
-        findings.matching = if order_kept { Matching::Order } else { Matching::Geometry };
+    /// By the order of the triangles: those of the source stand first in each submesh. None where
+    /// there are too few.
+    pub fn in_order([before, after]: &[Surface; 2]) -> Option<Self> {
+        let mut triangles = Vec::with_capacity(after.triangle_count() as usize);
+        let mut first = 0;
+        for (submesh, &indices) in after.mesh.submesh_index_counts.iter().enumerate() {
+            let before = before.mesh.submesh_index_counts.get(submesh).map_or(0, |count| count / 3);
+            let added = (indices / 3).checked_sub(before)?;
+            triangles.extend((3 * first..3 * (first + before)).step_by(3).map(Some));
+            triangles.extend(std::iter::repeat_n(None, added as usize));
+            first += before;
+        }
+        let corners = |first: u32| [0, 1, 2].map(|side| first + side);
+        (first == before.triangle_count()).then(|| Origins {
+            triangles: triangles.into_iter().map(|first| first.map(corners)).collect(),
+            vertices: None,
+        })
+    }
+
+    /// By where the triangles are.
+    pub fn by_geometry([before, after]: &[Surface; 2]) -> Self {
+        Origins { triangles: match_triangles(before, after), vertices: None }
+    }
+
+    /// Notes the triangles of the source that are not found. That is a breach only where there are
+    /// fewer triangles than before: otherwise their parts may be there.
+    pub fn check_lost(&self, findings: &mut Findings) {
         // What has no area may be thrown away: many tools do.
-        for triangle in lost {
-            if normal_with_area(before.triangle(triangle)).is_some() {
-                findings.note(Rule::Origins, Element::SourceTriangle(triangle));
+        let with_area = |facts: Facts| facts.triangles - facts.flat_triangles;
+        if with_area(findings.after) < with_area(findings.before) {
+            findings.note(Rule::Origins, Element::Mesh);
+        }
+        findings.lost = findings.before.triangles - self.triangles.iter().flatten().count();
+        if findings.lost > 0 {
+            for rule in [Rule::Flipped, Rule::FlatFace, Rule::FlatNormal, Rule::HardEdges] {
+                findings.leave_out(rule, "not every triangle of the source is where it was");
             }
         }
-        Origins { triangles, vertices: None }
     }
 
     /// `#vertices`: whether everything that each was made from satisfies a condition on source

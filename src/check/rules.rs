@@ -19,8 +19,8 @@ pub enum Rule {
     /// Every value is finite.
     Finite,
     /// With provenance: no source vertex is missing, every source triangle is there once, in its
-    /// submesh and in its order, and the provenance points into the source. Without: every source
-    /// triangle with area is found.
+    /// submesh and in its order, and the provenance points into the source. Without: there are as
+    /// many triangles as in the source, those without area aside.
     Origins,
     /// New triangles name verdicts and source vertices that exist, a verdict has strip triangles
     /// where it tells of a chamfer and none elsewhere, every hard edge has a verdict, and the
@@ -100,8 +100,6 @@ pub enum Element {
     Edge(u32, u32),
     /// Two triangles.
     Triangles(u32, u32),
-    /// A triangle of the source.
-    SourceTriangle(u32),
     /// A hard edge of the source, by its vertices.
     SourceEdge(u32, u32),
 }
@@ -115,7 +113,6 @@ impl fmt::Display for Element {
             Element::Triangle(triangle) => write!(f, "triangle {triangle}"),
             Element::Edge(a, b) => write!(f, "edge {a}-{b}"),
             Element::Triangles(a, b) => write!(f, "triangles {a} and {b}"),
-            Element::SourceTriangle(triangle) => write!(f, "source triangle {triangle}"),
             Element::SourceEdge(a, b) => write!(f, "source edge {a}-{b}"),
         }
     }
@@ -194,6 +191,8 @@ pub struct Findings {
     pub unchecked: Vec<Unchecked>,
     /// How source and result were brought together.
     pub matching: Matching,
+    /// Triangles of the source that were not found.
+    pub lost: usize,
     /// The hard edges of the source with two sides whose triangles were found, measured.
     pub edges: Vec<MeasuredEdge>,
 }
@@ -202,6 +201,11 @@ impl Findings {
     /// Whether no rule is broken.
     pub fn is_sound(&self) -> bool {
         self.breaches.is_empty()
+    }
+
+    /// How much is wrong or not known, to tell two explanations of one mesh apart.
+    pub(super) fn defects(&self) -> usize {
+        self.lost + self.breaches.iter().map(|breach| breach.count).sum::<usize>()
     }
 
     /// How many elements break a rule.

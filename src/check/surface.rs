@@ -62,6 +62,10 @@ impl<'a> Surface<'a> {
             .map(|edge| edge.split_at(edge.partition_point(|half_edge| !half_edge.reversed)))
     }
 
+    pub fn triangle_count(&self) -> u32 {
+        self.mesh.indices.len() as u32 / 3
+    }
+
     /// The position of a corner.
     pub fn position(&self, corner: u32) -> DVec3 {
         vector(&self.mesh.positions[self.mesh.indices[corner as usize] as usize])
@@ -119,7 +123,7 @@ impl<'a> Surface<'a> {
 
     pub fn facts(&self) -> Facts {
         let is_first = |(place, &label): (usize, &u32)| place as u32 == label;
-        let triangles = 0..self.mesh.indices.len() as u32 / 3;
+        let triangles = 0..self.triangle_count();
         let has_no_area = |&t: &u32| normal_with_area(self.triangle(t)).is_none();
         let [odd_normals, odd_tangents] = count_odd(self.mesh);
         Facts {
