@@ -24,27 +24,27 @@ impl NearestTree {
             axis: vec![0; points.len()],
             points,
         };
-        let mut ranges = vec![0..tree.order.len()];
-        while let Some(range) = ranges.pop() {
-            if range.len() > 1 {
-                let middle = tree.halve(range.clone());
-                ranges.extend([range.start..middle, middle + 1..range.end]);
+        let mut ranges = vec![(0, tree.order.len())];
+        while let Some((start, end)) = ranges.pop() {
+            if end - start > 1 {
+                let middle = tree.halve(start, end);
+                ranges.extend([(start, middle), (middle + 1, end)]);
             }
         }
         tree
     }
 
-    fn halve(&mut self, range: std::ops::Range<usize>) -> usize {
+    fn halve(&mut self, start: usize, end: usize) -> usize {
         let NearestTree { points, order, axis } = self;
-        let middle = range.len() / 2;
-        let order = &mut order[range.clone()];
+        let middle = (end - start) / 2;
+        let order = &mut order[start..end];
         let widest = widest_axis(points, order);
         order.select_nth_unstable_by(middle, |&a, &b| {
             let along = |number: u32| points[number as usize][widest];
             along(a).total_cmp(&along(b)).then(a.cmp(&b))
         });
-        axis[range.start + middle] = widest as u8;
-        range.start + middle
+        axis[start + middle] = widest as u8;
+        start + middle
     }
 
     /// Shows points that are nearer than `limit` (a squared distance) to `visit`, near ones early.
