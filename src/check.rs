@@ -5,12 +5,17 @@
 //! input is not held against the output.
 
 mod flatness;
+mod hardness;
 mod intersections;
+mod matching;
+mod nearest;
 mod origins;
 mod rules;
 mod surface;
 mod triangles;
 mod values;
+mod verdicts;
+mod widths;
 
 use crate::mesh::Mesh;
 use crate::options::Verify;
@@ -18,35 +23,71 @@ use crate::report::Chamfered;
 
 use origins::Origins;
 use surface::Surface;
+use widths::Ruler;
 
-pub use rules::{Breach, Element, Facts, Findings, Rule};
+pub use rules::{Breach, Element, Facts, Findings, Matching, Rule, Unchecked};
+pub use widths::MeasuredEdge;
 
-/// Checks a chamfered mesh against its source, with its provenance.
+/// Checks a chamfered mesh against its source, with its provenance and verdicts.
 ///
 /// [`Verify::Full`] also looks for self-intersections, which takes most of the time.
 pub fn check(before: &Mesh, after: &Chamfered, depth: Verify) -> Findings {
     let mut findings = Findings::default();
     let mesh = after.mesh.as_mesh();
-    if well_formed(before, &mesh, &mut findings) {
-        match Origins::told(before, after, &mut findings) {
-            Some(origins) => compare_with(before, &mesh, &origins, depth, &mut findings),
-            None => state_facts(before, &mesh, &mut findings),
-        }
+    values::check_same_streams(before, &mesh, &mut findings);
+    if !well_formed(before, &mesh, &mut findings) {
+        return findings;
+    }
+    let surfaces = [before, &mesh].map(Surface::new);
+    state_facts(&surfaces, &mut findings);
+    verdicts::check_counts(before, after, &mut findings);
+    if let Some(origins) = Origins::told(before, after, &mut findings) {
+        check_geometry(&surfaces, &origins, depth, &mut findings);
+        verdicts::check_verdicts(&Ruler::new(&surfaces, &origins), after, &mut findings);
     }
     findings
 }
 
-/// Checks a mesh against its source where only the two are known, as from files: the first
-/// triangles of each submesh are taken to be those of the source, in their order.
+/// Checks a mesh against its source where only the two are known, as from files.
+///
+/// The first triangles of each submesh are taken to be those of the source, in their order. Other
+/// tools may have changed that: if rules are broken, each triangle is also looked for where it was,
+/// and what breaks less is what counts ([`Findings::matching`]). The result may have more streams
+/// than the source, and its triangles in other submeshes.
 pub fn compare(before: &Mesh, after: &Mesh, depth: Verify) -> Findings {
     let mut findings = Findings::default();
-    if well_formed(before, after, &mut findings) {
-        match Origins::inferred(before, after, &mut findings) {
-            Some(origins) => compare_with(before, after, &origins, depth, &mut findings),
-            None => state_facts(before, after, &mut findings),
-        }
+    values::check_lost_streams(before, after, &mut findings);
+    if !well_formed(before, after, &mut findings) {
+        return findings;
+    }
+    let surfaces = [before, after].map(Surface::new);
+    state_facts(&surfaces, &mut findings);
+    let (origins, mut findings) = likelier_origins(&surfaces, findings);
+    if depth == Verify::Full {
+        let [source, result] = &surfaces;
+        intersections::check_intersections(source, result, &origins, &mut findings);
     }
     findings
+}
+
+/// By order or by geometry, with what is found that way.
+fn likelier_origins(surfaces: &[Surface; 2], findings: Findings) -> (Origins<'static>, Findings) {
+    let found_with = |origins: Origins<'static>, matching: Matching| {
+        let mut findings = Findings { matching, ..findings.clone() };
+        origins.check_lost(&mut findings);
+        check_geometry(surfaces, &origins, Verify::Fast, &mut findings);
+        (origins, findings)
+    };
+    let in_order = Origins::in_order(surfaces).map(|origins| found_with(origins, Matching::Order));
+    match in_order {
+        Some(in_order) if in_order.1.is_sound() => in_order,
+        in_order => {
+            let by_geometry = found_with(Origins::by_geometry(surfaces), Matching::Geometry);
+            in_order
+                .filter(|in_order| in_order.1.defects() <= by_geometry.1.defects())
+                .unwrap_or(by_geometry)
+        }
+    }
 }
 
 /// Passes if [`check`] in full depth finds nothing.
@@ -61,36 +102,40 @@ pub fn assert_sound(name: &str, before: &Mesh, after: &Chamfered) {
 /// Whether both meshes can be walked at all: nothing else is checked otherwise.
 fn well_formed(before: &Mesh, after: &Mesh, findings: &mut Findings) -> bool {
     if !values::is_well_formed(before) {
+        findings.breaches.clear();
         findings.note(Rule::Source, Element::Mesh);
         return false;
     }
-    values::check_form(before, after, findings);
-    values::check_finite(after, findings);
-    findings.is_sound()
+    if !values::is_well_formed(after) {
+        values::check_form(after, findings);
+        values::check_finite(after, findings);
+        return false;
+    }
+    true
 }
 
-fn state_facts(before: &Mesh, after: &Mesh, findings: &mut Findings) {
-    findings.before = Surface::new(before).facts();
-    findings.after = Surface::new(after).facts();
+fn state_facts([before, after]: &[Surface; 2], findings: &mut Findings) {
+    findings.before = before.facts();
+    findings.after = after.facts();
 }
 
-fn compare_with(
-    before: &Mesh,
-    after: &Mesh,
+fn check_geometry(
+    surfaces: &[Surface; 2],
     origins: &Origins,
     depth: Verify,
     findings: &mut Findings,
 ) {
-    let [source, result] = [before, after].map(Surface::new);
-    findings.before = source.facts();
-    findings.after = result.facts();
+    let [source, result] = surfaces;
+    let (before, after) = (source.mesh, result.mesh);
     values::check_normals(before, after, origins, findings);
     values::check_tangents(before, after, origins, findings);
     values::check_colors(before, after, findings);
-    surface::check_edges(&source, &result, findings);
-    triangles::check_triangles(&source, &result, origins, findings);
-    flatness::check_flatness(&source, &result, origins, findings);
+    surface::check_edges(source, result, findings);
+    triangles::check_triangles(source, result, origins, findings);
+    flatness::check_flatness(source, result, origins, findings);
+    hardness::check_hard_edges(source, result, origins, findings);
     if depth == Verify::Full {
-        intersections::check_intersections(&source, &result, origins, findings);
+        intersections::check_intersections(source, result, origins, findings);
     }
+    findings.edges = Ruler::new(surfaces, origins).measure_all();
 }

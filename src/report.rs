@@ -120,6 +120,17 @@ pub enum Reason {
     TooFine = 8,
 }
 
+impl Outcome {
+    /// A short name in lower case, for reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Outcome::Full => "full",
+            Outcome::Narrowed => "narrowed",
+            Outcome::Skipped => "skipped",
+        }
+    }
+}
+
 impl Reason {
     /// Every reason, in the order of their numbers.
     pub const ALL: [Reason; 9] = [

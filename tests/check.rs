@@ -145,6 +145,9 @@ fn facts_of_a_cube() {
         border_loops: 0,
         non_manifold_edges: 0,
         hard_edges: 12,
+        flat_triangles: 0,
+        odd_normals: 0,
+        odd_tangents: 0,
         self_intersections: None,
     };
     assert_eq!(facts(&shapes::cube(1.0)), expected);

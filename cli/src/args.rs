@@ -30,6 +30,7 @@ Examples:
   chamfer chair.glb -o soft/chair.glb --width 0.005 --preview chair.png
   chamfer models -o chamfered --width-percent 0.5 --report report.json
   chamfer bolt.stl -o bolt.glb --smoothing-angle 40
+  chamfer check chair.glb chair.chamfered.glb
   chamfer demo";
 
 /// More than any machine has, and few enough to start.
@@ -52,7 +53,7 @@ pub struct Args {
     #[command(subcommand)]
     pub command: Option<Command>,
 
-    /// Models, or folders to search for models [a model named "demo": ./demo]
+    /// Models, or folders to search for models [a model named "check" or "demo": ./demo]
     #[arg(value_name = "INPUT", required = true)]
     pub inputs: Vec<PathBuf>,
 
@@ -78,9 +79,18 @@ pub struct Args {
     #[arg(long, value_name = "FILE.json")]
     pub report: Option<PathBuf>,
 
+    /// List every hard edge in the report, and what became of it
+    #[arg(long, requires = "report")]
+    pub report_edges: bool,
+
     /// Draw before and after to this file; several models make a contact sheet
     #[arg(long, value_name = "FILE.png")]
     pub preview: Option<PathBuf>,
+
+    /// Draw the hard edges over the picture: green where chamfered at full width, amber where
+    /// narrowed, red where left as they were
+    #[arg(long, requires = "preview")]
+    pub preview_verdicts: bool,
 
     /// How many threads work [default: one a core]; results do not depend on it
     #[arg(long, value_name = "N", default_value = "0", hide_default_value = true)]
@@ -103,6 +113,61 @@ pub struct Args {
 pub enum Command {
     /// Chamfer a few built-in models: writes each before and after as .glb, and a picture
     Demo(DemoArgs),
+    /// Check a chamfered model against its source: exits with 0 if it is sound, with 1 if not
+    Check(CheckArgs),
+}
+
+const CHECK_RULES: &str = "\
+Meshes are paired by name where names are unique, the others in their order. A result is sound if \
+nothing opened, flipped, lost its area, bent or cuts through itself that did not in the source, if \
+normals and tangents are unit length, and if there is no new hard edge. Hard edges that are left \
+are counted; with a width, one that a chamfer of that width would not leave is a defect too.
+
+Exit code: 0 sound, 1 not sound, 2 a file cannot be read or the arguments make no sense.";
+
+/// Arguments of `chamfer check`.
+#[derive(Debug, clap::Args)]
+#[command(after_help = CHECK_RULES)]
+pub struct CheckArgs {
+    /// The model before
+    pub before: PathBuf,
+
+    /// The model after, in any format
+    pub after: PathBuf,
+
+    /// Write all that was found to this file
+    #[arg(long, value_name = "FILE.json")]
+    pub report: Option<PathBuf>,
+
+    /// The width that was asked for, in mesh units
+    #[arg(long, value_name = "W", value_parser = width, allow_negative_numbers = true)]
+    #[arg(conflicts_with = "width_percent")]
+    pub width: Option<f32>,
+
+    /// The same in percent of each mesh's largest side
+    #[arg(long, value_name = "P", value_parser = width, allow_negative_numbers = true)]
+    pub width_percent: Option<f32>,
+
+    /// How thoroughly to check; "full" also looks for self-intersections
+    #[arg(long, value_enum, default_value = "full")]
+    pub verify: VerifyArg,
+
+    /// For models without normals: faces that meet at up to this angle shade as one surface
+    #[arg(long, value_name = "DEG", value_parser = angle, allow_negative_numbers = true)]
+    #[arg(default_value = "30")]
+    pub smoothing_angle: f32,
+}
+
+impl CheckArgs {
+    /// The width that was asked for, if that is known.
+    pub fn width(&self) -> Option<Width> {
+        self.width.map(Width::Units).or(self.width_percent.map(Width::PercentOfExtent))
+    }
+
+    /// What to ask of the readers.
+    pub fn read_options(&self) -> ReadOptions {
+        ReadOptions { smoothing_angle: self.smoothing_angle }
+    }
 }
 
 /// Arguments of `chamfer demo`.
@@ -122,15 +187,21 @@ pub enum VerifyArg {
     Fast,
 }
 
+impl From<VerifyArg> for Verify {
+    fn from(verify: VerifyArg) -> Verify {
+        match verify {
+            VerifyArg::Full => Verify::Full,
+            VerifyArg::Fast => Verify::Fast,
+        }
+    }
+}
+
 impl Args {
     /// What to ask of the core, with this many threads for one mesh.
     pub fn options(&self, threads: u32) -> Options {
         Options {
             width: self.width.map_or(Width::PercentOfExtent(self.width_percent), Width::Units),
-            verify: match self.verify {
-                VerifyArg::Full => Verify::Full,
-                VerifyArg::Fast => Verify::Fast,
-            },
+            verify: self.verify.into(),
             chamfer_submesh: self.chamfer_submesh,
             threads,
         }
@@ -219,6 +290,26 @@ mod tests {
         let args = parse("chamfer ./demo").unwrap();
         assert!(args.command.is_none());
         assert_eq!(args.inputs, [PathBuf::from("./demo")]);
+    }
+
+    #[test]
+    fn check_takes_two_models_and_perhaps_a_width() {
+        let check = |line| match parse(line).unwrap().command {
+            Some(Command::Check(args)) => args,
+            _ => panic!("{line}"),
+        };
+        assert_eq!(check("chamfer check a.glb b.glb").width(), None);
+        let width = check("chamfer check a.glb b.glb --width-percent 2").width();
+        assert_eq!(width, Some(Width::PercentOfExtent(2.0)));
+        assert!(parse("chamfer check a.glb").is_err());
+        assert!(parse("chamfer check a.glb b.glb --width 1 --width-percent 2").is_err());
+    }
+
+    #[test]
+    fn edges_need_a_report_and_verdicts_a_picture() {
+        assert!(parse("chamfer a.glb --report-edges").is_err());
+        assert!(parse("chamfer a.glb --preview-verdicts").is_err());
+        assert!(parse("chamfer a.glb --report r.json --report-edges").unwrap().report_edges);
     }
 
     #[test]

@@ -20,7 +20,7 @@ use crate::report::{FileReport, Report};
 use crate::write;
 
 /// The exit code where the arguments make no sense; that of the argument parser.
-const USAGE: u8 = 2;
+pub const USAGE: u8 = 2;
 /// Parts of a file that the progress bar tells apart.
 const STEPS: u64 = 1000;
 
@@ -57,6 +57,7 @@ fn chamfer_all(args: &Args, jobs: &[Job]) -> Outcome {
     let settings = Settings {
         read: args.read_options(),
         core: args.options((threads / workers) as u32),
+        report_edges: args.report_edges,
         taken: Taken::new(jobs),
     };
     let bar = progress_bar(jobs.len());
@@ -150,12 +151,13 @@ fn write_extras(args: &Args, outcome: Outcome) -> Result<()> {
         let json = Report::new(files).to_json()?;
         write::alone(path, json)
     });
-    let preview = args.preview.as_deref().map(|path| draw(path, &portraits, left_out));
+    let draw = |path| draw(path, &portraits, left_out, args.preview_verdicts);
+    let preview = args.preview.as_deref().map(draw);
     // One that fails is no reason to leave out the other.
     report.unwrap_or(Ok(())).and(preview.unwrap_or(Ok(())))
 }
 
-fn draw(path: &Path, portraits: &[Portrait], left_out: usize) -> Result<()> {
+fn draw(path: &Path, portraits: &[Portrait], left_out: usize, verdicts: bool) -> Result<()> {
     if portraits.is_empty() {
         warn(format_args!("{}: note: not drawn, there is no model to show", path.display()));
         return Ok(());
@@ -164,7 +166,7 @@ fn draw(path: &Path, portraits: &[Portrait], left_out: usize) -> Result<()> {
         let path = path.display();
         warn(format_args!("{path}: note: {left_out} models left out after the first {MOST_ROWS}"));
     }
-    pictures::draw(path, portraits)
+    pictures::draw(path, portraits, verdicts)
 }
 
 /// Drawn on a terminal only.
@@ -181,6 +183,6 @@ fn name_of(path: &Path) -> String {
     path.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }
 
-fn one_line(error: &Error) -> String {
+pub fn one_line(error: &Error) -> String {
     format!("{error:#}").replace(['\n', '\r'], " ")
 }

@@ -39,10 +39,22 @@ pub struct ReadOptions {
     pub smoothing_angle: f32,
 }
 
+/// What reading did to the normals of a mesh.
+#[derive(Clone, Debug, Default)]
+pub struct NormalsRead {
+    /// Whether some are not in the file, but made by the smoothing angle.
+    pub computed: bool,
+    /// Those in the file that are plainly not unit length, by vertex. The mesh has others there.
+    pub repaired: Vec<(u32, [f32; 3])>,
+}
+
 /// A model file that was read.
 pub trait Document {
     /// The meshes to chamfer.
     fn meshes(&self) -> &[SourceMesh];
+
+    /// What became of the normals of each mesh (`#meshes`).
+    fn normals(&self) -> &[NormalsRead];
 
     /// Where the meshes stand in the scene.
     fn instances(&self) -> Vec<Instance>;

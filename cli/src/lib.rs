@@ -10,6 +10,7 @@ pub mod stl_file;
 
 mod args;
 mod batch;
+mod check;
 mod console;
 mod demo;
 pub mod format;
@@ -17,6 +18,7 @@ mod pictures;
 mod plan;
 mod process;
 mod report;
+mod verdict_lines;
 mod write;
 
 use std::process::ExitCode;
@@ -26,12 +28,14 @@ use clap::Parser;
 use args::{Args, Command};
 
 /// Runs the command that the process was started with. The exit code is 0 when all went well, 1
-/// when a file failed, 2 when the arguments make no sense and 130 after an interrupt.
+/// when a file failed or a check found something, 2 when the arguments make no sense (or a file to
+/// check cannot be read) and 130 after an interrupt.
 pub fn run() -> ExitCode {
     let args = Args::parse();
     write::clean_up_on_interrupt();
     match &args.command {
         Some(Command::Demo(demo)) => demo::run(demo),
+        Some(Command::Check(args)) => check::run(args),
         None => batch::run(&args),
     }
 }

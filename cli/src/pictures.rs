@@ -4,11 +4,12 @@ use std::io::Cursor;
 use std::path::Path;
 
 use anyhow::{Context, Result};
-use chamfer::Chamfered;
+use chamfer::{Chamfered, MeshBuffers};
 use image::{ImageFormat, RgbImage};
 
 use crate::document::Document;
-use crate::preview::{Panel, Placed, before_after, contact_sheet};
+use crate::preview::{Line, Panel, Placed, before_after, contact_sheet};
+use crate::verdict_lines::{self, Legend};
 use crate::write;
 
 /// How many models a contact sheet shows: more make a picture that viewers refuse to open, and
@@ -26,7 +27,7 @@ pub struct Portrait {
 }
 
 impl Portrait {
-    fn panel(&self) -> Panel<'_> {
+    fn panel(&self, verdicts: bool) -> Panel<'_> {
         let mut panel = Panel { caption: self.caption.clone(), ..Panel::default() };
         for instance in self.document.instances() {
             let transform = instance.transform;
@@ -37,16 +38,36 @@ impl Portrait {
                 panel.after.push(Placed { mesh: after.mesh.as_mesh(), transform });
             }
         }
+        if verdicts {
+            self.add_verdicts(&mut panel);
+        }
         panel
+    }
+
+    fn add_verdicts(&self, panel: &mut Panel) {
+        for instance in self.document.instances() {
+            let before = self.document.meshes().get(instance.mesh);
+            if let (Some(before), Some(after)) = (before, self.chamfered.get(instance.mesh)) {
+                let of = |lines: Lines| lines(&before.mesh, after, instance.transform);
+                panel.before_lines.extend(of(verdict_lines::before));
+                panel.after_lines.extend(of(verdict_lines::after));
+            }
+        }
+        let mut legend = Legend::default();
+        self.chamfered.iter().for_each(|result| legend.add(result));
+        panel.caption = format!("{}: {}", self.caption, legend.text());
     }
 }
 
-/// Draws the models to a file: one alone, several as a contact sheet.
+type Lines = fn(&MeshBuffers, &Chamfered, [[f32; 4]; 4]) -> Vec<Line>;
+
+/// Draws the models to a file: one alone, several as a contact sheet. With `verdicts`, the hard
+/// edges are drawn over them.
 ///
 /// # Errors
 /// Where the file cannot be written.
-pub fn draw(path: &Path, portraits: &[Portrait]) -> Result<()> {
-    let panels: Vec<Panel> = portraits.iter().map(Portrait::panel).collect();
+pub fn draw(path: &Path, portraits: &[Portrait], verdicts: bool) -> Result<()> {
+    let panels: Vec<Panel> = portraits.iter().map(|model| model.panel(verdicts)).collect();
     let picture = match &panels[..] {
         [panel] => before_after(panel),
         panels => contact_sheet(panels),

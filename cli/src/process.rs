@@ -22,6 +22,8 @@ pub struct Settings {
     pub read: ReadOptions,
     /// For the core.
     pub core: Options,
+    /// Whether the report lists every hard edge.
+    pub report_edges: bool,
     /// Files that must not be written, and those that were.
     pub taken: Taken,
 }
@@ -48,7 +50,7 @@ pub fn process(job: &Job, settings: &Settings, progress: &dyn Fn(f32)) -> Result
     if document.meshes().iter().all(|mesh| mesh.mesh.indices.is_empty()) {
         notes.push("there are no triangles in it: nothing was chamfered".into());
     }
-    let (chamfered, reports) = chamfer_all(document.meshes(), &settings.core, progress)?;
+    let (chamfered, reports) = chamfer_all(document.meshes(), settings, progress)?;
     let files = document.encode(&job.output, &chamfered)?;
     settings.taken.claim(job, &files)?;
     write::together(&files)?;
@@ -57,7 +59,7 @@ pub fn process(job: &Job, settings: &Settings, progress: &dyn Fn(f32)) -> Result
 
 fn chamfer_all(
     meshes: &[SourceMesh],
-    options: &Options,
+    settings: &Settings,
     progress: &dyn Fn(f32),
 ) -> Result<(Vec<Chamfered>, Vec<MeshReport>)> {
     let total: usize = meshes.iter().map(|mesh| mesh.mesh.indices.len()).sum();
@@ -69,9 +71,13 @@ fn chamfer_all(
             ControlFlow::Continue(())
         };
         let start = Instant::now();
-        let result = chamfer_with_progress(&mesh.as_mesh(), options, &mut tell)
+        let result = chamfer_with_progress(&mesh.as_mesh(), &settings.core, &mut tell)
             .with_context(|| format!("mesh {name}"))?;
-        results.1.push(MeshReport::new(name, mesh, &result, start.elapsed()));
+        let report = MeshReport::new(name, mesh, &result, start.elapsed());
+        results.1.push(match settings.report_edges {
+            true => report.with_edges(mesh, &result),
+            false => report,
+        });
         results.0.push(result);
         done += mesh.indices.len();
     }

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::time::Duration;
 
 use anyhow::Result;
-use chamfer::{Chamfered, MeshBuffers, Reason};
+use chamfer::{Chamfered, EdgeVerdict, MeshBuffers, Reason};
 use serde::{Serialize, Serializer};
 
 /// The whole report.
@@ -48,9 +48,27 @@ pub struct MeshReport {
     pub width: f32,
     /// Time in the core.
     pub milliseconds: f64,
+    /// Its hard edges with two sides, where they were asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub edges: Option<Vec<EdgeReport>>,
     /// Length of all hard edges together: the weight of `mean_width` in sums.
     #[serde(skip)]
     pub hard_length: f64,
+}
+
+/// What became of one hard edge.
+#[derive(Debug, PartialEq, Serialize)]
+pub struct EdgeReport {
+    /// The source vertices at its ends.
+    pub vertices: [u32; 2],
+    /// Their positions, in mesh units.
+    pub positions: [[f32; 3]; 2],
+    /// "full", "narrowed" or "skipped".
+    pub outcome: &'static str,
+    /// Why it is not at full width, or "none".
+    pub reason: &'static str,
+    /// At each end, the distance from the old edge to the pulled ones, in mesh units.
+    pub widths: [f32; 2],
 }
 
 /// What can be counted in a mesh, a file or a whole run.
@@ -175,8 +193,21 @@ impl MeshReport {
             mean_width: totals.mean_width,
             width: result.width,
             milliseconds: round(time.as_secs_f64() * 1000.0),
+            edges: None,
             hard_length: hard_length(source, result),
         }
+    }
+
+    /// The same with all hard edges.
+    pub fn with_edges(self, source: &MeshBuffers, result: &Chamfered) -> MeshReport {
+        let edge = |verdict: &EdgeVerdict| EdgeReport {
+            vertices: verdict.vertices,
+            positions: verdict.vertices.map(|vertex| position(source, vertex)),
+            outcome: verdict.outcome.name(),
+            reason: verdict.reason.name(),
+            widths: verdict.widths,
+        };
+        MeshReport { edges: Some(result.verdicts.iter().map(edge).collect()), ..self }
     }
 }
 
@@ -220,12 +251,15 @@ fn mean_width<'a>(meshes: impl Iterator<Item = &'a MeshReport>) -> f32 {
 }
 
 fn hard_length(source: &MeshBuffers, result: &Chamfered) -> f64 {
-    let position = |vertex: u32| source.positions.get(vertex as usize).copied().unwrap_or_default();
-    let length = |[a, b]: [u32; 2]| {
-        let (a, b) = (position(a), position(b));
+    let length = |ends: [u32; 2]| {
+        let [a, b] = ends.map(|vertex| position(source, vertex));
         (0..3).map(|axis| f64::from(b[axis] - a[axis]).powi(2)).sum::<f64>().sqrt()
     };
     result.verdicts.iter().map(|verdict| length(verdict.vertices)).sum()
+}
+
+fn position(source: &MeshBuffers, vertex: u32) -> [f32; 3] {
+    source.positions.get(vertex as usize).copied().unwrap_or_default()
 }
 
 /// To whole microseconds: more digits of a time say nothing.
@@ -246,6 +280,7 @@ mod tests {
             mean_width,
             width: 0.5,
             milliseconds: 1.5,
+            edges: None,
             hard_length,
         }
     }

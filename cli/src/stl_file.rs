@@ -10,7 +10,9 @@ use std::path::Path;
 use anyhow::{Context, Result, bail};
 use chamfer::{Chamfered, MeshBuffers, split_by_angle};
 
-use crate::document::{Document, IDENTITY, Instance, OutputFile, ReadOptions, SourceMesh};
+use crate::document::{
+    Document, IDENTITY, Instance, NormalsRead, OutputFile, ReadOptions, SourceMesh,
+};
 use crate::format::Format;
 use crate::glb;
 
@@ -25,6 +27,7 @@ type Triangle = [[f32; 3]; 3];
 /// An STL file: one mesh of one submesh.
 pub struct StlDocument {
     mesh: SourceMesh,
+    normals: NormalsRead,
 }
 
 /// Reads an ASCII or binary STL. Corners at one position become one vertex, split again where
@@ -36,12 +39,17 @@ pub fn read(path: &Path, options: &ReadOptions) -> Result<StlDocument> {
     let triangles = parse(&fs::read(path)?)?;
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let mesh = build(&triangles, options.smoothing_angle)?;
-    Ok(StlDocument { mesh: SourceMesh { name: stem.into_owned(), mesh } })
+    let normals = NormalsRead { computed: true, ..NormalsRead::default() };
+    Ok(StlDocument { mesh: SourceMesh { name: stem.into_owned(), mesh }, normals })
 }
 
 impl Document for StlDocument {
     fn meshes(&self) -> &[SourceMesh] {
         std::slice::from_ref(&self.mesh)
+    }
+
+    fn normals(&self) -> &[NormalsRead] {
+        std::slice::from_ref(&self.normals)
     }
 
     fn instances(&self) -> Vec<Instance> {

@@ -242,6 +242,41 @@ fn the_report_has_the_figures_of_each_mesh() {
 }
 
 #[test]
+fn the_report_lists_every_hard_edge_where_asked() {
+    let folder = Folder::with(&[("cube.obj", CUBE_OBJ)]);
+    folder.run("cube.obj -o out.obj --report r.json --report-edges --width 0.1").exits(0);
+    let report = folder.json("r.json");
+    let edges = report["files"][0]["meshes"][0]["edges"].as_array().unwrap();
+    assert_eq!(edges.len(), 12);
+    for edge in edges {
+        assert_eq!((&edge["outcome"], &edge["reason"]), (&"full".into(), &"none".into()));
+        let [a, b] = [0, 1].map(|end| edge["positions"][end].as_array().unwrap());
+        let along = a.iter().zip(b).filter(|(a, b)| a != b).count();
+        assert_eq!((along, edge["vertices"].as_array().unwrap().len()), (1, 2));
+        let is_asked = |width: &Value| (width.as_f64().unwrap() - 0.1).abs() < 1e-6;
+        assert!(edge["widths"].as_array().unwrap().iter().all(is_asked), "{edge}");
+    }
+    folder.run("cube.obj -o out.obj --report r.json").exits(0);
+    assert!(folder.json("r.json")["files"][0]["meshes"][0].get("edges").is_none());
+}
+
+#[test]
+fn a_picture_shows_the_verdicts_where_asked() {
+    let folder = Folder::with(&[("cube.obj", CUBE_OBJ)]);
+    folder.run("cube.obj -o x.obj --preview plain.png").exits(0);
+    folder.run("cube.obj -o x.obj --preview told.png --preview-verdicts").exits(0);
+    let greens = |name: &str| {
+        let picture = image::open(folder.path(name)).unwrap().into_rgb8();
+        let (left, right): (Vec<_>, Vec<_>) =
+            picture.enumerate_pixels().partition(|(x, ..)| 2 * x < picture.width());
+        let is_green = |p: &image::Rgb<u8>| p.0[1] > 150 && p.0[0] < 100 && p.0[2] < 130;
+        [left, right].map(|half| half.iter().filter(|(.., pixel)| is_green(pixel)).count())
+    };
+    assert_eq!(greens("plain.png"), [0, 0]);
+    assert!(greens("told.png").iter().all(|&count| count > 500), "{:?}", greens("told.png"));
+}
+
+#[test]
 fn a_model_without_triangles_passes_through() {
     let text = "# points\nv 0 0 0\nv 1   0 0\np 1 2\n";
     let folder = Folder::with(&[("points.obj", text)]);

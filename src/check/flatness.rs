@@ -19,16 +19,12 @@ const FLAT_COSINE: f64 = 0.999_998_476_913_288;
 /// How far, relative to the extent, a pulled corner may be off the plane it was in.
 const PLANE_TOLERANCE: f64 = 1e-5;
 
-/// How far off it may be by rounding alone, relative to the largest coordinate: a few of the
-/// smallest steps of single precision.
-const ROUNDING: f64 = 4.0 * f32::EPSILON as f64;
-
 /// Normals that differ by more than this (a twentieth of a degree) shade a surface as curved.
 const CURVED_SHADING: f64 = 1e-3;
 
-/// A triangle lower than this, relative to the largest coordinate, has no plane to speak of:
-/// rounding its corners turns it by a degree and more.
-const LEAST_HEIGHT: f64 = 64.0 * f32::EPSILON as f64;
+/// A triangle lower than this many times the rounding has no plane to speak of: rounding its
+/// corners turns it by a degree and more.
+const LEAST_HEIGHT: f64 = 16.0;
 
 /// How much a normal may change where all around it are the same: rounding when it is made unit
 /// length again.
@@ -60,15 +56,15 @@ pub(super) fn check_flatness(
     let fan_of = fans(before);
     let fans = measure(before, &fan_of);
     let extent = f64::from(before.mesh.extent());
-    let tolerance = (PLANE_TOLERANCE * extent).max(ROUNDING * largest_coordinate(before));
+    let tolerance = (PLANE_TOLERANCE * extent).max(before.rounding());
     for (triangle, source) in (0u32..).zip(&origins.triangles) {
         let Some(source) = source else { continue };
         // A line or a point has no plane and shows no normal.
-        if normal_with_area(before.triangle(*source)).is_none() {
+        if normal_with_area(before.triangle(source[0] / 3)).is_none() {
             continue;
         }
         let corners = [0, 1, 2].map(|side| {
-            (&fans[fan_of[(3 * source + side) as usize] as usize], 3 * triangle + side)
+            (&fans[fan_of[source[side as usize] as usize] as usize], 3 * triangle + side)
         });
         if corners.iter().any(|(fan, corner)| {
             fan.off_plane <= FLAT_TOLERANCE * extent
@@ -101,7 +97,7 @@ fn fans(surface: &Surface) -> Vec<u32> {
 /// `#corners`, by the first corner of each fan.
 fn measure(surface: &Surface, fan_of: &[u32]) -> Vec<Fan> {
     let mut fans = vec![Fan::default(); fan_of.len()];
-    let least_height = LEAST_HEIGHT * largest_coordinate(surface);
+    let least_height = LEAST_HEIGHT * surface.rounding();
     for (corner, &fan) in (0u32..).zip(fan_of) {
         let triangle = corner / 3;
         fans[fan as usize].add_plane(surface.triangle(triangle), least_height);
@@ -156,9 +152,4 @@ impl Fan {
         let kept = self.normal.filter(|&kept| !self.has_uneven_normals && is_unit(kept));
         kept.is_some_and(|kept| kept.normalize().distance(normal.normalize()) > NORMAL_TOLERANCE)
     }
-}
-
-fn largest_coordinate(surface: &Surface) -> f64 {
-    let largest = surface.mesh.positions.as_flattened().iter().map(|along| along.abs());
-    f64::from(largest.fold(0.0, f32::max))
 }

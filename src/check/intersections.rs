@@ -23,7 +23,8 @@ pub(super) fn check_intersections(
     }
     let mut may_cut = vec![false; parts_after.len()];
     for (triangle, source) in origins.triangles.iter().enumerate() {
-        if source.is_some_and(|source| cut_before[parts_before[source as usize] as usize]) {
+        let part = |[corner, ..]: [u32; 3]| parts_before[corner as usize / 3] as usize;
+        if source.is_some_and(|source| cut_before[part(source)]) {
             may_cut[parts_after[triangle] as usize] = true;
         }
     }

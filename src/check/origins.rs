@@ -1,16 +1,19 @@
 //! Which source triangle and which source vertices an element comes from.
 
-use super::rules::{Element, Findings, Rule};
+use super::matching::match_triangles;
+use super::rules::{Element, Facts, Findings, Rule};
+use super::surface::Surface;
 use crate::mesh::Mesh;
-use crate::report::{Blend, Chamfered, Outcome, TriangleKind, TriangleSource, VertexSource};
+use crate::report::{Blend, Chamfered, TriangleKind, TriangleSource, VertexSource};
 
 /// How far the weights of a blend may sum up past 1: many roundings, but no real error.
 const WEIGHT_SUM_TOLERANCE: f32 = 1e-3;
 
 /// Where the elements of a chamfered mesh come from.
 pub(super) struct Origins<'a> {
-    /// `#triangles`: the source triangle of each that is not new.
-    pub triangles: Vec<Option<u32>>,
+    /// `#triangles`: the source corner of each corner of a triangle that is not new. All three are
+    /// of one source triangle.
+    pub triangles: Vec<Option<[u32; 3]>>,
     vertices: Option<&'a [VertexSource]>,
 }
 
@@ -20,7 +23,7 @@ impl<'a> Origins<'a> {
         let source_of =
             |source: &TriangleSource| (source.kind == TriangleKind::Source).then_some(source.index);
         let triangles: Vec<_> = after.triangle_sources.iter().map(source_of).collect();
-        let kept = keeps_vertices(before, &after.mesh.as_mesh())
+        let kept = after.mesh.positions.len() >= before.positions.len()
             && keeps_triangles(before, &after.mesh.as_mesh(), &triangles)
             && after.vertex_sources.len() == after.mesh.positions.len();
         if !kept {
@@ -34,71 +37,94 @@ impl<'a> Origins<'a> {
                 findings.note(Rule::Origins, Element::Vertex(vertex as u32));
             }
         }
-        check_verdicts(before, after, findings);
-        findings.is_sound().then_some(Origins { triangles, vertices: Some(&after.vertex_sources) })
+        let corners = |source: Option<u32>| source.map(|t| [0, 1, 2].map(|side| 3 * t + side));
+        (findings.count(Rule::Origins) == 0).then_some(Origins {
+            triangles: triangles.into_iter().map(corners).collect(),
+            vertices: Some(&after.vertex_sources),
+        })
     }
 
-    /// By the order of the triangles: in each submesh those of the source stand first.
-    pub fn inferred(before: &Mesh, after: &Mesh, findings: &mut Findings) -> Option<Self> {
-        let mut triangles = Vec::with_capacity(after.indices.len() / 3);
+    /// By the order of the triangles: those of the source stand first in each submesh. None where
+    /// there are too few.
+    pub fn in_order([before, after]: &[Surface; 2]) -> Option<Self> {
+        let mut triangles = Vec::with_capacity(after.triangle_count() as usize);
         let mut first = 0;
-        for (submesh, &indices) in after.submesh_index_counts.iter().enumerate() {
-            let kept = before.submesh_index_counts.get(submesh).copied().unwrap_or(0) / 3;
-            triangles.extend((first..first + kept).map(Some));
-            triangles.resize(triangles.len() + (indices / 3).saturating_sub(kept) as usize, None);
-            first += kept;
+        for (submesh, &indices) in after.mesh.submesh_index_counts.iter().enumerate() {
+            let before = before.mesh.submesh_index_counts.get(submesh).map_or(0, |count| count / 3);
+            let added = (indices / 3).checked_sub(before)?;
+            triangles.extend((3 * first..3 * (first + before)).step_by(3).map(Some));
+            triangles.extend(std::iter::repeat_n(None, added as usize));
+            first += before;
         }
-        let kept = keeps_vertices(before, after) && keeps_triangles(before, after, &triangles);
-        if !kept {
+        let corners = |first: u32| [0, 1, 2].map(|side| first + side);
+        (first == before.triangle_count()).then(|| Origins {
+            triangles: triangles.into_iter().map(|first| first.map(corners)).collect(),
+            vertices: None,
+        })
+    }
+
+    /// By where the triangles are.
+    pub fn by_geometry([before, after]: &[Surface; 2]) -> Self {
+        Origins { triangles: match_triangles(before, after), vertices: None }
+    }
+
+    /// Notes the triangles of the source that are not found. That is a breach only where there are
+    /// fewer triangles than before: otherwise their parts may be there.
+    pub fn check_lost(&self, findings: &mut Findings) {
+        // What has no area may be thrown away: many tools do.
+        let with_area = |facts: Facts| facts.triangles - facts.flat_triangles;
+        if with_area(findings.after) < with_area(findings.before) {
             findings.note(Rule::Origins, Element::Mesh);
         }
-        kept.then_some(Origins { triangles, vertices: None })
+        findings.lost = findings.before.triangles - self.triangles.iter().flatten().count();
+        if findings.lost > 0 {
+            for rule in [Rule::Flipped, Rule::FlatFace, Rule::FlatNormal, Rule::HardEdges] {
+                findings.leave_out(rule, "not every triangle of the source is where it was");
+            }
+        }
     }
 
-    /// Whether everything that a vertex was made from satisfies a condition on source vertices
-    /// (`holds: #source vertices`).
-    pub fn all_hold(&self, vertex: usize, holds: &[bool]) -> bool {
+    /// `#vertices`: whether everything that each was made from satisfies a condition on source
+    /// vertices (`holds: #source vertices`).
+    pub fn all_hold(&self, before: &Mesh, after: &Mesh, holds: &[bool]) -> Vec<bool> {
         let holds_for = |blend: &Blend| {
             blend.vertices.iter().zip(blend.weights).all(|(&v, w)| w == 0.0 || holds[v as usize])
         };
         match self.vertices {
-            Some(sources) => {
-                holds_for(&sources[vertex].surface) && holds_for(&sources[vertex].chart)
+            Some(sources) => sources
+                .iter()
+                .map(|source| holds_for(&source.surface) && holds_for(&source.chart))
+                .collect(),
+            None => self.corners_hold(before, after, holds),
+        }
+    }
+
+    /// By the corners that a vertex is at; one that is only in new triangles may be made from
+    /// anything.
+    fn corners_hold(&self, before: &Mesh, after: &Mesh, holds: &[bool]) -> Vec<bool> {
+        let mut by_corners = vec![None; after.positions.len()];
+        for (triangle, corners) in self.triangles.iter().enumerate() {
+            for (side, &source) in corners.iter().flatten().enumerate() {
+                let vertex = after.indices[3 * triangle + side] as usize;
+                let held = by_corners[vertex].get_or_insert(true);
+                *held &= holds[before.indices[source as usize] as usize];
             }
-            None if vertex < holds.len() => holds[vertex],
-            None => holds.iter().all(|&holds| holds),
         }
+        let everything_holds = holds.iter().all(|&holds| holds);
+        by_corners.into_iter().map(|held| held.unwrap_or(everything_holds)).collect()
     }
-}
 
-/// Each new triangle names a verdict or source vertex that exists, and the totals are those of the
-/// verdicts.
-fn check_verdicts(before: &Mesh, after: &Chamfered, findings: &mut Findings) {
-    for (triangle, source) in (0u32..).zip(&after.triangle_sources) {
-        let count = match source.kind {
-            TriangleKind::Source => before.indices.len() / 3,
-            TriangleKind::Edge => after.verdicts.len(),
-            TriangleKind::Corner => before.positions.len(),
-        };
-        if source.index as usize >= count {
-            findings.note(Rule::Verdicts, Element::Triangle(triangle));
+    /// `#source corners`: the corner of the result that each became; none where its triangle is
+    /// lost.
+    pub fn corners_after(&self, source_corners: usize) -> Vec<Option<u32>> {
+        let mut after = vec![None; source_corners];
+        for (triangle, corners) in (0u32..).zip(&self.triangles) {
+            for (side, &source) in (0u32..).zip(corners.iter().flatten()) {
+                after[source as usize] = Some(3 * triangle + side);
+            }
         }
+        after
     }
-    let with = |outcome: Outcome| {
-        after.verdicts.iter().filter(|verdict| verdict.outcome == outcome).count() as u32
-    };
-    let totals = &after.totals;
-    let add_up = totals.hard_edges as usize == after.verdicts.len()
-        && totals.chamfered == with(Outcome::Full)
-        && totals.narrowed == with(Outcome::Narrowed)
-        && totals.skipped.iter().sum::<u32>() == with(Outcome::Skipped);
-    if !add_up {
-        findings.note(Rule::Verdicts, Element::Mesh);
-    }
-}
-
-fn keeps_vertices(before: &Mesh, after: &Mesh) -> bool {
-    after.positions.len() >= before.positions.len()
 }
 
 /// Whether every source triangle is there once, in its submesh, in its order.

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use super::widths::MeasuredEdge;
+
 /// How many offending elements a [`Breach`] names.
 const NAMED_ELEMENTS: usize = 5;
 
@@ -16,12 +18,17 @@ pub enum Rule {
     IndexRange,
     /// Every value is finite.
     Finite,
-    /// No source vertex is missing, every source triangle is there once, in its submesh and in
-    /// its order, and the provenance points into the source.
+    /// With provenance: no source vertex is missing, every source triangle is there once, in its
+    /// submesh and in its order, and the provenance points into the source. Without: there are as
+    /// many triangles as in the source, those without area aside.
     Origins,
-    /// New triangles name verdicts and source vertices that exist, and the totals are those of the
-    /// verdicts.
+    /// New triangles name verdicts and source vertices that exist, a verdict has strip triangles
+    /// where it tells of a chamfer and none elsewhere, every hard edge has a verdict, and the
+    /// totals are those of the verdicts.
     Verdicts,
+    /// A verdict's widths are those of the mesh: at each end the mean distance of the two sides
+    /// from the line of the old edge.
+    Widths,
     /// Normals are unit length where the source's are.
     Normals,
     /// Tangents are unit length, orthogonal to the normal and of handedness +1 or -1 where the
@@ -45,6 +52,8 @@ pub enum Rule {
     FlatFace,
     /// Where normals were all the same between hard edges, they stay so.
     FlatNormal,
+    /// No hard edge where the source has none: strips and fills shade smoothly into their sides.
+    HardEdges,
     /// No edge-connected component cuts through itself that did not in the source.
     SelfIntersection,
 }
@@ -59,6 +68,7 @@ impl Rule {
             Rule::Finite => "not finite",
             Rule::Origins => "origins",
             Rule::Verdicts => "verdicts",
+            Rule::Widths => "width not as told",
             Rule::Normals => "normal not unit",
             Rule::Tangents => "tangent not right",
             Rule::Colors => "colour out of range",
@@ -69,6 +79,7 @@ impl Rule {
             Rule::Degenerate => "triangle without area",
             Rule::FlatFace => "flat face bent",
             Rule::FlatNormal => "flat normal bent",
+            Rule::HardEdges => "new hard edge",
             Rule::SelfIntersection => "self-intersection",
         }
     }
@@ -89,6 +100,8 @@ pub enum Element {
     Edge(u32, u32),
     /// Two triangles.
     Triangles(u32, u32),
+    /// A hard edge of the source, by its vertices.
+    SourceEdge(u32, u32),
 }
 
 impl fmt::Display for Element {
@@ -100,6 +113,7 @@ impl fmt::Display for Element {
             Element::Triangle(triangle) => write!(f, "triangle {triangle}"),
             Element::Edge(a, b) => write!(f, "edge {a}-{b}"),
             Element::Triangles(a, b) => write!(f, "triangles {a} and {b}"),
+            Element::SourceEdge(a, b) => write!(f, "source edge {a}-{b}"),
         }
     }
 }
@@ -132,12 +146,40 @@ pub struct Facts {
     pub non_manifold_edges: usize,
     /// Edges whose normals differ by more than about one degree at either end.
     pub hard_edges: usize,
+    /// Triangles without area.
+    pub flat_triangles: usize,
+    /// Vertices whose normal is not unit length.
+    pub odd_normals: usize,
+    /// Vertices whose tangent is not unit length, not at a right angle to the normal, or of
+    /// another handedness than +1 or -1; 0 without tangents.
+    pub odd_tangents: usize,
     /// Pairs of triangles that cut each other; none where that was not asked for.
     pub self_intersections: Option<usize>,
 }
 
+/// How the source's triangles were found in the result.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Matching {
+    /// The result tells.
+    #[default]
+    Provenance,
+    /// They stand first in each submesh, in their order.
+    Order,
+    /// The order was changed: by where they are.
+    Geometry,
+}
+
+/// A rule that could not be checked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Unchecked {
+    /// The rule.
+    pub rule: Rule,
+    /// What stands in the way.
+    pub reason: &'static str,
+}
+
 /// What [`check`](super::check) found.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Findings {
     /// The source.
     pub before: Facts,
@@ -145,6 +187,14 @@ pub struct Findings {
     pub after: Facts,
     /// The rules that the chamfered mesh breaks, each once.
     pub breaches: Vec<Breach>,
+    /// Rules that could not be checked, or only in part.
+    pub unchecked: Vec<Unchecked>,
+    /// How source and result were brought together.
+    pub matching: Matching,
+    /// Triangles of the source that were not found.
+    pub lost: usize,
+    /// The hard edges of the source with two sides whose triangles were found, measured.
+    pub edges: Vec<MeasuredEdge>,
 }
 
 impl Findings {
@@ -153,9 +203,20 @@ impl Findings {
         self.breaches.is_empty()
     }
 
+    /// How much is wrong or not known, to tell two explanations of one mesh apart.
+    pub(super) fn defects(&self) -> usize {
+        self.lost + self.breaches.iter().map(|breach| breach.count).sum::<usize>()
+    }
+
     /// How many elements break a rule.
     pub fn count(&self, rule: Rule) -> usize {
         self.breaches.iter().find(|breach| breach.rule == rule).map_or(0, |breach| breach.count)
+    }
+
+    /// Takes a rule out: what it found is not held against the mesh.
+    pub fn leave_out(&mut self, rule: Rule, reason: &'static str) {
+        self.breaches.retain(|breach| breach.rule != rule);
+        self.unchecked.push(Unchecked { rule, reason });
     }
 
     pub(super) fn note(&mut self, rule: Rule, element: Element) {
@@ -187,13 +248,16 @@ impl fmt::Display for Findings {
             let name = breach.rule.name();
             writeln!(f, "{name:<22}{:>20}: {}{more}", breach.count, named.join(", "))?;
         }
+        for Unchecked { rule, reason } in &self.unchecked {
+            writeln!(f, "not checked: {}, because {reason}", rule.name())?;
+        }
         if self.is_sound() { writeln!(f, "sound") } else { Ok(()) }
     }
 }
 
 type Fact = fn(&Facts) -> Option<usize>;
 
-const FACT_ROWS: [(&str, Fact); 8] = [
+const FACT_ROWS: [(&str, Fact); 11] = [
     ("vertices", |facts| Some(facts.vertices)),
     ("triangles", |facts| Some(facts.triangles)),
     ("components", |facts| Some(facts.components)),
@@ -201,5 +265,8 @@ const FACT_ROWS: [(&str, Fact); 8] = [
     ("border loops", |facts| Some(facts.border_loops)),
     ("non-manifold edges", |facts| Some(facts.non_manifold_edges)),
     ("hard edges", |facts| Some(facts.hard_edges)),
+    ("triangles without area", |facts| Some(facts.flat_triangles)),
+    ("normals not unit", |facts| Some(facts.odd_normals)),
+    ("tangents not right", |facts| Some(facts.odd_tangents)),
     ("self-intersections", |facts| facts.self_intersections),
 ];

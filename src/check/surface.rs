@@ -1,7 +1,8 @@
 //! A mesh welded by position: its edges, borders and connected parts.
 
 use super::rules::{Element, Facts, Findings, Rule};
-use super::values::vector;
+use super::triangles::normal_with_area;
+use super::values::{count_odd, vector};
 use crate::groups::Groups;
 use crate::mesh::Mesh;
 use glam::DVec3;
@@ -10,6 +11,10 @@ use glam::DVec3;
 /// is what quantized normals differ by, and half of one more keeps this limit clear of any other
 /// near it.
 const SOFT_COSINE: f64 = 0.999_657;
+
+/// How far a position may be off by rounding alone, relative to the largest coordinate: a few of
+/// the smallest steps of single precision.
+const ROUNDING: f64 = 4.0 * f32::EPSILON as f64;
 
 /// One side of a triangle.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -57,6 +62,10 @@ impl<'a> Surface<'a> {
             .map(|edge| edge.split_at(edge.partition_point(|half_edge| !half_edge.reversed)))
     }
 
+    pub fn triangle_count(&self) -> u32 {
+        self.mesh.indices.len() as u32 / 3
+    }
+
     /// The position of a corner.
     pub fn position(&self, corner: u32) -> DVec3 {
         vector(&self.mesh.positions[self.mesh.indices[corner as usize] as usize])
@@ -72,12 +81,33 @@ impl<'a> Surface<'a> {
         [0, 1, 2].map(|side| self.position(3 * triangle + side))
     }
 
+    /// Whether two corners of a corner's triangle are at one position.
+    pub fn is_collapsed(&self, corner: u32) -> bool {
+        let first = corner - corner % 3;
+        let [a, b, c] = [0, 1, 2].map(|side| self.cluster(first + side));
+        a == b || b == c || c == a
+    }
+
+    /// How far a position may be off by rounding alone, in mesh units.
+    pub fn rounding(&self) -> f64 {
+        let largest = self.mesh.positions.as_flattened().iter().map(|along| along.abs());
+        ROUNDING * f64::from(largest.fold(0.0, f32::max))
+    }
+
+    /// The cluster of a corner: the first vertex at its position.
+    pub fn cluster(&self, corner: u32) -> u32 {
+        self.cluster_of[self.mesh.indices[corner as usize] as usize]
+    }
+
     /// Whether two opposite half-edges have the same normals at both ends.
     pub fn is_soft(&self, a: &HalfEdge, b: &HalfEdge) -> bool {
-        [(a.corners[0], b.corners[1]), (a.corners[1], b.corners[0])].iter().all(|&(a, b)| {
-            let [a, b] = [a, b].map(|corner| self.normal(corner));
-            a.dot(b) >= SOFT_COSINE * a.length() * b.length()
-        })
+        [0, 1].iter().all(|&end| self.share_normal([a.corners[end], b.corners[1 - end]]))
+    }
+
+    /// Whether the normals of two corners are the same, as nearly as importers store them.
+    pub fn share_normal(&self, corners: [u32; 2]) -> bool {
+        let [a, b] = corners.map(|corner| self.normal(corner));
+        a.dot(b) >= SOFT_COSINE * a.length() * b.length()
     }
 
     /// `#triangles`: the first triangle of the part that each is connected to across edges.
@@ -93,6 +123,9 @@ impl<'a> Surface<'a> {
 
     pub fn facts(&self) -> Facts {
         let is_first = |(place, &label): (usize, &u32)| place as u32 == label;
+        let triangles = 0..self.triangle_count();
+        let has_no_area = |&t: &u32| normal_with_area(self.triangle(t)).is_none();
+        let [odd_normals, odd_tangents] = count_odd(self.mesh);
         Facts {
             vertices: self.mesh.positions.len(),
             triangles: self.mesh.indices.len() / 3,
@@ -101,11 +134,15 @@ impl<'a> Surface<'a> {
             border_loops: self.border_loops(),
             non_manifold_edges: self.edges().filter(is_non_manifold).count(),
             hard_edges: self.edges().filter(|edge| self.is_hard(edge)).count(),
+            flat_triangles: triangles.filter(has_no_area).count(),
+            odd_normals,
+            odd_tangents,
             self_intersections: None,
         }
     }
 
-    fn is_hard(&self, (forward, backward): &(&[HalfEdge], &[HalfEdge])) -> bool {
+    /// Whether an edge with two sides has a half-edge whose normals no opposite one shares.
+    pub fn is_hard(&self, (forward, backward): &(&[HalfEdge], &[HalfEdge])) -> bool {
         let has_soft_partner = |a: &HalfEdge| backward.iter().any(|b| self.is_soft(a, b));
         !backward.is_empty() && !forward.iter().all(has_soft_partner)
     }
@@ -179,7 +216,9 @@ pub(super) fn check_edges(before: &Surface, after: &Surface, findings: &mut Find
             findings.note(Rule::Balance, element(edge));
         }
     }
-    if source.border_loops != result.border_loops && before.has_clear_borders() {
+    if !before.has_clear_borders() {
+        findings.leave_out(Rule::BorderLoops, "a border of the source touches a non-manifold edge");
+    } else if source.border_loops != result.border_loops {
         findings.note(Rule::BorderLoops, Element::Mesh);
     }
     let added = result.non_manifold_edges.saturating_sub(source.non_manifold_edges);

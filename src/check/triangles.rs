@@ -11,27 +11,43 @@ use super::surface::Surface;
 /// that single-precision corners give to anything but a line (1e-7).
 const NO_AREA: f64 = 1e-10;
 
-/// Source triangles against themselves, new ones against their vertex normals.
+/// Source triangles against themselves, new ones against their vertex normals. Where some of the
+/// source are not found, they may be among the new ones, and faced away before.
 pub(super) fn check_triangles(
     before: &Surface,
     after: &Surface,
     origins: &Origins,
     findings: &mut Findings,
 ) {
+    let may_face_away =
+        findings.lost > 0 && (0..before.triangle_count()).any(|t| may_face_away(before, t));
     for (triangle, &origin) in (0u32..).zip(&origins.triangles) {
         let now = normal_with_area(after.triangle(triangle));
         let reference = match origin {
-            Some(source) => normal_with_area(before.triangle(source)),
-            None => Some([0, 1, 2].map(|side| after.normal(3 * triangle + side)).iter().sum()),
+            Some([corner, ..]) => normal_with_area(before.triangle(corner / 3)),
+            None => Some(shading(after, triangle)),
         };
         match (reference, now) {
             (Some(_), None) => findings.note(Rule::Degenerate, Element::Triangle(triangle)),
-            (Some(reference), Some(now)) if now.dot(reference) < 0.0 => {
+            (Some(reference), Some(now))
+                if now.dot(reference) < 0.0 && (origin.is_some() || !may_face_away) =>
+            {
                 findings.note(Rule::Flipped, Element::Triangle(triangle));
             }
             _ => {}
         }
     }
+}
+
+/// The sum of the vertex normals.
+fn shading(surface: &Surface, triangle: u32) -> DVec3 {
+    [0, 1, 2].map(|side| surface.normal(3 * triangle + side)).iter().sum()
+}
+
+/// Whether a triangle may face away from its vertex normals once its corners move.
+fn may_face_away(surface: &Surface, triangle: u32) -> bool {
+    let normal = normal_with_area(surface.triangle(triangle));
+    normal.is_none_or(|normal| normal.dot(shading(surface, triangle)) < 0.0)
 }
 
 /// The normal of a triangle, twice its area long; none where that is nothing.

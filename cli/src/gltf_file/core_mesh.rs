@@ -3,6 +3,8 @@
 use chamfer::{MeshBuffers, UV_CHANNELS, UvBuffer, split_by_angle};
 use glam::Vec3;
 
+use crate::document::NormalsRead;
+
 use super::geometry::{Block, MeshGeometry, Origin};
 
 /// Normals within this of unit length are kept bit for bit; it covers the rounding of bytes, the
@@ -68,6 +70,20 @@ fn unit(normal: [f32; 3]) -> [f32; 3] {
         return normal;
     }
     vector.try_normalize().unwrap_or(Vec3::Z).to_array()
+}
+
+/// Which normals are not those of the file.
+pub fn normals_read(geometry: &MeshGeometry, mesh: &MeshBuffers) -> NormalsRead {
+    let stored = geometry.streams(None, "NORMAL");
+    let mut read = NormalsRead {
+        computed: geometry.blocks.iter().any(|block| block.smoothed),
+        ..NormalsRead::default()
+    };
+    for (vertex, &used) in (0..).zip(&mesh.normals) {
+        let value = stored.at(vertex as usize).map(|value| array(Some(value), 0.0));
+        read.repaired.extend(value.filter(|&value| value != used).map(|value| (vertex, value)));
+    }
+    read
 }
 
 /// Tangents of a block without normals count for nothing, so the specification says.

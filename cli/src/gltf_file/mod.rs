@@ -37,7 +37,7 @@ use anyhow::{Context, Result, bail, ensure};
 use chamfer::Chamfered;
 use serde_json::Value;
 
-use crate::document::{Document, Instance, OutputFile, ReadOptions, SourceMesh};
+use crate::document::{Document, Instance, NormalsRead, OutputFile, ReadOptions, SourceMesh};
 use accessor_writer::AccessorWriter;
 use budget::Budget;
 use container::{Container, Format};
@@ -61,6 +61,8 @@ pub struct GltfDocument {
     meshes: Vec<SourceMesh>,
     /// `#meshes`
     geometries: Vec<MeshGeometry>,
+    /// `#meshes`
+    normals: Vec<NormalsRead>,
     instances: Vec<Instance>,
 }
 
@@ -85,18 +87,28 @@ impl GltfDocument {
         let size = bytes.len() + buffers.iter().map(Vec::len).sum::<usize>();
         let budget = Budget::of_file(size);
         let reader = GeometryReader::new(&json, &buffers, &budget);
-        let (mut meshes, mut geometries) = (Vec::new(), Vec::new());
+        let (mut meshes, mut geometries, mut normals) = (Vec::new(), Vec::new(), Vec::new());
         for (index, value) in json::list(&json, "meshes").iter().enumerate() {
             let mut geometry = reader.read(index)?;
             let mesh = core_mesh::build(&mut geometry, options.smoothing_angle);
+            normals.push(core_mesh::normals_read(&geometry, &mesh));
             geometry.forget_core_streams();
             let name = value.get("name").and_then(Value::as_str);
             let name = name.map_or_else(|| format!("mesh {index}"), str::to_owned);
             meshes.push(SourceMesh { name, mesh });
             geometries.push(geometry);
         }
-        let path = path.to_owned();
-        Ok(GltfDocument { path, format, json, buffers, meshes, geometries, instances, bytes })
+        Ok(GltfDocument {
+            path: path.to_owned(),
+            format,
+            json,
+            buffers,
+            meshes,
+            geometries,
+            normals,
+            instances,
+            bytes,
+        })
     }
 
     /// A further submesh without triangles is no change.
@@ -229,6 +241,10 @@ impl GltfDocument {
 impl Document for GltfDocument {
     fn meshes(&self) -> &[SourceMesh] {
         &self.meshes
+    }
+
+    fn normals(&self) -> &[NormalsRead] {
+        &self.normals
     }
 
     fn instances(&self) -> Vec<Instance> {

@@ -5,6 +5,8 @@ use std::collections::HashMap;
 use anyhow::{Context, Result};
 use chamfer::{MeshBuffers, UvBuffer, split_by_angle};
 
+use crate::document::NormalsRead;
+
 use super::parse::{Corner, Item, Obj};
 use super::polygon::triangulate;
 
@@ -21,6 +23,13 @@ pub struct Origin {
     pub has_texcoord: Vec<bool>,
 }
 
+/// A mesh, and what its file does not tell about it.
+pub struct Built {
+    pub mesh: MeshBuffers,
+    pub origin: Origin,
+    pub normals: NormalsRead,
+}
+
 /// What tells two vertices apart. Equal values under different numbers are one value.
 type Key = (u32, Option<[u32; 3]>, [u32; 3]);
 
@@ -29,7 +38,7 @@ type Key = (u32, Option<[u32; 3]>, [u32; 3]);
 ///
 /// # Errors
 /// Where there are more triangles than 32-bit indices allow.
-pub fn build(obj: &Obj, smoothing_angle: f32) -> Result<(MeshBuffers, Origin)> {
+pub fn build(obj: &Obj, smoothing_angle: f32) -> Result<Built> {
     let (corners, submesh_index_counts) = triangles(obj)?;
     let normals = normals(obj, &corners, smoothing_angle);
     let mut builder = Builder::new(obj);
@@ -37,7 +46,9 @@ pub fn build(obj: &Obj, smoothing_angle: f32) -> Result<(MeshBuffers, Origin)> {
         builder.corner(corner, normal);
     }
     builder.mesh.submesh_index_counts = submesh_index_counts;
-    Ok((builder.mesh, builder.origin))
+    let Builder { mesh, origin, .. } = builder;
+    let normals = normals_read(obj, &corners, &mesh.indices);
+    Ok(Built { mesh, origin, normals })
 }
 
 /// The corners of all triangles, and how many belong to each run of faces.
@@ -81,9 +92,28 @@ fn normals(obj: &Obj, corners: &[Corner], smoothing_angle: f32) -> Vec<[f32; 3]>
     corners.iter().zip(computed).map(|(corner, other)| given(corner).unwrap_or(other)).collect()
 }
 
+/// Files with few digits have normals that are a little off unit length. Those that are farther off
+/// than this are wrong.
+const PLAINLY_NOT_UNIT: f64 = 1e-3;
+
+fn normals_read(obj: &Obj, corners: &[Corner], indices: &[u32]) -> NormalsRead {
+    let mut read = NormalsRead::default();
+    for (corner, &index) in corners.iter().zip(indices) {
+        let stored = corner.normal.map(|number| obj.normals[number as usize]);
+        read.computed |= stored.is_none();
+        let is_wrong = |&vector: &[f32; 3]| (length(vector) - 1.0).abs() > PLAINLY_NOT_UNIT;
+        read.repaired.extend(stored.filter(is_wrong).map(|normal| (index, normal)));
+    }
+    read
+}
+
+fn length(vector: [f32; 3]) -> f64 {
+    vector.iter().map(|&value| f64::from(value).powi(2)).sum::<f64>().sqrt()
+}
+
 /// The vector at length one; nothing for one without a direction.
 fn unit(vector: [f32; 3]) -> Option<[f32; 3]> {
-    let length = vector.iter().map(|&value| f64::from(value).powi(2)).sum::<f64>().sqrt();
+    let length = length(vector);
     if (length - 1.0).abs() < UNIT_TOLERANCE {
         return Some(vector);
     }
@@ -138,7 +168,8 @@ mod tests {
     use crate::obj_file::parse::parse;
 
     fn built(text: &str) -> (MeshBuffers, Origin) {
-        build(&parse(text.as_bytes()).unwrap(), 30.0).unwrap()
+        let Built { mesh, origin, .. } = build(&parse(text.as_bytes()).unwrap(), 30.0).unwrap();
+        (mesh, origin)
     }
 
     #[test]

@@ -16,7 +16,9 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result};
 use chamfer::Chamfered;
 
-use crate::document::{Document, IDENTITY, Instance, OutputFile, ReadOptions, SourceMesh};
+use crate::document::{
+    Document, IDENTITY, Instance, NormalsRead, OutputFile, ReadOptions, SourceMesh,
+};
 use crate::format::Format;
 use crate::glb;
 
@@ -28,6 +30,7 @@ use parse::Obj;
 /// submesh.
 pub struct ObjDocument {
     mesh: SourceMesh,
+    normals: NormalsRead,
     /// The folder that names in the file start from.
     folder: PathBuf,
     obj: Obj,
@@ -44,11 +47,12 @@ pub struct ObjDocument {
 pub fn read(path: &Path, options: &ReadOptions) -> Result<ObjDocument> {
     let bytes = fs::read(path)?;
     let obj = parse::parse(&bytes)?;
-    let (mesh, origin) = build::build(&obj, options.smoothing_angle)?;
+    let build::Built { mesh, origin, normals } = build::build(&obj, options.smoothing_angle)?;
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     Ok(ObjDocument {
         unchanged: mesh.indices.is_empty().then_some(bytes),
         mesh: SourceMesh { name: stem.into_owned(), mesh },
+        normals,
         folder: path.parent().unwrap_or(Path::new("")).to_path_buf(),
         obj,
         origin,
@@ -58,6 +62,10 @@ pub fn read(path: &Path, options: &ReadOptions) -> Result<ObjDocument> {
 impl Document for ObjDocument {
     fn meshes(&self) -> &[SourceMesh] {
         std::slice::from_ref(&self.mesh)
+    }
+
+    fn normals(&self) -> &[NormalsRead] {
+        std::slice::from_ref(&self.normals)
     }
 
     fn instances(&self) -> Vec<Instance> {
@@ -133,7 +141,7 @@ vn 0 0 1\nusemtl m\nf 1/1/1 2/2/1 3/1/1 4/2\nf 1 2 5\nf -1// -2/1 \\\n -3\nl 1 5
         let mut read = 0;
         for _ in 0..4000 {
             let Ok(obj) = parse::parse(&with_noise(&mut state)) else { continue };
-            let (mesh, origin) = build::build(&obj, 30.0).unwrap();
+            let build::Built { mesh, origin, .. } = build::build(&obj, 30.0).unwrap();
             let vertices = mesh.positions.len();
             assert_eq!(mesh.normals.len(), vertices);
             assert_eq!(mesh.uvs[0].values.len(), vertices * mesh.uvs[0].components as usize);

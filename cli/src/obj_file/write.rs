@@ -234,7 +234,7 @@ mod tests {
     /// The text after `change` was made to the mesh of another text.
     fn rewritten(text: &str, change: impl FnOnce(&mut MeshBuffers)) -> String {
         let obj = parse::parse(text.as_bytes()).unwrap();
-        let (source, origin) = build::build(&obj, 30.0).unwrap();
+        let build::Built { mesh: source, origin, .. } = build::build(&obj, 30.0).unwrap();
         let mut mesh = source.clone();
         change(&mut mesh);
         let one = |_| VertexSource { surface: Blend::one(0), chart: Blend::one(0) };

@@ -1,0 +1,121 @@
+//! `chamfer check`: is a chamfered file sound? The whole-mesh checker of the core, file by file.
+
+mod pairs;
+mod report;
+mod table;
+
+use std::path::Path;
+use std::process::ExitCode;
+
+use anyhow::{Context, Result, anyhow};
+use chamfer::check::{Findings, Rule, compare};
+use chamfer::{EdgeVerdict, MeshBuffers, Options, Outcome, chamfer};
+
+use crate::args::CheckArgs;
+use crate::batch::{USAGE, one_line};
+use crate::console::{say, warn};
+use crate::document::{Document, NormalsRead, ReadOptions};
+use crate::format;
+use crate::write;
+
+use pairs::Pairs;
+use report::{CheckReport, MeshCheck};
+
+/// Checks the file that the arguments name.
+pub fn run(args: &CheckArgs) -> ExitCode {
+    match check(args) {
+        Ok(sound) => ExitCode::from(u8::from(!sound)),
+        Err(error) => {
+            warn(one_line(&error));
+            ExitCode::from(USAGE)
+        }
+    }
+}
+
+/// Whether the file is sound. Says what was found.
+fn check(args: &CheckArgs) -> Result<bool> {
+    let [before, after] = [&args.before, &args.after].map(|path| read(path, &args.read_options()));
+    let (before, after) = (before?, after?);
+    let pairs = Pairs::new(before.meshes(), after.meshes());
+    let checks = pairs.both.iter().map(|&[source, result]| {
+        let source = Side { document: &*before, mesh: source };
+        check_pair(source, Side { document: &*after, mesh: result }, args)
+    });
+    let report = CheckReport::new(
+        [&args.before, &args.after],
+        checks.collect::<Result<Vec<MeshCheck>>>()?,
+        pairs.missing.iter().map(|&mesh| before.meshes()[mesh].name.clone()).collect(),
+        pairs.added.iter().map(|&mesh| after.meshes()[mesh].name.clone()).collect(),
+    );
+    say(table::table(&report));
+    if let Some(path) = &args.report {
+        write::alone(path, report.to_json()?)?;
+    }
+    Ok(report.sound)
+}
+
+fn read(path: &Path, options: &ReadOptions) -> Result<Box<dyn Document + Send>> {
+    format::read(path, options).map_err(|error| anyhow!("{}: {error:#}", path.display()))
+}
+
+/// A mesh of one of the two files.
+#[derive(Clone, Copy)]
+struct Side<'a> {
+    document: &'a dyn Document,
+    mesh: usize,
+}
+
+impl Side<'_> {
+    fn name(&self) -> &str {
+        &self.document.meshes()[self.mesh].name
+    }
+
+    fn normals(&self) -> &NormalsRead {
+        &self.document.normals()[self.mesh]
+    }
+
+    /// The mesh as it is in the file: with the normals that reading repaired.
+    fn as_stored(&self) -> MeshBuffers {
+        let mut mesh = self.document.meshes()[self.mesh].mesh.clone();
+        for &(vertex, normal) in &self.normals().repaired {
+            mesh.normals[vertex as usize] = normal;
+        }
+        mesh
+    }
+}
+
+fn check_pair(source: Side, result: Side, args: &CheckArgs) -> Result<MeshCheck> {
+    let [before, after] = [source.as_stored(), result.as_stored()];
+    let mut findings = compare(&before.as_mesh(), &after.as_mesh(), args.verify.into());
+    if result.normals().computed {
+        for rule in [Rule::FlatNormal, Rule::HardEdges] {
+            findings.leave_out(rule, "the result's normals are not in its file");
+        }
+    }
+    let mut check = MeshCheck::new(source.name(), &findings);
+    if let Some(width) = args.width() {
+        // Not as stored: a normal that is not right is no reason not to know what to expect.
+        let mesh = &source.document.meshes()[source.mesh].mesh;
+        let options = Options { width, verify: args.verify.into(), ..Options::default() };
+        let expected = chamfer(&mesh.as_mesh(), &options)
+            .with_context(|| format!("mesh {}", source.name()))?;
+        check.expect(expected.width, &left_without_need(&findings, &expected.verdicts));
+    }
+    Ok(check)
+}
+
+/// The hard edges that are left although chamfering would not leave them.
+fn left_without_need(findings: &Findings, verdicts: &[EdgeVerdict]) -> Vec<[u32; 2]> {
+    let mut chamfered: Vec<[u32; 2]> = verdicts
+        .iter()
+        .filter(|verdict| verdict.outcome != Outcome::Skipped)
+        .map(|verdict| verdict.vertices)
+        .collect();
+    chamfered.sort_unstable();
+    findings
+        .edges
+        .iter()
+        .filter(|edge| !edge.is_chamfered() && chamfered.binary_search(&edge.vertices).is_ok())
+        .map(|edge| edge.vertices)
+        .collect()
+}

@@ -1,0 +1,80 @@
+//! Hard edges that were not there before.
+
+use super::origins::Origins;
+use super::rules::{Element, Findings, Rule};
+use super::surface::{HalfEdge, Surface};
+
+/// Every hard edge is one of the source's, between the same two triangles; where some of those are
+/// not found, one that is not between two that are may be theirs. Where a chamfer tapers
+/// to a point on a hard edge, both normals are left at that point, and edges of new triangles may
+/// be hard at that end.
+pub(super) fn check_hard_edges(
+    before: &Surface,
+    after: &Surface,
+    origins: &Origins,
+    findings: &mut Findings,
+) {
+    let hard_before = hard_corners(before);
+    let is_crease = creases(after, origins);
+    for edge in after.edges().filter(|edge| after.is_hard(edge)) {
+        let ([forward], [backward]) = edge else { continue };
+        let is_old = match [forward, backward].map(|side| source_side(side, origins)) {
+            [Some(one), Some(other)] => {
+                hard_before[one as usize] && hard_before[other as usize]
+                    || parted_before(before, one, other)
+            }
+            _ if findings.lost > 0 => true,
+            _ => [0, 1].iter().all(|&end| {
+                let corners = [forward.corners[end], backward.corners[1 - end]];
+                after.share_normal(corners) || is_crease[after.cluster(corners[0]) as usize]
+            }),
+        };
+        if !is_old {
+            findings.note(Rule::HardEdges, Element::Edge(forward.clusters[0], forward.clusters[1]));
+        }
+    }
+}
+
+/// The first corner of the source's half-edge that this one was.
+fn source_side(half_edge: &HalfEdge, origins: &Origins) -> Option<u32> {
+    let [from, to] = half_edge.corners;
+    let corners = origins.triangles[from as usize / 3]?;
+    let [from, to] = [from, to].map(|corner| corners[corner as usize % 3]);
+    // A triangle that turned over runs the other way.
+    let next = if from % 3 == 2 { from - 2 } else { from + 1 };
+    Some(if next == to { from } else { to })
+}
+
+/// Whether two half-edges of the source lay on each other with different normals, be it among
+/// others.
+fn parted_before(before: &Surface, one: u32, other: u32) -> bool {
+    let next = |corner: u32| if corner % 3 == 2 { corner - 2 } else { corner + 1 };
+    let ends = [[one, next(other)], [next(one), other]];
+    ends.iter().all(|[a, b]| before.cluster(*a) == before.cluster(*b))
+        && ends.iter().any(|&pair| !before.share_normal(pair))
+}
+
+/// `#corners`: whether the half-edge that starts there is a side of a hard edge.
+fn hard_corners(surface: &Surface) -> Vec<bool> {
+    let mut hard = vec![false; surface.mesh.indices.len()];
+    for (forward, backward) in surface.edges().filter(|edge| surface.is_hard(edge)) {
+        for half_edge in forward.iter().chain(backward) {
+            hard[half_edge.corners[0] as usize] = true;
+        }
+    }
+    hard
+}
+
+/// `#clusters`: whether the source's triangles there have different normals.
+fn creases(after: &Surface, origins: &Origins) -> Vec<bool> {
+    let mut first = vec![None; after.mesh.positions.len()];
+    let mut is_crease = vec![false; first.len()];
+    for (triangle, _) in (0u32..).zip(&origins.triangles).filter(|(_, source)| source.is_some()) {
+        for corner in 3 * triangle..3 * triangle + 3 {
+            let cluster = after.cluster(corner) as usize;
+            let other = *first[cluster].get_or_insert(corner);
+            is_crease[cluster] |= !after.share_normal([corner, other]);
+        }
+    }
+    is_crease
+}

@@ -1,0 +1,131 @@
+//! Verdicts against the mesh that they are about.
+
+use super::rules::{Element, Findings, Rule};
+use super::surface::{HalfEdge, Surface};
+use super::widths::{MeasuredEdge, Ruler};
+use crate::mesh::Mesh;
+use crate::report::{Chamfered, EdgeVerdict, Outcome, TriangleKind};
+
+/// How far a verdict's width may be off the measured one, as a share of the width asked for:
+/// rounding in a few places, far below what could be seen.
+const WIDTH_TOLERANCE: f64 = 1e-4;
+
+/// Each new triangle names a verdict or source vertex that exists, and the totals are those of the
+/// verdicts.
+pub(super) fn check_counts(before: &Mesh, after: &Chamfered, findings: &mut Findings) {
+    for (triangle, source) in (0u32..).zip(&after.triangle_sources) {
+        let count = match source.kind {
+            TriangleKind::Source => before.indices.len() / 3,
+            TriangleKind::Edge => after.verdicts.len(),
+            TriangleKind::Corner => before.positions.len(),
+        };
+        if source.index as usize >= count {
+            findings.note(Rule::Verdicts, Element::Triangle(triangle));
+        }
+    }
+    let with = |outcome: Outcome| {
+        after.verdicts.iter().filter(|verdict| verdict.outcome == outcome).count() as u32
+    };
+    let totals = &after.totals;
+    let add_up = totals.hard_edges as usize == after.verdicts.len()
+        && totals.chamfered == with(Outcome::Full)
+        && totals.narrowed == with(Outcome::Narrowed)
+        && totals.skipped.iter().sum::<u32>() == with(Outcome::Skipped);
+    if !add_up {
+        findings.note(Rule::Verdicts, Element::Mesh);
+    }
+}
+
+/// Verdicts against strips and measured widths.
+pub(super) fn check_verdicts(ruler: &Ruler, after: &Chamfered, findings: &mut Findings) {
+    let mut strips = vec![0_u32; after.verdicts.len()];
+    for source in after.triangle_sources.iter().filter(|s| s.kind == TriangleKind::Edge) {
+        if let Some(strips) = strips.get_mut(source.index as usize) {
+            *strips += 1;
+        }
+    }
+    let sides = Sides::new(ruler.before);
+    let tolerance = ruler.before.rounding() + WIDTH_TOLERANCE * f64::from(after.width);
+    for (verdict, strips) in after.verdicts.iter().zip(strips) {
+        let element = Element::SourceEdge(verdict.vertices[0], verdict.vertices[1]);
+        if (verdict.outcome == Outcome::Skipped) != (strips == 0) {
+            findings.note(Rule::Verdicts, element);
+        }
+        if !sides.agree(verdict, ruler, tolerance) {
+            findings.note(Rule::Widths, element);
+        }
+    }
+    if after.width > 0.0 {
+        sides.check_complete(&after.verdicts, findings);
+    }
+}
+
+/// The sides of the source's edges, by their vertices.
+struct Sides<'a> {
+    surface: &'a Surface<'a>,
+    edges: Vec<(&'a [HalfEdge], &'a [HalfEdge])>,
+    /// Sorted: the vertices of each half-edge, and its edge.
+    edge_of: Vec<([u32; 2], u32)>,
+}
+
+impl<'a> Sides<'a> {
+    fn new(surface: &'a Surface<'a>) -> Sides<'a> {
+        let edges: Vec<_> = surface.edges().collect();
+        let mut edge_of = Vec::with_capacity(surface.mesh.indices.len());
+        for (edge, (forward, backward)) in (0u32..).zip(&edges) {
+            for half_edge in forward.iter().chain(*backward) {
+                edge_of.push((vertices(surface, half_edge), edge));
+            }
+        }
+        edge_of.sort_unstable();
+        edge_of.dedup();
+        Sides { surface, edges, edge_of }
+    }
+
+    /// Whether a verdict's widths are those of its edge. Where more than two triangles meet, those
+    /// of any two that may be its sides.
+    fn agree(&self, verdict: &EdgeVerdict, ruler: &Ruler, tolerance: f64) -> bool {
+        let place = self.edge_of.partition_point(|(vertices, _)| *vertices < verdict.vertices);
+        let Some(&(_, edge)) = self.edge_of.get(place).filter(|(v, _)| *v == verdict.vertices)
+        else {
+            return false;
+        };
+        let (forward, backward) = self.edges[edge as usize];
+        let pairs = forward.iter().flat_map(|one| backward.iter().map(move |other| [one, other]));
+        let both_ways = pairs.flat_map(|[one, other]| [[one, other], [other, one]]);
+        both_ways
+            .filter(|[one, _]| vertices(self.surface, one) == verdict.vertices)
+            .filter_map(|[one, other]| ruler.measure(one, other))
+            .any(|measured| agrees(verdict, &measured, tolerance))
+    }
+
+    /// Every hard edge between exactly two triangles has a verdict.
+    fn check_complete(&self, verdicts: &[EdgeVerdict], findings: &mut Findings) {
+        let mut told: Vec<[u32; 2]> = verdicts.iter().map(|verdict| verdict.vertices).collect();
+        told.sort_unstable();
+        for edge in self.edges.iter().filter(|edge| self.surface.is_hard(edge)) {
+            let ([forward], [backward]) = edge else { continue };
+            let is_whole = |half_edge: &HalfEdge| !self.surface.is_collapsed(half_edge.corners[0]);
+            let sides = [forward, backward].map(|side| vertices(self.surface, side));
+            if is_whole(forward)
+                && is_whole(backward)
+                && sides.iter().all(|side| told.binary_search(side).is_err())
+            {
+                findings.note(Rule::Verdicts, Element::SourceEdge(sides[0][0], sides[0][1]));
+            }
+        }
+    }
+}
+
+fn vertices(surface: &Surface, half_edge: &HalfEdge) -> [u32; 2] {
+    half_edge.corners.map(|corner| surface.mesh.indices[corner as usize])
+}
+
+fn agrees(verdict: &EdgeVerdict, measured: &MeasuredEdge, tolerance: f64) -> bool {
+    if verdict.outcome == Outcome::Skipped {
+        return verdict.widths == [0.0; 2] && !measured.is_chamfered();
+    }
+    verdict.widths.iter().zip(measured.distances).all(|(&told, [one, other])| {
+        (f64::from(told) - (f64::from(one) + f64::from(other)) / 2.0).abs() <= tolerance
+    })
+}

@@ -1,0 +1,87 @@
+//! How wide chamfers are, measured on the mesh: how far the sides of each old edge were pulled.
+
+use glam::DVec3;
+
+use super::origins::Origins;
+use super::surface::{HalfEdge, Surface};
+
+/// A hard edge of the source with two sides, measured in the result.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MeasuredEdge {
+    /// The source vertices at its ends, on the side of the first triangle that uses it.
+    pub vertices: [u32; 2],
+    /// Its length, in mesh units.
+    pub length: f32,
+    /// `#ends by #sides`: how far the corner of the side's triangle is from the line of the old
+    /// edge, in mesh units.
+    pub distances: [[f32; 2]; 2],
+    /// `#ends`: whether the two sides are at different positions there.
+    pub is_open: [bool; 2],
+}
+
+impl MeasuredEdge {
+    /// At each end, the mean distance of the two sides from the line of the old edge, in mesh
+    /// units; 0 where the sides did not come apart.
+    pub fn widths(&self) -> [f32; 2] {
+        [0, 1].map(|end| {
+            let [one, other] = self.distances[end];
+            if self.is_open[end] { (one + other) / 2.0 } else { 0.0 }
+        })
+    }
+
+    /// Whether there is a chamfer in its place.
+    pub fn is_chamfered(&self) -> bool {
+        self.is_open != [false; 2]
+    }
+}
+
+/// The corners of a source mesh in the result.
+pub(super) struct Ruler<'a> {
+    pub before: &'a Surface<'a>,
+    after: &'a Surface<'a>,
+    /// `#source corners`.
+    corner_after: Vec<Option<u32>>,
+}
+
+impl<'a> Ruler<'a> {
+    pub fn new([before, after]: &'a [Surface<'a>; 2], origins: &Origins) -> Self {
+        let corner_after = origins.corners_after(before.mesh.indices.len());
+        Ruler { before, after, corner_after }
+    }
+
+    /// The hard edges with exactly two sides, in the order of their first corners.
+    pub fn measure_all(&self) -> Vec<MeasuredEdge> {
+        let mut edges = Vec::new();
+        for edge in self.before.edges().filter(|edge| self.before.is_hard(edge)) {
+            let ([forward], [backward]) = edge else { continue };
+            let first = forward.corners[0].min(backward.corners[0]);
+            let (one, other) =
+                if first == forward.corners[0] { (forward, backward) } else { (backward, forward) };
+            edges.extend(self.measure(one, other).map(|measured| (first, measured)));
+        }
+        edges.sort_unstable_by_key(|(first, _)| *first);
+        edges.into_iter().map(|(_, measured)| measured).collect()
+    }
+
+    /// Measures an edge between two opposite half-edges of the source; none where one's triangle
+    /// was not found.
+    pub fn measure(&self, one: &HalfEdge, other: &HalfEdge) -> Option<MeasuredEdge> {
+        let ends = one.corners.map(|corner| self.before.position(corner));
+        let along = (ends[1] - ends[0]).normalize_or_zero();
+        let distance = |point: DVec3| (point - ends[0]).cross(along).length() as f32;
+        let mut measured = MeasuredEdge {
+            vertices: one.corners.map(|corner| self.before.mesh.indices[corner as usize]),
+            length: ends[0].distance(ends[1]) as f32,
+            distances: [[0.0; 2]; 2],
+            is_open: [false; 2],
+        };
+        for end in 0..2 {
+            let corners = [one.corners[end], other.corners[1 - end]];
+            let [a, b] = corners.map(|corner| self.corner_after[corner as usize]);
+            let points = [a?, b?].map(|corner| self.after.position(corner));
+            measured.distances[end] = points.map(distance);
+            measured.is_open[end] = points[0] != points[1];
+        }
+        Some(measured)
+    }
+}
