@@ -56,6 +56,9 @@ pub fn middle(points: &[DVec3], places: &[usize]) -> DVec3 {
 /// The loops of distinct points in a ring. Sectors that do not move stand at one point: there the
 /// ring touches itself, and each part of it is a hole of its own.
 fn holes(points: &[DVec3]) -> Vec<Vec<usize>> {
+    if are_distinct(points) {
+        return vec![(0..points.len()).collect()];
+    }
     let mut holes = Vec::new();
     let mut path: Vec<usize> = Vec::new();
     for place in 0..points.len() {
@@ -73,6 +76,13 @@ fn holes(points: &[DVec3]) -> Vec<Vec<usize>> {
         holes.push(path);
     }
     holes
+}
+
+fn are_distinct(points: &[DVec3]) -> bool {
+    let mut sorted: Vec<[u64; 3]> =
+        points.iter().map(|point| point.to_array().map(|along| (along + 0.0).to_bits())).collect();
+    sorted.sort_unstable();
+    sorted.windows(2).all(|pair| pair[0] != pair[1])
 }
 
 /// One hole: places in a ring of points, counter-clockwise seen from outside.

@@ -32,6 +32,10 @@ const GROW_STEPS: usize = 6;
 /// A neighbour's growth can make room, or take it: twice around settles nearly everything.
 const GROW_PASSES: usize = 2;
 
+/// Every try of one sector looks at the fill of its whole ring: in a longer one, growing each would
+/// take quadratic time.
+const LONGEST_GROWN: usize = 64;
+
 /// What each sector gets.
 pub struct Limits {
     pub placement: Placement,
@@ -84,7 +88,7 @@ fn shrink(plan: &Plan, limits: &mut Limits, mut suspects: Vec<Element>) {
                     Element::Surface(_) => Reason::NoRoom,
                     Element::Strip(_) | Element::Fill(_) => Reason::Folds,
                 };
-                blame(plan, limits, element, reason, round, &mut shrunk);
+                blame(plan, limits, element, reason, &mut shrunk);
             }
         }
         if shrunk.is_empty() {
@@ -96,14 +100,36 @@ fn shrink(plan: &Plan, limits: &mut Limits, mut suspects: Vec<Element>) {
     }
 }
 
-/// Shrinks sectors, each once.
+/// Shrinks sectors, each once; after some rounds to nothing, together with their whole rings.
 fn apply(plan: &Plan, limits: &mut Limits, round: usize, shrunk: &mut Vec<Sector>) {
     shrunk.sort_unstable();
     shrunk.dedup();
+    if round >= SHRINK_ROUNDS {
+        spread_over_rings(plan, limits, shrunk);
+    }
     for &sector in shrunk.iter() {
         let share = limits.placement.share[sector];
         let smaller = if round < SHRINK_ROUNDS { share * SHRINK } else { 0.0 };
         limits.placement.set(plan, sector, smaller);
+    }
+}
+
+/// Adds to the sectors all others of their rings that have moved, for the same reason.
+fn spread_over_rings(plan: &Plan, limits: &mut Limits, shrunk: &mut Vec<Sector>) {
+    let mut rings: Vec<(Ring, Reason)> = shrunk
+        .iter()
+        .map(|&sector| (plan.sectors.fans[sector].ring, limits.reason[sector]))
+        .collect();
+    rings.sort_unstable();
+    rings.dedup_by_key(|(ring, _)| *ring);
+    shrunk.clear();
+    for (ring, reason) in rings {
+        for &sector in plan.sectors.ring(ring) {
+            if limits.placement.share[sector] > 0.0 {
+                limits.reason[sector] = reason;
+                shrunk.push(sector);
+            }
+        }
     }
 }
 
@@ -121,23 +147,18 @@ fn is_touched(plan: &Plan, triangle: Triangle) -> bool {
     triangle.corners().iter().any(|&corner| plan.sectors.sector_of[corner].is_some())
 }
 
-/// Notes the sectors that a bad element depends on; in the end those of their whole rings.
+/// Notes the sectors that a bad element depends on.
 fn blame(
     plan: &Plan,
     limits: &mut Limits,
     element: Element,
     reason: Reason,
-    round: usize,
     shrunk: &mut Vec<Sector>,
 ) {
     for sector in sectors_of(plan, element) {
-        let ring = plan.sectors.ring(plan.sectors.fans[sector].ring);
-        let one = [sector];
-        for &blamed in if round >= SHRINK_ROUNDS { ring } else { &one } {
-            if limits.placement.share[blamed] > 0.0 {
-                limits.reason[blamed] = reason;
-                shrunk.push(blamed);
-            }
+        if limits.placement.share[sector] > 0.0 {
+            limits.reason[sector] = reason;
+            shrunk.push(sector);
         }
     }
 }
@@ -218,7 +239,11 @@ pub fn fill(plan: &Plan, placement: &Placement, ring: Ring) -> Option<corners::F
 /// Gives back to every sector that was shrunk, up to its room, as much as it can take with all
 /// others where they are.
 fn grow(plan: &Plan, room: &IdVec<Sector, f64>, limits: &mut Limits) {
-    for sector in room.ids().filter(|&sector| plan.offsets[sector].moves()) {
+    let may_grow = |sector: &Sector| {
+        let ring = plan.sectors.ring(plan.sectors.fans[*sector].ring);
+        plan.offsets[*sector].moves() && ring.len() <= LONGEST_GROWN
+    };
+    for sector in room.ids().filter(may_grow) {
         let (mut good, mut bad) = (limits.placement.share[sector], room[sector]);
         if good == bad {
             continue;

@@ -24,7 +24,7 @@ pub fn resolve(plan: &Plan, limits: &mut Limits) {
     for round in 0.. {
         let mut shrunk = Vec::new();
         for element in search.new_cuts(limits) {
-            blame(plan, limits, element, Reason::Intersects, round, &mut shrunk);
+            blame(plan, limits, element, Reason::Intersects, &mut shrunk);
         }
         if shrunk.is_empty() {
             break;
