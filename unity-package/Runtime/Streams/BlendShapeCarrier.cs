@@ -1,0 +1,39 @@
+using System;
+using Chamfer.Interop;
+using UnityEngine;
+
+namespace Chamfer.Streams
+{
+    /// <summary>Blends what each blend shape adds from the source vertices that each vertex came from.</summary>
+    internal static class BlendShapeCarrier
+    {
+        internal static BlendShapeFrame[] Carry(BlendShapeFrame[] frames, NativeVertexSource[] sources)
+        {
+            return Array.ConvertAll(frames, frame => new BlendShapeFrame
+            {
+                Shape = frame.Shape,
+                Weight = frame.Weight,
+                Positions = Carry(frame.Positions, sources),
+                Normals = Carry(frame.Normals, sources),
+                Tangents = Carry(frame.Tangents, sources)
+            });
+        }
+
+        private static Vector3[] Carry(Vector3[] deltas, NativeVertexSource[] sources)
+        {
+            return Array.ConvertAll(sources, source => Blend(deltas, source.Surface));
+        }
+
+        private static unsafe Vector3 Blend(Vector3[] deltas, NativeBlend blend)
+        {
+            int vertex;
+            if (blend.IsOne(out vertex)) { return deltas[vertex]; }
+            var sum = new Vector3();
+            for (int i = 0; i < NativeBlend.Count; i++)
+            {
+                if (blend.Weights[i] != 0) { sum += deltas[blend.Vertices[i]] * blend.Weights[i]; }
+            }
+            return sum;
+        }
+    }
+}
