@@ -79,6 +79,19 @@ namespace UnityEngine
             if (Read(uvs[channel]) != null) { values.AddRange((T[])uvs[channel]); }
         }
 
+        public void Clear()
+        {
+            positions = normalValues = new Vector3[0];
+            tangentValues = new Vector4[0];
+            colorValues = new Color[0];
+            bonesPerVertex = new byte[0];
+            boneWeightValues = new BoneWeight1[0];
+            Array.Clear(uvs, 0, uvs.Length);
+            submeshes = new[] { new Submesh { Indices = new int[0] } };
+        }
+
+        public void ClearBlendShapes() { frames.Clear(); }
+
         public bool HasVertexAttribute(VertexAttribute attribute)
         {
             switch (attribute)

@@ -5,7 +5,7 @@ using UnityEngine.Rendering;
 
 namespace Chamfer.Streams
 {
-    /// <summary>Makes a new mesh of arrays, on the main thread.</summary>
+    /// <summary>Writes arrays to meshes, on the main thread.</summary>
     internal static class MeshWriter
     {
         /// <summary>The most vertices that 16-bit indices reach: Unity keeps the last one for itself.</summary>
@@ -14,6 +14,20 @@ namespace Chamfer.Streams
         internal static Mesh Write(MeshArrays arrays)
         {
             var mesh = new Mesh { name = arrays.Name };
+            Fill(mesh, arrays);
+            return mesh;
+        }
+
+        /// <summary>Replaces everything that a mesh holds: importers know their meshes by identity.</summary>
+        internal static void Overwrite(Mesh mesh, MeshArrays arrays)
+        {
+            mesh.Clear();
+            mesh.ClearBlendShapes();
+            Fill(mesh, arrays);
+        }
+
+        private static void Fill(Mesh mesh, MeshArrays arrays)
+        {
             mesh.indexFormat = arrays.Positions.Length > MostShortVertices ? IndexFormat.UInt32 : IndexFormat.UInt16;
             WriteVertices(mesh, arrays);
             WriteSubmeshes(mesh, arrays.Submeshes);
@@ -23,7 +37,6 @@ namespace Chamfer.Streams
                 mesh.AddBlendShapeFrame(frame.Shape, frame.Weight, frame.Positions, frame.Normals, frame.Tangents);
             }
             WriteBounds(mesh, arrays.Bounds);
-            return mesh;
         }
 
         private static void WriteVertices(Mesh mesh, MeshArrays arrays)
