@@ -13,15 +13,11 @@ namespace Chamfer.Streams
             {
                 Shape = frame.Shape,
                 Weight = frame.Weight,
-                Positions = Carry(frame.Positions, sources),
-                Normals = Carry(frame.Normals, sources),
-                Tangents = Carry(frame.Tangents, sources)
+                Positions = Array.ConvertAll(sources, source => Blend(frame.Positions, source.Surface)),
+                Normals = Array.ConvertAll(sources, source => Blend(frame.Normals, source.Surface)),
+                // Tangents follow the texture.
+                Tangents = Array.ConvertAll(sources, source => Blend(frame.Tangents, source.Chart))
             });
-        }
-
-        private static Vector3[] Carry(Vector3[] deltas, NativeVertexSource[] sources)
-        {
-            return Array.ConvertAll(sources, source => Blend(deltas, source.Surface));
         }
 
         private static unsafe Vector3 Blend(Vector3[] deltas, NativeBlend blend)
