@@ -1,0 +1,96 @@
+// Unity's objects and components, as far as the package uses them.
+using System;
+using System.Collections.Generic;
+
+namespace UnityEngine
+{
+    public class Object
+    {
+        public string name { get; set; }
+        public bool destroyed;
+        public static void DestroyImmediate(Object target) { target.destroyed = true; }
+        public static bool operator ==(Object a, Object b)
+        {
+            bool noA = ReferenceEquals(a, null) || a.destroyed, noB = ReferenceEquals(b, null) || b.destroyed;
+            return noA || noB ? noA && noB : ReferenceEquals(a, b);
+        }
+        public static bool operator !=(Object a, Object b) { return !(a == b); }
+        public static implicit operator bool(Object target) { return target != null; }
+        public override bool Equals(object other) { return ReferenceEquals(this, other); }
+        public override int GetHashCode() { return base.GetHashCode(); }
+    }
+
+    [AttributeUsage(AttributeTargets.Field)]
+    public class TooltipAttribute : Attribute { public TooltipAttribute(string text) { } }
+}
+
+namespace UnityEngine
+{
+    [AttributeUsage(AttributeTargets.Field)]
+    public class SerializeField : Attribute { }
+
+    public class DisallowMultipleComponent : Attribute { }
+
+    public class AddComponentMenu : Attribute { public AddComponentMenu(string path) { } }
+
+    [Flags]
+    public enum HideFlags { None = 0, NotEditable = 8 }
+
+    public class ScriptableObject : Object { public HideFlags hideFlags { get; set; } }
+
+    public class Transform : Component { public Matrix4x4 localToWorldMatrix { get { return Matrix4x4.identity; } } }
+
+    public class Component : Object
+    {
+        public GameObject gameObject { get; internal set; }
+        public Transform transform { get { return gameObject.transform; } }
+    }
+
+    public class MonoBehaviour : Component { }
+    public class MeshFilter : Component { public Mesh sharedMesh { get; set; } }
+    public class SkinnedMeshRenderer : Component { public Mesh sharedMesh { get; set; } }
+
+    public class GameObject : Object
+    {
+        private readonly List<Component> components = new List<Component>();
+        public readonly List<GameObject> children = new List<GameObject>();
+        public Transform transform { get; private set; }
+        public GameObject(string name) { this.name = name; transform = AddComponent<Transform>(); }
+
+        public T AddComponent<T>() where T : Component, new()
+        {
+            var component = new T { name = name };
+            component.gameObject = this;
+            components.Add(component);
+            return component;
+        }
+
+        public T[] GetComponents<T>()
+        {
+            var found = new List<T>();
+            foreach (object component in components) { if (component is T) { found.Add((T)component); } }
+            return found.ToArray();
+        }
+
+        public T[] GetComponentsInChildren<T>(bool includeInactive)
+        {
+            var found = new List<T>(GetComponents<T>());
+            foreach (var child in children) { found.AddRange(child.GetComponentsInChildren<T>(includeInactive)); }
+            return found.ToArray();
+        }
+    }
+
+    public static class Debug
+    {
+        public static readonly List<string> logged = new List<string>();
+        public static void Log(object message) { logged.Add("" + message); }
+        public static void LogError(object message) { logged.Add("error: " + message); }
+    }
+
+    public class GUILayoutOption { }
+
+    public static class GUILayout
+    {
+        public static bool Button(string text, params GUILayoutOption[] options) { return false; }
+    }
+}

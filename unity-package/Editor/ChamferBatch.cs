@@ -1,0 +1,91 @@
+using System;
+using System.Collections.Generic;
+using System.Globalization;
+using Chamfer;
+using UnityEditor;
+using UnityEngine;
+using Object = UnityEngine.Object;
+
+namespace ChamferEditor
+{
+    /// <summary>
+    /// For build machines: <c>Unity -batchmode -quit -projectPath P -executeMethod ChamferEditor.ChamferBatch.Run
+    /// -chamferFolder Assets/Props [-chamferWidth 0.02 | -chamferWidthPercent 1]</c>.
+    /// </summary>
+    public static class ChamferBatch
+    {
+        private const int Succeeded = 0;
+        private const int SomeFailed = 1;
+        private const int BadArguments = 2;
+
+        /// <summary>
+        /// Chamfers all prefabs of a folder and ends the editor: 0 if all went well, 1 if a mesh could not be
+        /// chamfered, 2 if the arguments make no sense.
+        /// </summary>
+        public static void Run()
+        {
+            EditorApplication.Exit(Run(Environment.GetCommandLineArgs()));
+        }
+
+        internal static int Run(string[] arguments)
+        {
+            try
+            {
+                var settings = Settings(arguments);
+                return ChamferFolder(Value(arguments, "-chamferFolder"), settings);
+            }
+            catch (ArgumentException exception)
+            {
+                Debug.LogError(exception.Message);
+                return BadArguments;
+            }
+        }
+
+        private static int ChamferFolder(string folder, ChamferSettings settings)
+        {
+            if (folder == null || !AssetDatabase.IsValidFolder(folder))
+            {
+                throw new ArgumentException("Name a folder of the project with -chamferFolder, such as Assets/Props");
+            }
+            var selection = new ChamferSelection(Prefabs(folder));
+            string summary = selection.Chamfer(settings);
+            Debug.Log("Chamfer: " + summary);
+            return selection.HasFailed || summary == null ? SomeFailed : Succeeded;
+        }
+
+        private static List<Object> Prefabs(string folder)
+        {
+            var prefabs = new List<Object>();
+            foreach (string guid in AssetDatabase.FindAssets("t:Prefab", new[] { folder }))
+            {
+                prefabs.Add(AssetDatabase.LoadAssetAtPath<GameObject>(AssetDatabase.GUIDToAssetPath(guid)));
+            }
+            return prefabs;
+        }
+
+        private static ChamferSettings Settings(string[] arguments)
+        {
+            var settings = ChamferProjectSettings.instance.settings;
+            ReadWidth(arguments, "-chamferWidth", WidthUnit.MeshUnits, ref settings);
+            ReadWidth(arguments, "-chamferWidthPercent", WidthUnit.PercentOfExtent, ref settings);
+            return settings;
+        }
+
+        private static void ReadWidth(string[] arguments, string name, WidthUnit unit, ref ChamferSettings settings)
+        {
+            string text = Value(arguments, name);
+            if (text == null) { return; }
+            settings.unit = unit;
+            if (!float.TryParse(text, NumberStyles.Float, CultureInfo.InvariantCulture, out settings.width))
+            {
+                throw new ArgumentException(name + " needs a number, not '" + text + "'");
+            }
+        }
+
+        private static string Value(string[] arguments, string name)
+        {
+            int place = Array.IndexOf(arguments, name);
+            return place >= 0 && place + 1 < arguments.Length ? arguments[place + 1] : null;
+        }
+    }
+}

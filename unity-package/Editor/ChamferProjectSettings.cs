@@ -1,0 +1,33 @@
+using System;
+using System.Collections.Generic;
+using Chamfer;
+using UnityEditor;
+using UnityEngine;
+
+namespace ChamferEditor
+{
+    /// <summary>What Project Settings > Chamfer keeps.</summary>
+    [FilePath("ProjectSettings/ChamferSettings.asset", FilePathAttribute.Location.ProjectFolder)]
+    internal sealed class ChamferProjectSettings : ScriptableSingleton<ChamferProjectSettings>
+    {
+        [Tooltip("For the menu entry, and for models with the label Chamfer.")]
+        [SerializeField] internal ChamferSettings settings = ChamferSettings.Default;
+
+        [Tooltip("Models in these folders are chamfered when they are imported.")]
+        [SerializeField] internal List<FolderRule> folders = new List<FolderRule>();
+
+        internal void Write()
+        {
+            Save(true);
+        }
+    }
+
+    /// <summary>A folder whose models are chamfered.</summary>
+    [Serializable]
+    internal struct FolderRule
+    {
+        [Tooltip("Such as Assets/Models.")]
+        public string folder;
+        public ChamferSettings settings;
+    }
+}

@@ -1,0 +1,30 @@
+using UnityEditor;
+using UnityEngine;
+
+namespace ChamferEditor
+{
+    /// <summary>The page Project Settings > Chamfer.</summary>
+    internal static class ChamferSettingsPage
+    {
+        [SettingsProvider]
+        private static SettingsProvider Create()
+        {
+            return new SettingsProvider("Project/Chamfer", SettingsScope.Project, new[] { "chamfer", "bevel", "mesh" })
+            {
+                guiHandler = search => Draw()
+            };
+        }
+
+        private static void Draw()
+        {
+            var settings = ChamferProjectSettings.instance;
+            // Unity makes singletons of this kind not editable.
+            settings.hideFlags &= ~HideFlags.NotEditable;
+            var serialized = new SerializedObject(settings);
+            EditorGUILayout.PropertyField(serialized.FindProperty("settings"), true);
+            EditorGUILayout.PropertyField(serialized.FindProperty("folders"), true);
+            EditorGUILayout.HelpBox("Models that are imported already change when they are imported again.", MessageType.Info);
+            if (serialized.ApplyModifiedProperties()) { settings.Write(); }
+        }
+    }
+}

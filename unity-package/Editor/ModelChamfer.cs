@@ -1,0 +1,57 @@
+using System;
+using System.Collections.Generic;
+using System.Threading;
+using Chamfer;
+using Chamfer.Streams;
+using UnityEditor;
+using UnityEngine;
+
+namespace ChamferEditor
+{
+    /// <summary>Chamfers models when they are imported, if a label or a folder asks for it.</summary>
+    internal sealed class ModelChamfer : AssetPostprocessor
+    {
+        /// <summary>Raise it when the same model comes out otherwise, so that Unity imports it again.</summary>
+        private const uint Version = 1;
+
+        public override uint GetVersion()
+        {
+            return Version;
+        }
+
+        private void OnPostprocessModel(GameObject root)
+        {
+            try
+            {
+                ChamferSettings settings;
+                if (TryFindSettings(out settings)) { Process(root, settings, context.LogImportWarning); }
+            }
+            // An import must never break because of a chamfer.
+            catch (Exception exception) { context.LogImportWarning("Not chamfered: " + exception.Message, root); }
+        }
+
+        /// <summary>Chamfers each mesh below the root in place; tells what could not be.</summary>
+        internal static void Process(GameObject root, ChamferSettings settings, Action<string, UnityEngine.Object> warn)
+        {
+            var done = new HashSet<Mesh>();
+            foreach (var slot in MeshSlot.In(root, true))
+            {
+                var mesh = slot.Mesh;
+                if (!done.Add(mesh)) { continue; }
+                try
+                {
+                    var result = ArrayChamfer.Run(MeshReader.Read(mesh), settings, null, CancellationToken.None);
+                    MeshWriter.Overwrite(mesh, result.Mesh);
+                }
+                catch (ChamferException exception) { warn("Not chamfered: " + exception.Message, mesh); }
+            }
+        }
+
+        private bool TryFindSettings(out ChamferSettings settings)
+        {
+            var project = ChamferProjectSettings.instance;
+            var labels = AssetDatabase.GetLabels(AssetDatabase.GUIDFromAssetPath(assetPath));
+            return ImportRule.TryFind(assetPath, labels, project.settings, project.folders, out settings);
+        }
+    }
+}

@@ -1,0 +1,100 @@
+using System.Collections.Generic;
+using Chamfer;
+using UnityEditor;
+using UnityEngine;
+
+namespace ChamferEditor
+{
+    /// <summary>What the buttons of the modifier's inspector do.</summary>
+    internal static class ModifierActions
+    {
+        private const string ChamferName = "Chamfer";
+        private const string RevertName = "Revert Chamfer";
+
+        /// <summary>Milliseconds that a preview may take before it shows progress.</summary>
+        private const double Patience = 500;
+
+        /// <summary>Chamfers the originals with the modifier's settings; returns what went wrong.</summary>
+        internal static IReadOnlyList<string> Chamfer(ChamferModifier modifier)
+        {
+            var slots = MeshSlot.In(modifier.gameObject, modifier.includeChildren);
+            slots.RemoveAll(slot => SlotEditing.IsImported(slot.Holder));
+            var originals = slots.ConvertAll(slot => Original(modifier, slot));
+            var job = new ChamferJob(Patience);
+            if (!job.Run(originals, modifier.settings)) { return new string[0]; }
+            // Results of the last time are no originals of the next, also where children are left out now.
+            Restore(modifier, ChamferName);
+            Apply(modifier, slots, originals, job);
+            return job.Failures;
+        }
+
+        /// <summary>Puts the original meshes back.</summary>
+        internal static void Revert(ChamferModifier modifier)
+        {
+            Restore(modifier, RevertName);
+            SlotEditing.Changed(modifier);
+        }
+
+        /// <summary>Saves the chamfered meshes as files in a folder of the project; returns their paths.</summary>
+        internal static List<string> Save(ChamferModifier modifier, string folder)
+        {
+            var paths = new List<string>();
+            foreach (var entry in modifier.meshes)
+            {
+                if (entry.chamfered == null || AssetDatabase.Contains(entry.chamfered)) { continue; }
+                string path = AssetDatabase.GenerateUniqueAssetPath(folder + "/" + FileName(entry.chamfered) + ".asset");
+                AssetDatabase.CreateAsset(entry.chamfered, path);
+                paths.Add(path);
+            }
+            AssetDatabase.SaveAssets();
+            return paths;
+        }
+
+        /// <summary>The mesh that a slot held before this modifier.</summary>
+        internal static Mesh Original(ChamferModifier modifier, MeshSlot slot)
+        {
+            var current = slot.Mesh;
+            int known = modifier.meshes.FindIndex(entry => entry.holder == slot.Holder);
+            bool isOurs = known >= 0 && modifier.meshes[known].chamfered == current;
+            return isOurs && modifier.meshes[known].original != null ? modifier.meshes[known].original : current;
+        }
+
+        private static void Restore(ChamferModifier modifier, string action)
+        {
+            Undo.RecordObject(modifier, action);
+            foreach (var entry in modifier.meshes)
+            {
+                if (entry.holder == null || entry.original == null) { continue; }
+                var slot = MeshSlot.Of(entry.holder);
+                // A mesh that someone else has put there since is theirs.
+                if (slot.Mesh == entry.chamfered) { SlotEditing.Set(slot, entry.original, action); }
+            }
+            modifier.meshes.Clear();
+        }
+
+        private static void Apply(ChamferModifier modifier, List<MeshSlot> slots, List<Mesh> originals, ChamferJob job)
+        {
+            var kept = new HashSet<Mesh>();
+            for (int i = 0; i < slots.Count; i++)
+            {
+                ChamferResult result;
+                if (!job.Results.TryGetValue(originals[i], out result)) { continue; }
+                if (kept.Add(result.Mesh)) { SlotEditing.Keep(result.Mesh, slots[i].Holder, ChamferName); }
+                SlotEditing.Set(slots[i], result.Mesh, ChamferName);
+                modifier.meshes.Add(new ChamferedMesh
+                {
+                    holder = slots[i].Holder,
+                    original = originals[i],
+                    chamfered = result.Mesh,
+                    report = result.Report
+                });
+            }
+            SlotEditing.Changed(modifier);
+        }
+
+        private static string FileName(Mesh mesh)
+        {
+            return string.Join("_", mesh.name.Split(System.IO.Path.GetInvalidFileNameChars()));
+        }
+    }
+}

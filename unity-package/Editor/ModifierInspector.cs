@@ -1,0 +1,84 @@
+using System.Collections.Generic;
+using Chamfer;
+using UnityEditor;
+using UnityEngine;
+
+namespace ChamferEditor
+{
+    /// <summary>The inspector of <see cref="ChamferModifier"/>.</summary>
+    [CustomEditor(typeof(ChamferModifier)), CanEditMultipleObjects]
+    internal sealed class ModifierInspector : Editor
+    {
+        private readonly List<string> failures = new List<string>();
+
+        public override void OnInspectorGUI()
+        {
+            bool changed = DrawSettings();
+            DrawButtons();
+            DrawReport();
+            // Settings that nobody has applied yet are no preview: the first click is the user's.
+            if (changed) { ForEach(modifier => { if (modifier.livePreview && modifier.IsApplied) { Chamfer(modifier); } }); }
+        }
+
+        private bool DrawSettings()
+        {
+            serializedObject.Update();
+            Draw("settings.width", "settings.unit", "settings.verify", "settings.submeshMode");
+            var mode = serializedObject.FindProperty("settings.submeshMode");
+            if (mode.intValue == (int)ChamferSubmesh.Given) { Draw("settings.submesh"); }
+            Draw("includeChildren", "livePreview", "showEdges");
+            return serializedObject.ApplyModifiedProperties();
+        }
+
+        private void Draw(params string[] properties)
+        {
+            foreach (string property in properties)
+            {
+                EditorGUILayout.PropertyField(serializedObject.FindProperty(property));
+            }
+        }
+
+        private void DrawButtons()
+        {
+            EditorGUILayout.BeginHorizontal();
+            if (GUILayout.Button("Chamfer")) { ForEach(Chamfer); }
+            if (GUILayout.Button("Revert")) { ForEach(ModifierActions.Revert); }
+            if (GUILayout.Button("Save as Asset")) { Save(); }
+            EditorGUILayout.EndHorizontal();
+        }
+
+        private void DrawReport()
+        {
+            foreach (string failure in failures) { EditorGUILayout.HelpBox(failure, MessageType.Warning); }
+            ForEach(modifier =>
+            {
+                if (modifier.IsApplied) { EditorGUILayout.HelpBox(ReportText.Of(modifier), MessageType.None); }
+            });
+        }
+
+        private void OnSceneGUI()
+        {
+            var modifier = (ChamferModifier)target;
+            if (modifier.showEdges) { VerdictOverlay.Draw(modifier); }
+        }
+
+        private void Chamfer(ChamferModifier modifier)
+        {
+            failures.Clear();
+            failures.AddRange(ModifierActions.Chamfer(modifier));
+        }
+
+        private void Save()
+        {
+            string folder = EditorUtility.SaveFolderPanel("Save chamfered meshes", "Assets", "");
+            string relative = FileUtil.GetProjectRelativePath(folder);
+            if (string.IsNullOrEmpty(relative)) { return; }
+            ForEach(modifier => ModifierActions.Save(modifier, relative));
+        }
+
+        private void ForEach(System.Action<ChamferModifier> action)
+        {
+            foreach (var item in targets) { action((ChamferModifier)item); }
+        }
+    }
+}

@@ -1,0 +1,58 @@
+using System.Text;
+using Chamfer;
+
+namespace ChamferEditor
+{
+    /// <summary>What the inspector says about the meshes of a modifier.</summary>
+    internal static class ReportText
+    {
+        internal static string Of(ChamferModifier modifier)
+        {
+            var text = new StringBuilder();
+            foreach (var entry in modifier.meshes)
+            {
+                if (entry.original == null) { continue; }
+                if (text.Length > 0) { text.Append('\n'); }
+                text.Append(entry.original.name).Append(": ");
+                if (entry.report == null) { text.Append("chamfered earlier"); }
+                else { Append(text, entry.report); }
+            }
+            return text.ToString();
+        }
+
+        private static void Append(StringBuilder text, ChamferReport report)
+        {
+            text.Append(report.VerticesBefore).Append(" -> ").Append(report.VerticesAfter).Append(" vertices, ");
+            text.Append(report.TrianglesBefore).Append(" -> ").Append(report.TrianglesAfter).Append(" triangles; ");
+            text.Append(report.HardEdges).Append(" hard edges, ").Append(report.Chamfered).Append(" at full width");
+            AppendReasons(text, report, EdgeOutcome.Narrowed, "narrowed");
+            AppendReasons(text, report, EdgeOutcome.Skipped, "skipped");
+        }
+
+        private static void AppendReasons(StringBuilder text, ChamferReport report, EdgeOutcome outcome, string name)
+        {
+            for (var reason = EdgeReason.None; reason <= EdgeReason.TooFine; reason++)
+            {
+                int count = report.Count(outcome, reason);
+                if (count == 0) { continue; }
+                text.Append("\n  ").Append(count).Append(' ').Append(name).Append(": ").Append(Reason(reason));
+            }
+        }
+
+        private static string Reason(EdgeReason reason)
+        {
+            switch (reason)
+            {
+                case EdgeReason.NoRoom: return "a face beside has no room";
+                case EdgeReason.Folds: return "the chamfer would fold";
+                case EdgeReason.Miter: return "the corner is too sharp";
+                case EdgeReason.Intersects: return "the chamfer would cut through the mesh";
+                case EdgeReason.NoEnd: return "both ends lie inside smooth areas or on borders";
+                case EdgeReason.ZeroThickness: return "the faces lie back to back";
+                case EdgeReason.NoArea: return "a triangle beside has no area";
+                case EdgeReason.TooFine: return "the width is too small for the precision here";
+                default: return "no reason known";
+            }
+        }
+    }
+}

@@ -1,0 +1,4 @@
+using System.Runtime.CompilerServices;
+
+[assembly: InternalsVisibleTo("Chamfer.Editor")]
+[assembly: InternalsVisibleTo("Chamfer.Tests")]

@@ -1,0 +1,47 @@
+using System;
+using System.Collections.Generic;
+using UnityEngine;
+
+namespace Chamfer
+{
+    /// <summary>
+    /// Remembers how the meshes of an object were chamfered, and what they were before. It does nothing while
+    /// the game runs: its inspector does the work.
+    /// </summary>
+    [DisallowMultipleComponent]
+    [AddComponentMenu("Mesh/Chamfer Modifier")]
+    public sealed class ChamferModifier : MonoBehaviour
+    {
+        [SerializeField] internal ChamferSettings settings = ChamferSettings.Default;
+
+        [SerializeField, Tooltip("Also chamfer the meshes of all children.")]
+        internal bool includeChildren;
+
+        [SerializeField, Tooltip("Chamfer anew whenever a setting changes.")]
+        internal bool livePreview = true;
+
+        [SerializeField, Tooltip("Draw each hard edge in the colour of what became of it.")]
+        internal bool showEdges;
+
+        [SerializeField] internal List<ChamferedMesh> meshes = new List<ChamferedMesh>();
+
+        /// <summary>How the meshes are chamfered.</summary>
+        public ChamferSettings Settings => settings;
+
+        /// <summary>Whether some mesh is chamfered now.</summary>
+        public bool IsApplied => meshes.Count > 0;
+    }
+
+    /// <summary>One mesh that a modifier replaced.</summary>
+    [Serializable]
+    internal struct ChamferedMesh
+    {
+        /// <summary>A <c>MeshFilter</c> or <c>SkinnedMeshRenderer</c>.</summary>
+        public Component holder;
+        public Mesh original;
+        public Mesh chamfered;
+
+        /// <summary>What became of the edges; known until scripts are loaded again.</summary>
+        [NonSerialized] public ChamferReport report;
+    }
+}

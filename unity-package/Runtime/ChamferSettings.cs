@@ -1,0 +1,62 @@
+using System;
+using UnityEngine;
+
+namespace Chamfer
+{
+    /// <summary>What a width is measured in.</summary>
+    public enum WidthUnit
+    {
+        /// <summary>Units of the mesh, before its transform.</summary>
+        MeshUnits = 0,
+        /// <summary>Percent of the largest side of the mesh's box.</summary>
+        PercentOfExtent = 1
+    }
+
+    /// <summary>How thoroughly a result is checked before it is given out.</summary>
+    public enum VerifyMode
+    {
+        /// <summary>Nothing opens, flips or degenerates.</summary>
+        Fast = 0,
+        /// <summary>Also, no part cuts through itself where it did not before.</summary>
+        Full = 1
+    }
+
+    /// <summary>Which submesh the new triangles go to, and so which material they have.</summary>
+    public enum ChamferSubmesh
+    {
+        /// <summary>That of the face whose texture they continue.</summary>
+        Owner = 0,
+        /// <summary>A new one, behind all others.</summary>
+        Own = 1,
+        /// <summary>The one that <see cref="ChamferSettings.submesh"/> names.</summary>
+        Given = 2
+    }
+
+    /// <summary>How to chamfer a mesh.</summary>
+    [Serializable]
+    public struct ChamferSettings
+    {
+        [Tooltip("The distance between an old edge and the pulled one.")]
+        public float width;
+
+        [Tooltip("What the width is measured in.")]
+        public WidthUnit unit;
+
+        [Tooltip("Full also keeps a part from cutting through itself.")]
+        public VerifyMode verify;
+
+        [Tooltip("Which submesh, and so which material, the chamfers have.")]
+        public ChamferSubmesh submeshMode;
+
+        [Tooltip("With Given: the submesh that chamfers go to.")]
+        public int submesh;
+
+        /// <summary>One percent of the extent, fully verified, in the submesh of the face beside it.</summary>
+        public static ChamferSettings Default => new ChamferSettings
+        {
+            width = 1,
+            unit = WidthUnit.PercentOfExtent,
+            verify = VerifyMode.Full
+        };
+    }
+}

@@ -1,0 +1,53 @@
+using System;
+using System.Runtime.InteropServices;
+
+namespace Chamfer.Interop
+{
+    /// <summary>Called on the calling thread with the share done; any result but 0 cancels.</summary>
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    internal delegate int NativeProgress(IntPtr user, float done);
+
+    /// <summary>The functions of the native library that the package calls.</summary>
+    internal static class NativeMethods
+    {
+        /// <summary>The version of the interface that these declarations describe.</summary>
+        internal const uint AbiVersion = 1;
+
+#if (UNITY_IOS || UNITY_WEBGL) && !UNITY_EDITOR
+        private const string Library = "__Internal";
+#else
+        private const string Library = "chamfer";
+#endif
+        private const CallingConvention Cdecl = CallingConvention.Cdecl;
+
+        [DllImport(Library, EntryPoint = "chamfer_abi_version", CallingConvention = Cdecl)]
+        internal static extern uint LibraryAbiVersion();
+
+        [DllImport(Library, EntryPoint = "chamfer_version_string", CallingConvention = Cdecl)]
+        internal static extern IntPtr VersionString();
+
+        [DllImport(Library, EntryPoint = "chamfer_run", CallingConvention = Cdecl)]
+        internal static extern int Run(
+            ref NativeMesh mesh,
+            ref NativeOptions options,
+            NativeProgress progress,
+            IntPtr user,
+            out ResultHandle result,
+            ref NativeError error);
+
+        [DllImport(Library, EntryPoint = "chamfer_result_mesh", CallingConvention = Cdecl)]
+        internal static extern int ResultMesh(ResultHandle result, ref NativeMesh mesh);
+
+        [DllImport(Library, EntryPoint = "chamfer_result_totals", CallingConvention = Cdecl)]
+        internal static extern int ResultTotals(ResultHandle result, ref NativeTotals totals);
+
+        [DllImport(Library, EntryPoint = "chamfer_result_verdicts", CallingConvention = Cdecl)]
+        internal static extern int ResultVerdicts(ResultHandle result, out IntPtr verdicts, out uint count);
+
+        [DllImport(Library, EntryPoint = "chamfer_result_vertex_sources", CallingConvention = Cdecl)]
+        internal static extern int ResultVertexSources(ResultHandle result, out IntPtr sources, out uint count);
+
+        [DllImport(Library, EntryPoint = "chamfer_result_destroy", CallingConvention = Cdecl)]
+        internal static extern void ResultDestroy(IntPtr result);
+    }
+}

@@ -1,0 +1,19 @@
+using System;
+using System.Runtime.InteropServices;
+
+namespace Chamfer.Interop
+{
+    /// <summary>A <c>chamfer_result</c>, which is freed exactly once.</summary>
+    internal sealed class ResultHandle : SafeHandle
+    {
+        public ResultHandle() : base(IntPtr.Zero, true) { }
+
+        public override bool IsInvalid => handle == IntPtr.Zero;
+
+        protected override bool ReleaseHandle()
+        {
+            NativeMethods.ResultDestroy(handle);
+            return true;
+        }
+    }
+}

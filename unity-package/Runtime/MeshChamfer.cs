@@ -1,0 +1,48 @@
+using System;
+using System.Threading;
+using System.Threading.Tasks;
+using Chamfer.Streams;
+using UnityEngine;
+
+namespace Chamfer
+{
+    /// <summary>Softens all hard edges of meshes.</summary>
+    public static class MeshChamfer
+    {
+        /// <summary>Chamfers a mesh into a new one; the source is not changed. Call it on the main thread.</summary>
+        /// <param name="source">Readable, or any mesh without skin and blend shapes in the editor.</param>
+        /// <param name="settings">How; begin with <see cref="ChamferSettings.Default"/>.</param>
+        /// <param name="progress">Told the share done, 0 to 1, on the calling thread.</param>
+        /// <param name="cancellation">Asked whenever progress is told.</param>
+        /// <exception cref="ChamferException">The message says what to do.</exception>
+        /// <exception cref="OperationCanceledException">It was cancelled.</exception>
+        public static ChamferResult Run(
+            Mesh source,
+            ChamferSettings settings,
+            IProgress<float> progress = null,
+            CancellationToken cancellation = default(CancellationToken))
+        {
+            return Finish(ArrayChamfer.Run(MeshReader.Read(source), settings, progress, cancellation));
+        }
+
+        /// <summary>
+        /// As <see cref="Run"/>, but the work between reading and writing the mesh runs on another thread, and
+        /// so does <paramref name="progress"/>. Call it on the main thread.
+        /// </summary>
+        public static async Task<ChamferResult> RunAsync(
+            Mesh source,
+            ChamferSettings settings,
+            IProgress<float> progress = null,
+            CancellationToken cancellation = default(CancellationToken))
+        {
+            var arrays = MeshReader.Read(source);
+            // Unity's synchronization context brings the rest back to the main thread.
+            return Finish(await Task.Run(() => ArrayChamfer.Run(arrays, settings, progress, cancellation)));
+        }
+
+        private static ChamferResult Finish(ArrayResult result)
+        {
+            return new ChamferResult(MeshWriter.Write(result.Mesh), result.Report);
+        }
+    }
+}

@@ -1,0 +1,63 @@
+using System;
+using System.Diagnostics;
+using System.Threading;
+using Chamfer.Interop;
+
+namespace Chamfer.Streams
+{
+    /// <summary>What <see cref="ArrayChamfer"/> makes.</summary>
+    internal struct ArrayResult
+    {
+        public MeshArrays Mesh;
+        public ChamferReport Report;
+    }
+
+    /// <summary>Chamfers arrays, on any thread.</summary>
+    internal static class ArrayChamfer
+    {
+        internal static ArrayResult Run(
+            MeshArrays source,
+            ChamferSettings settings,
+            IProgress<float> progress,
+            CancellationToken cancellation)
+        {
+            LibraryCheck.Require();
+            SettingsCheck.Require(source, settings);
+            cancellation.ThrowIfCancellationRequested();
+            var watch = Stopwatch.StartNew();
+            using (var result = Call(source, settings, progress, cancellation))
+            {
+                watch.Stop();
+                var output = ResultReader.Mesh(result, source);
+                var sources = Passthrough.Restore(source, output, ResultReader.VertexSources(result));
+                output.Skin = SkinCarrier.Carry(source.Skin, sources);
+                output.BlendShapes = BlendShapeCarrier.Carry(source.BlendShapes, sources);
+                var report = ResultReader.Report(result, source, output);
+                report.Milliseconds = watch.Elapsed.TotalMilliseconds;
+                return new ArrayResult { Mesh = output, Report = report };
+            }
+        }
+
+        private static ResultHandle Call(
+            MeshArrays source,
+            ChamferSettings settings,
+            IProgress<float> progress,
+            CancellationToken cancellation)
+        {
+            using (var pins = new PinnedArrays())
+            using (var relay = new ProgressRelay(progress, cancellation))
+            {
+                var mesh = NativeInput.Mesh(source, pins);
+                var options = NativeInput.Options(settings);
+                var error = NativeError.Empty();
+                ResultHandle result;
+                int status = NativeMethods.Run(
+                    ref mesh, ref options, ProgressRelay.Callback, relay.User, out result, ref error);
+                if (status == NativeStatus.Ok) { return result; }
+                result.Dispose();
+                relay.Rethrow();
+                throw Failure.Of(status, error, source.Name, cancellation);
+            }
+        }
+    }
+}

@@ -1,0 +1,95 @@
+using System;
+using Unity.Collections;
+using UnityEngine;
+using UnityEngine.Rendering;
+
+namespace Chamfer.Streams
+{
+    /// <summary>Writes arrays to meshes, on the main thread.</summary>
+    internal static class MeshWriter
+    {
+        /// <summary>The most vertices that 16-bit indices reach: Unity keeps the last one for itself.</summary>
+        private const int MostShortVertices = 65535;
+
+        internal static Mesh Write(MeshArrays arrays)
+        {
+            var mesh = new Mesh { name = arrays.Name };
+            Fill(mesh, arrays);
+            return mesh;
+        }
+
+        /// <summary>Replaces everything that a mesh holds: importers know their meshes by identity.</summary>
+        internal static void Overwrite(Mesh mesh, MeshArrays arrays)
+        {
+            mesh.Clear();
+            mesh.ClearBlendShapes();
+            Fill(mesh, arrays);
+        }
+
+        private static void Fill(Mesh mesh, MeshArrays arrays)
+        {
+            mesh.indexFormat = arrays.Positions.Length > MostShortVertices ? IndexFormat.UInt32 : IndexFormat.UInt16;
+            WriteVertices(mesh, arrays);
+            WriteSubmeshes(mesh, arrays.Submeshes);
+            if (arrays.Skin != null) { WriteSkin(mesh, arrays.Skin); }
+            foreach (var frame in arrays.BlendShapes)
+            {
+                mesh.AddBlendShapeFrame(frame.Shape, frame.Weight, frame.Positions, frame.Normals, frame.Tangents);
+            }
+            WriteBounds(mesh, arrays.Bounds);
+        }
+
+        private static void WriteVertices(Mesh mesh, MeshArrays arrays)
+        {
+            mesh.vertices = arrays.Positions;
+            if (arrays.Normals != null) { mesh.normals = arrays.Normals; }
+            if (arrays.Tangents != null) { mesh.tangents = arrays.Tangents; }
+            if (arrays.Colors != null) { WriteColors(mesh, arrays); }
+            for (int channel = 0; channel < arrays.Uvs.Length; channel++) { WriteUvs(mesh, channel, arrays.Uvs[channel]); }
+        }
+
+        private static void WriteColors(Mesh mesh, MeshArrays arrays)
+        {
+            if (arrays.HasByteColors) { mesh.colors32 = Array.ConvertAll(arrays.Colors, color => (Color32)color); }
+            else { mesh.SetColors(arrays.Colors); }
+        }
+
+        private static void WriteUvs(Mesh mesh, int channel, Array values)
+        {
+            if (values is Vector2[]) { mesh.SetUVs(channel, (Vector2[])values); }
+            else if (values is Vector3[]) { mesh.SetUVs(channel, (Vector3[])values); }
+            else if (values is Vector4[]) { mesh.SetUVs(channel, (Vector4[])values); }
+        }
+
+        private static void WriteSubmeshes(Mesh mesh, SubmeshArrays[] submeshes)
+        {
+            mesh.subMeshCount = submeshes.Length;
+            for (int submesh = 0; submesh < submeshes.Length; submesh++)
+            {
+                mesh.SetIndices(submeshes[submesh].Indices, submeshes[submesh].Topology, submesh, false);
+            }
+        }
+
+        private static void WriteSkin(Mesh mesh, Skin skin)
+        {
+            if (skin.BonesPerVertex.Length > 0)
+            {
+                using (var counts = new NativeArray<byte>(skin.BonesPerVertex, Allocator.Temp))
+                using (var weights = new NativeArray<BoneWeight1>(skin.Weights, Allocator.Temp))
+                {
+                    mesh.SetBoneWeights(counts, weights);
+                }
+            }
+            mesh.bindposes = skin.Bindposes;
+        }
+
+        /// <summary>Bounds may have been widened on purpose, so they never become smaller.</summary>
+        private static void WriteBounds(Mesh mesh, Bounds source)
+        {
+            mesh.RecalculateBounds();
+            var bounds = mesh.bounds;
+            bounds.Encapsulate(source);
+            mesh.bounds = bounds;
+        }
+    }
+}

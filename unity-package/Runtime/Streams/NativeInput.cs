@@ -1,0 +1,70 @@
+using System;
+using System.Collections.Generic;
+using Chamfer.Interop;
+using UnityEngine;
+
+namespace Chamfer.Streams
+{
+    /// <summary>Shows arrays and settings to the native library.</summary>
+    internal static class NativeInput
+    {
+        internal static unsafe NativeOptions Options(ChamferSettings settings)
+        {
+            return new NativeOptions
+            {
+                StructSize = (uint)sizeof(NativeOptions),
+                Width = settings.width,
+                WidthUnit = (uint)settings.unit,
+                Verify = (uint)settings.verify,
+                SubmeshMode = (uint)settings.submeshMode,
+                Submesh = (uint)settings.submesh,
+                Threads = 1
+            };
+        }
+
+        /// <summary>A view that holds as long as the pins. Submeshes of other topologies are empty in it.</summary>
+        internal static NativeMesh Mesh(MeshArrays source, PinnedArrays pins)
+        {
+            var mesh = NativeMesh.Empty();
+            mesh.VertexCount = (uint)source.Positions.Length;
+            mesh.Positions = pins.Pin(source.Positions);
+            mesh.Normals = pins.Pin(source.Normals);
+            mesh.Tangents = pins.Pin(source.Tangents);
+            mesh.Colors = pins.Pin(source.Colors);
+            for (int channel = 0; channel < source.Uvs.Length; channel++)
+            {
+                mesh.Uvs[channel] = Uv(source.Uvs[channel], pins);
+            }
+            PinIndices(ref mesh, source.Submeshes, pins);
+            return mesh;
+        }
+
+        private static NativeUv Uv(Array values, PinnedArrays pins)
+        {
+            return new NativeUv { Components = Components(values), Values = pins.Pin(values) };
+        }
+
+        private static uint Components(Array values)
+        {
+            if (values is Vector2[]) { return 2; }
+            if (values is Vector3[]) { return 3; }
+            return values is Vector4[] ? 4u : 0u;
+        }
+
+        private static void PinIndices(ref NativeMesh mesh, SubmeshArrays[] submeshes, PinnedArrays pins)
+        {
+            var counts = new uint[submeshes.Length];
+            var indices = new List<int>();
+            for (int submesh = 0; submesh < submeshes.Length; submesh++)
+            {
+                if (!submeshes[submesh].IsTriangles) { continue; }
+                counts[submesh] = (uint)submeshes[submesh].Indices.Length;
+                indices.AddRange(submeshes[submesh].Indices);
+            }
+            mesh.SubmeshCount = (uint)counts.Length;
+            mesh.SubmeshIndexCounts = pins.Pin(counts);
+            mesh.IndexCount = (uint)indices.Count;
+            mesh.Indices = pins.Pin(indices.ToArray());
+        }
+    }
+}

@@ -1,0 +1,127 @@
+using System;
+using Chamfer.Interop;
+using UnityEngine;
+
+namespace Chamfer.Streams
+{
+    /// <summary>Copies what a native result holds.</summary>
+    internal static class ResultReader
+    {
+        internal static MeshArrays Mesh(ResultHandle result, MeshArrays source)
+        {
+            var native = NativeMesh.Empty();
+            Failure.Require(NativeMethods.ResultMesh(result, ref native));
+            int count = (int)native.VertexCount;
+            var mesh = new MeshArrays
+            {
+                Name = source.Name,
+                Bounds = source.Bounds,
+                Positions = PinnedArrays.Copy<Vector3>(native.Positions, count) ?? new Vector3[0],
+                Normals = PinnedArrays.Copy<Vector3>(native.Normals, count),
+                Tangents = PinnedArrays.Copy<Vector4>(native.Tangents, count),
+                Colors = PinnedArrays.Copy<Color>(native.Colors, count),
+                HasByteColors = source.HasByteColors,
+                Submeshes = Submeshes(native, source)
+            };
+            for (int channel = 0; channel < mesh.Uvs.Length; channel++)
+            {
+                mesh.Uvs[channel] = Uvs(native.Uvs[channel], count);
+            }
+            return mesh;
+        }
+
+        internal static NativeVertexSource[] VertexSources(ResultHandle result)
+        {
+            IntPtr sources;
+            uint count;
+            Failure.Require(NativeMethods.ResultVertexSources(result, out sources, out count));
+            return PinnedArrays.Copy<NativeVertexSource>(sources, (int)count) ?? new NativeVertexSource[0];
+        }
+
+        internal static ChamferReport Report(ResultHandle result, MeshArrays source, MeshArrays output)
+        {
+            var totals = NativeTotals.Empty();
+            Failure.Require(NativeMethods.ResultTotals(result, ref totals));
+            return new ChamferReport
+            {
+                VerticesBefore = source.Positions.Length,
+                VerticesAfter = output.Positions.Length,
+                TrianglesBefore = Triangles(source),
+                TrianglesAfter = Triangles(output),
+                HardEdges = (int)totals.HardEdges,
+                Chamfered = (int)totals.Chamfered,
+                Narrowed = (int)totals.Narrowed,
+                Skipped = (int)totals.Skipped,
+                Width = totals.Width,
+                MeanWidth = totals.MeanWidth,
+                Verdicts = Array.ConvertAll(Verdicts(result), Verdict)
+            };
+        }
+
+        private static Array Uvs(NativeUv uv, int count)
+        {
+            switch (uv.Components)
+            {
+                case 2: return PinnedArrays.Copy<Vector2>(uv.Values, count);
+                case 3: return PinnedArrays.Copy<Vector3>(uv.Values, count);
+                case 4: return PinnedArrays.Copy<Vector4>(uv.Values, count);
+                default: return null;
+            }
+        }
+
+        private static SubmeshArrays[] Submeshes(NativeMesh native, MeshArrays source)
+        {
+            var counts = PinnedArrays.Copy<int>(native.SubmeshIndexCounts, (int)native.SubmeshCount) ?? new int[0];
+            var indices = PinnedArrays.Copy<int>(native.Indices, (int)native.IndexCount);
+            var submeshes = new SubmeshArrays[counts.Length];
+            int start = 0;
+            for (int submesh = 0; submesh < counts.Length; submesh++)
+            {
+                bool isNew = submesh >= source.Submeshes.Length;
+                submeshes[submesh] = isNew || source.Submeshes[submesh].IsTriangles
+                    ? Triangles(indices, start, counts[submesh])
+                    : source.Submeshes[submesh];
+                start += counts[submesh];
+            }
+            return submeshes;
+        }
+
+        private static SubmeshArrays Triangles(int[] all, int start, int count)
+        {
+            var indices = new int[count];
+            if (count > 0) { Array.Copy(all, start, indices, 0, count); }
+            return new SubmeshArrays { Topology = MeshTopology.Triangles, Indices = indices };
+        }
+
+        private static int Triangles(MeshArrays mesh)
+        {
+            int corners = 0;
+            foreach (var submesh in mesh.Submeshes)
+            {
+                if (submesh.IsTriangles) { corners += submesh.Indices.Length; }
+            }
+            return corners / 3;
+        }
+
+        private static NativeEdgeVerdict[] Verdicts(ResultHandle result)
+        {
+            IntPtr verdicts;
+            uint count;
+            Failure.Require(NativeMethods.ResultVerdicts(result, out verdicts, out count));
+            return PinnedArrays.Copy<NativeEdgeVerdict>(verdicts, (int)count) ?? new NativeEdgeVerdict[0];
+        }
+
+        private static unsafe EdgeVerdict Verdict(NativeEdgeVerdict native)
+        {
+            return new EdgeVerdict
+            {
+                FirstVertex = (int)native.Vertices[0],
+                SecondVertex = (int)native.Vertices[1],
+                Outcome = (EdgeOutcome)native.Outcome,
+                Reason = (EdgeReason)native.Reason,
+                FirstWidth = native.Widths[0],
+                SecondWidth = native.Widths[1]
+            };
+        }
+    }
+}
