@@ -29,8 +29,8 @@ impl<'a> Origins<'a> {
         }
         let source_vertices = before.positions.len() as u32;
         for (vertex, source) in after.vertex_sources.iter().enumerate() {
-            if ![source.surface, source.chart].iter().all(|blend| is_valid(blend, source_vertices))
-            {
+            let blends = [source.surface, source.chart, source.owner];
+            if !blends.iter().all(|blend| is_valid(blend, source_vertices)) {
                 findings.note(Rule::Origins, Element::Vertex(vertex as u32));
             }
         }
@@ -63,7 +63,8 @@ impl<'a> Origins<'a> {
         };
         match self.vertices {
             Some(sources) => {
-                holds_for(&sources[vertex].surface) && holds_for(&sources[vertex].chart)
+                let VertexSource { surface, chart, owner, .. } = &sources[vertex];
+                [surface, chart, owner].into_iter().all(holds_for)
             }
             None if vertex < holds.len() => holds[vertex],
             None => holds.iter().all(|&holds| holds),
