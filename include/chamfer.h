@@ -285,8 +285,15 @@ typedef struct chamfer_blend {
 typedef struct chamfer_vertex_source {
     /// For what belongs to the surface: position, normal, skin weights, morph targets.
     struct chamfer_blend surface;
-    /// For what belongs to the texture chart: UV channels, tangent, colour.
+    /// For what belongs to the vertex's own texture chart: colour, and the UV channels and tangent
+    /// that `owner_channels` does not name.
     struct chamfer_blend chart;
+    /// A place in the chart that the chamfer continues over a seam; the same as `chart` where
+    /// `owner_channels` is 0.
+    struct chamfer_blend owner;
+    /// The UV channels that follow `owner`: channel `k` where bit `k` is set. The tangent goes with
+    /// channel 0.
+    uint32_t owner_channels;
 } chamfer_vertex_source;
 
 /// What an output triangle came from.

@@ -10,7 +10,7 @@ use crate::ids::{Corner, IdVec, Sector, Vertex};
 use crate::placement::Placement;
 use crate::plan::Plan;
 use crate::report::{Blend, VertexSource};
-use crate::resample::{chart_foot, surface_foot};
+use crate::resample::{chart_foot, same_chart, surface_foot};
 
 pub use streams::Streams;
 
@@ -60,14 +60,42 @@ fn move_sector(
         let vertex = plan.view.vertex_at(corner);
         let known = seen.iter().find(|(other, _)| *other == vertex).map(|(_, output)| *output);
         let output = known.unwrap_or_else(|| {
-            let output = if taken[vertex] { attributes.streams.append(vertex) } else { vertex.0 };
-            taken[vertex] = true;
-            resample(plan, placement, sector, corner, output, &mut attributes.streams);
-            seen.push((vertex, output));
-            output
+            let streams = &mut attributes.streams;
+            let output = if taken[vertex] { streams.append(vertex) } else { vertex.0 };
+            resample(plan, placement, sector, corner, output, streams);
+            match twin_of(plan, streams, &seen, vertex, output) {
+                Some(twin) => {
+                    streams.give_back(plan, output);
+                    twin
+                }
+                None => {
+                    taken[vertex] = true;
+                    output
+                }
+            }
         });
+        if known.is_none() {
+            seen.push((vertex, output));
+        }
         attributes.vertex_at[corner] = output;
     }
+}
+
+/// The vertex of a sector that another one of it has become equal to, though they differed before:
+/// their normals were less than a degree apart.
+fn twin_of(
+    plan: &Plan,
+    streams: &Streams,
+    seen: &[(Vertex, u32)],
+    vertex: Vertex,
+    output: u32,
+) -> Option<u32> {
+    let is_twin = |&&(other, known): &&(Vertex, u32)| {
+        streams.are_equal(known, output)
+            && !(plan.view.normal(other) == plan.view.normal(vertex)
+                && same_chart(plan, other, vertex))
+    };
+    seen.iter().find(is_twin).map(|&(_, known)| known)
 }
 
 fn resample(
@@ -92,10 +120,8 @@ fn vertex_source(plan: &Plan, sector: Sector, corner: Corner, share: f64) -> Ver
         _ => blend,
     };
 
-    VertexSource {
-        surface: surface_foot(plan, sector, corner).blend(plan, share),
-        chart: from_own(chart.blend(plan, share)),
-    }
+    let surface = surface_foot(plan, sector, corner).blend(plan, share);
+    VertexSource::new(surface, from_own(chart.blend(plan, share)))
 }
 
 #[cfg(test)]

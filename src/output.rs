@@ -3,21 +3,18 @@
 //! Source vertices keep their indices and source triangles their order; what is new is appended,
 //! per submesh: strips in the order of their edges, then fills in the order of their rings.
 
-use glam::DVec3;
-
 mod collapsed;
+mod duplicates;
+mod middles;
 
 use crate::attributes::Attributes;
-use crate::corners;
-use crate::ids::{Corner, Edge, Ring, Sector, Triangle};
+use crate::ids::{Corner, Edge, Ring, Triangle};
 use crate::limits::{self, Limits};
-use crate::math::unit;
 use crate::mesh::MeshBuffers;
 use crate::options::ChamferSubmesh;
 use crate::plan::Plan;
 use crate::report::{Chamfered, TriangleKind, TriangleSource};
-use crate::resample::{chart_foot, surface_foot};
-use crate::seams::{self, Copies, Owners};
+use crate::seams::{self, Copies, FillMap, Owners};
 use crate::strips;
 use crate::verdicts::{totals, verdicts};
 
@@ -28,7 +25,7 @@ pub fn output(
     attributes: Attributes,
     target: ChamferSubmesh,
 ) -> Chamfered {
-    let owners = seams::owners(plan);
+    let owners = seams::owners(plan, &limits.placement, &attributes);
     let mut surface = Surface {
         plan,
         limits,
@@ -100,12 +97,23 @@ impl Surface<'_> {
             return;
         }
         let sectors = plan.sectors.ring(ring);
-        let owner = seams::fill_owner(plan, placement, sectors, &self.owners);
-        let mut vertices = self.fill_vertices(ring, owner);
-        for places in &fill.middles {
-            vertices.push(self.add_middle(sectors, owner, places));
+        let map = FillMap::new(plan, placement, &self.attributes, ring, &fill);
+        let streams = &mut self.attributes.streams;
+        let choice = map.owner(streams, &self.owners);
+        let channels = map.channels(streams, choice);
+        let kite = map.kite(choice);
+        let mut vertices = map.vertices.clone();
+        if channels != 0 {
+            for (place, foot) in &kite.feet {
+                let copies = &mut self.copies;
+                vertices[*place] = copies.get(plan, streams, vertices[*place], foot, channels);
+            }
         }
-        let first = plan.sectors.fans[sectors[owner]].first;
+        for places in &fill.middles {
+            vertices.push(middles::add(plan, placement, streams, sectors, places));
+            streams.rechart(plan, vertices[vertices.len() - 1], &kite.middle, channels);
+        }
+        let first = plan.sectors.fans[sectors[choice.0]].first;
         let submesh = self.submeshes.for_new(first.triangle());
         let at = plan.view.vertex_at(plan.sectors.fans[sectors[0]].first);
         let source = TriangleSource { kind: TriangleKind::Corner, index: at.0 };
@@ -116,48 +124,11 @@ impl Surface<'_> {
         }));
     }
 
-    /// The output vertices of a ring's sectors, in the chart of the owner.
-    fn fill_vertices(&mut self, ring: Ring, owner: usize) -> Vec<u32> {
-        let (plan, placement) = (self.plan, &self.limits.placement);
-        let sectors = plan.sectors.ring(ring);
-        let channels = seams::fill_channels(plan, ring);
-        let own = |sector: &Sector| plan.sectors.fans[*sector].first;
-        let mut vertices: Vec<u32> =
-            sectors.iter().map(|sector| self.attributes.vertex_at[own(sector)]).collect();
-        if channels != 0 {
-            for (place, chart) in seams::fill_feet(plan, placement, ring, owner) {
-                let streams = &mut self.attributes.streams;
-                vertices[place] = self.copies.get(plan, streams, vertices[place], &chart, channels);
-            }
-        }
-        vertices
-    }
-
-    /// A new vertex at the mean of some of a ring's points.
-    fn add_middle(&mut self, sectors: &[Sector], owner: usize, places: &[usize]) -> u32 {
-        let (plan, placement) = (self.plan, &self.limits.placement);
-        let points: Vec<DVec3> = sectors.iter().map(|&s| placement.point[s]).collect();
-        let normal = unit(places.iter().map(|&place| placement.normals[sectors[place]][0]).sum());
-        let sector = sectors[owner];
-        let corner = plan.sectors.fans[sector].first;
-        let share = placement.share[sector] * MIDDLE_SHARE;
-        let streams = &mut self.attributes.streams;
-        let vertex = streams.append(plan.view.vertex_at(corner));
-        let position = corners::middle(&points, places);
-        let source = crate::report::VertexSource {
-            surface: surface_foot(plan, sector, corner).blend(plan, share),
-            chart: chart_foot(plan, sector, corner).blend(plan, share),
-        };
-        streams.resample(plan, vertex, position, source);
-        streams.set_position_and_normal(vertex, position, normal);
-        streams.rechart(plan, vertex, &source.chart, u8::MAX);
-        vertex
-    }
-
     fn finish(self) -> Chamfered {
         let verdicts = verdicts(self.plan, self.limits);
-        let (indices, triangle_sources, submesh_index_counts) = self.triangles();
-        let streams = self.attributes.streams;
+        let (mut indices, triangle_sources, submesh_index_counts) = self.triangles();
+        let mut streams = self.attributes.streams;
+        duplicates::join(&mut streams, self.plan.view.mesh.positions.len(), &mut indices);
         Chamfered {
             mesh: MeshBuffers { indices, submesh_index_counts, ..streams.vertices },
             vertex_sources: streams.sources,
@@ -188,9 +159,6 @@ impl Surface<'_> {
         (indices, sources, counts)
     }
 }
-
-/// A middle vertex takes its texture from halfway between the old corner and the pulled one.
-const MIDDLE_SHARE: f64 = 0.5;
 
 /// The places of new triangles, for each submesh.
 fn by_submesh(new: &[NewTriangle], submeshes: usize) -> Vec<Vec<usize>> {

@@ -37,14 +37,40 @@ impl Blend {
     }
 }
 
-/// Where an output vertex came from.
+/// Where an output vertex came from: what each of its streams is a blend of.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct VertexSource {
     /// For what belongs to the surface: position, normal, skin weights, morph targets.
     pub surface: Blend,
-    /// For what belongs to the texture chart: UV channels, tangent, colour.
+    /// For what belongs to the vertex's own texture chart: colour, and the UV channels and tangent
+    /// that `owner_channels` does not name.
     pub chart: Blend,
+    /// A place in the chart that the chamfer continues over a seam. The same as `chart` where
+    /// `owner_channels` is 0.
+    pub owner: Blend,
+    /// The UV channels that follow `owner`, as bits: channel `k` where bit `k` is set. The tangent
+    /// goes with channel 0.
+    pub owner_channels: u32,
+}
+
+impl VertexSource {
+    /// A vertex whose streams are all of its own chart.
+    pub fn new(surface: Blend, chart: Blend) -> VertexSource {
+        VertexSource { surface, chart, owner: chart, owner_channels: 0 }
+    }
+
+    /// What a UV channel is a blend of. Channels past those of the core go with channel 0, as the
+    /// tangent does.
+    pub fn uv(&self, channel: usize) -> &Blend {
+        let known = if channel < crate::mesh::UV_CHANNELS { channel } else { 0 };
+        if self.owner_channels >> known & 1 == 1 { &self.owner } else { &self.chart }
+    }
+
+    /// What the tangent is a blend of.
+    pub fn tangent(&self) -> &Blend {
+        self.uv(0)
+    }
 }
 
 /// What an output triangle came from.

@@ -2,63 +2,36 @@
 //!
 //! Where a UV channel differs across a hard edge, the chamfer belongs to one side's chart, its
 //! owner. The owner's chart has a free band between the pulled edge and the old one, and the
-//! strip is mapped onto exactly that: its far side lands on the old edge, at the foot of the
-//! perpendicular from the pulled vertex. The owner also gives the strip its submesh.
+//! strip is mapped onto exactly that: its far side lands on the old edge. The owner also gives the
+//! strip its submesh.
 
-use crate::attributes::{Attributes, Streams};
-use crate::edges::HardEdge;
+mod density;
+mod feet;
+mod owners;
+
 use std::collections::HashMap;
 
-use crate::ids::{Corner, Edge, Id, IdVec, Ring, Sector, Triangle, Vertex};
+use glam::{DVec2, DVec3};
+
+use crate::attributes::{Attributes, Streams};
+use crate::corners::{Fill, middle};
+use crate::edges::HardEdge;
+use crate::ids::{Corner, Edge, Id, Ring, Sector, Vertex};
 use crate::mesh::UV_CHANNELS;
 use crate::placement::{Placement, base};
 use crate::plan::Plan;
 use crate::report::Blend;
 use crate::resample::uv_at;
-use crate::strips;
+use crate::strips::{self, Cut};
+
+use density::{MOST_STRETCH, density, stretch, uv_point};
+use feet::{REACHES, is_broken, kite, strip_feet};
+
+pub use feet::Kite;
+pub use owners::{Owners, owners};
 
 /// UV values that differ by less than this share of their size are one: exporters round.
 const EQUAL_UV: f32 = 1e-6;
-
-/// `#hard edges`: which of its two sides owns the chamfer.
-pub struct Owners {
-    pub side: IdVec<Edge, usize>,
-}
-
-/// The side in the smooth region that comes first in the mesh owns: so a whole chain of edges
-/// between two regions has one owner, and the texture does not zigzag.
-pub fn owners(plan: &Plan) -> Owners {
-    let region = regions(plan);
-    let side = plan.edges.hard.iter().map(|edge| {
-        let [one, two] = edge.sides.map(|side| region[side.triangle()]);
-        usize::from(two < one)
-    });
-    Owners { side: IdVec::from_vec(side.collect()) }
-}
-
-/// `#triangles`: the first triangle that can be reached without crossing a chamfered edge.
-fn regions(plan: &Plan) -> IdVec<Triangle, Triangle> {
-    let mut region = IdVec::filled(Triangle::NONE, plan.view.corner_count() / 3);
-    let mut front = Vec::new();
-    for seed in plan.view.triangles() {
-        if region[seed].is_some() {
-            continue;
-        }
-        region[seed] = seed;
-        front.push(seed);
-        while let Some(triangle) = front.pop() {
-            for side in triangle.corners() {
-                let twin = plan.topology.twin[side];
-                let is_crossed = plan.edges.chamfered_at[side].is_none() && twin.is_some();
-                if is_crossed && region[twin.triangle()].is_none() {
-                    region[twin.triangle()] = seed;
-                    front.push(twin.triangle());
-                }
-            }
-        }
-    }
-    region
-}
 
 /// The channels that differ across an edge, as bits.
 pub fn seam_channels(plan: &Plan, edge: &HardEdge) -> u8 {
@@ -80,45 +53,17 @@ pub fn seam_channels(plan: &Plan, edge: &HardEdge) -> u8 {
     channels
 }
 
-/// The place on a half-edge at the foot of the perpendicular from a pulled vertex.
-pub fn foot_on_edge(
-    plan: &Plan,
-    placement: &Placement,
-    half_edge: Corner,
-    pulled: Sector,
-) -> Blend {
-    let [from, to] = [half_edge, half_edge.next()].map(|corner| plan.view.position_at(corner));
-    let along = to - from;
-    let share = (placement.point[pulled] - from).dot(along) / along.length_squared();
-    let [from, to] = [half_edge, half_edge.next()].map(|corner| plan.view.vertex_at(corner).0);
-    between(Blend::one(from), Blend::one(to), share.clamp(0.0, 1.0))
+/// The UV channels that a mesh has.
+fn channels_of(plan: &Plan) -> impl Iterator<Item = usize> + use<> {
+    let present = plan.view.mesh.uvs.map(|uv| uv.components > 0);
+    (0..UV_CHANNELS).filter(move |&channel| present[channel])
 }
 
-/// Between two blends of one source vertex each, or a mixture of two on one line.
-pub fn between(from: Blend, to: Blend, share: f64) -> Blend {
-    let weight = share as f32;
-    if weight == 0.0 {
-        return from;
-    }
-    if weight == 1.0 {
-        return to;
-    }
-    let mut mixed =
-        Blend { vertices: from.vertices, weights: from.weights.map(|w| w * (1.0 - weight)) };
-    for (vertex, added) in to.vertices.into_iter().zip(to.weights.map(|w| w * weight)) {
-        if added != 0.0 {
-            add(&mut mixed, vertex, added);
-        }
-    }
-    mixed
-}
-
-fn add(blend: &mut Blend, vertex: u32, weight: f32) {
-    let same = (0..3).find(|&k| blend.vertices[k] == vertex && blend.weights[k] != 0.0);
-    if let Some(k) = same.or_else(|| (0..3).find(|&k| blend.weights[k] == 0.0)) {
-        blend.vertices[k] = vertex;
-        blend.weights[k] += weight;
-    }
+/// Where a blend lies in a UV channel.
+fn place_of(plan: &Plan, channel: usize, blend: &Blend) -> DVec2 {
+    let uv = &plan.view.mesh.uvs[channel];
+    let terms = blend.vertices.iter().zip(blend.weights);
+    terms.map(|(&vertex, weight)| uv_point(uv, vertex) * f64::from(weight)).sum()
 }
 
 /// Copies of vertices in other charts; each is made once.
@@ -155,8 +100,60 @@ impl Copies {
     }
 }
 
+/// How a strip lies on the texture of a channel.
+struct StripMap<'a> {
+    plan: &'a Plan<'a>,
+    points: [DVec3; 4],
+    cut: Cut,
+    /// The strip's own vertices: b1, a1, a2, b2.
+    vertices: [u32; 4],
+}
+
+impl<'a> StripMap<'a> {
+    fn new(
+        plan: &'a Plan,
+        placement: &Placement,
+        attributes: &Attributes,
+        edge: &HardEdge,
+    ) -> Self {
+        let quad = strips::quad(plan, placement, edge);
+        let vertices = strips::corners(edge).map(|corner| attributes.vertex_at[corner]);
+        StripMap { plan, points: quad.points, cut: strips::cut(&quad), vertices }
+    }
+
+    /// How much the strip stretches the texture of a face, with some corners moved to their feet.
+    fn stretch(
+        &self,
+        streams: &Streams,
+        channel: usize,
+        face: Corner,
+        feet: &[(usize, Blend)],
+    ) -> f64 {
+        let mut uvs = self.vertices.map(|vertex| streams.uv(vertex, channel));
+        for (place, foot) in feet {
+            uvs[*place] = place_of(self.plan, channel, foot);
+        }
+        let triangles = self.cut.iter().map(|t| (t.map(|k| self.points[k]), t.map(|k| uvs[k])));
+        stretch(density(self.plan, face.triangle(), channel), self.plan.view.resolution, triangles)
+    }
+
+    /// Whether the strip, as it runs on from both sides, stretches the texture of either too much.
+    fn fits_no_side(&self, streams: &Streams, channel: usize, edge: &HardEdge) -> bool {
+        let stretches = |side: Corner| self.stretch(streams, channel, side, &[]) > MOST_STRETCH;
+        edge.sides.into_iter().all(stretches)
+    }
+}
+
+/// A vertex whose chart blend weighs less than this somewhere lies outside of its chart.
+const LEAST_WEIGHT: f32 = -1e-3;
+
+/// Whether a vertex was pulled past the end of its chart: a seam runs through its sector.
+fn strays(streams: &Streams, vertex: u32) -> bool {
+    streams.sources[vertex as usize].chart.weights.iter().any(|&weight| weight < LEAST_WEIGHT)
+}
+
 /// The output vertices of a strip's corners b1, a1, a2, b2, those of the far side moved into the
-/// owner's chart.
+/// owner's chart where theirs is another.
 pub fn strip_vertices(
     plan: &Plan,
     placement: &Placement,
@@ -165,98 +162,174 @@ pub fn strip_vertices(
     attributes: &mut Attributes,
     copies: &mut Copies,
 ) -> [u32; 4] {
-    let corners = strips::corners(edge);
-    let mut vertices = corners.map(|corner| attributes.vertex_at[corner]);
-    let channels = seam_channels(plan, edge);
-    if channels == 0 {
-        return vertices;
+    let map = StripMap::new(plan, placement, attributes, edge);
+    let feet = strip_feet(plan, placement, edge, owner);
+    let face = edge.sides[owner];
+    let mut channels = seam_channels(plan, edge);
+    let streams = &mut attributes.streams;
+    let seams = channels;
+    for channel in channels_of(plan).filter(|&channel| seams >> channel & 1 == 0) {
+        // Texture that is mirrored at the edge folds onto itself under the chamfer.
+        let is_folded = map.fits_no_side(streams, channel, edge);
+        let own = map.stretch(streams, channel, face, &[]);
+        if is_folded && map.stretch(streams, channel, face, &feet) < own {
+            channels |= 1 << channel;
+        }
     }
-    // The far corner at either end, and the owner's corner there.
-    let ends = if owner == 0 { [(2, 1), (3, 0)] } else { [(1, 2), (0, 3)] };
-    for (far, near) in ends {
-        let pulled = plan.sectors.sector_of[corners[near]];
-        let foot = foot_on_edge(plan, placement, edge.sides[owner], pulled);
-        vertices[far] = copies.get(plan, &mut attributes.streams, vertices[far], &foot, channels);
+    let mut vertices = map.vertices;
+    if channels != 0 {
+        for (place, foot) in &feet {
+            vertices[*place] = copies.get(plan, streams, vertices[*place], foot, channels);
+        }
     }
     vertices
 }
 
-/// Which sector's chart a corner fill continues: one that moved and is convex, if there is any.
-pub fn fill_owner(plan: &Plan, placement: &Placement, ring: &[Sector], owners: &Owners) -> usize {
-    let owned = |sector: Sector| {
+/// How a fill lies on the texture.
+pub struct FillMap<'a> {
+    plan: &'a Plan<'a>,
+    placement: &'a Placement,
+    sectors: &'a [Sector],
+    fill: &'a Fill,
+    points: Vec<DVec3>,
+    /// `#sectors`: their output vertices.
+    pub vertices: Vec<u32>,
+}
+
+impl<'a> FillMap<'a> {
+    pub fn new(
+        plan: &'a Plan,
+        placement: &'a Placement,
+        attributes: &Attributes,
+        ring: Ring,
+        fill: &'a Fill,
+    ) -> Self {
+        let sectors = plan.sectors.ring(ring);
+        let own = |sector: &Sector| attributes.vertex_at[plan.sectors.fans[*sector].first];
+        let mut points: Vec<DVec3> = sectors.iter().map(|&s| placement.point[s]).collect();
+        let middles: Vec<DVec3> = fill.middles.iter().map(|at| middle(&points, at)).collect();
+        points.extend(middles);
+        let vertices = sectors.iter().map(own).collect();
+        FillMap { plan, placement, sectors, fill, points, vertices }
+    }
+
+    fn first(&self, place: usize) -> Corner {
+        self.plan.sectors.fans[self.sectors[place]].first
+    }
+
+    /// How much the fill stretches the texture of one of its sectors.
+    fn stretch(&self, channel: usize, owner: usize, uvs: &[DVec2]) -> f64 {
+        let face = density(self.plan, self.first(owner).triangle(), channel);
+        let triangles = self.fill.triangles.iter();
+        let triangles = triangles.map(|t| (t.map(|k| self.points[k]), t.map(|k| uvs[k])));
+        stretch(face, self.plan.view.resolution, triangles)
+    }
+
+    fn own_stretch(&self, streams: &Streams, channel: usize, owner: usize) -> f64 {
+        if !self.fill.middles.is_empty() {
+            return 1.0;
+        }
+        let uvs: Vec<DVec2> = self.vertices.iter().map(|&v| streams.uv(v, channel)).collect();
+        self.stretch(channel, owner, &uvs)
+    }
+
+    fn kite_stretch(&self, streams: &Streams, channel: usize, (owner, reach): (usize, f64)) -> f64 {
+        if strays(streams, self.vertices[owner]) {
+            return f64::INFINITY;
+        }
+        let kite = self.kite((owner, reach));
+        let middle = place_of(self.plan, channel, &kite.middle);
+        let mut uvs = vec![middle; self.points.len()];
+        uvs[owner] = streams.uv(self.vertices[owner], channel);
+        for (place, foot) in &kite.feet {
+            uvs[*place] = place_of(self.plan, channel, foot);
+        }
+        self.stretch(channel, owner, &uvs)
+    }
+
+    /// Where the fill lies in the chart of one of its sectors.
+    pub fn kite(&self, (owner, reach): (usize, f64)) -> Kite {
+        kite(self.plan, self.placement, self.sectors, owner, reach)
+    }
+
+    /// Which sector's chart the fill continues, and with what reach: the first in rank whose kite
+    /// fits, or else the one that fits best.
+    pub fn owner(&self, streams: &Streams, owners: &Owners) -> (usize, f64) {
+        let mut places: Vec<usize> = (0..self.sectors.len()).collect();
+        places.sort_by_key(|&place| std::cmp::Reverse(self.rank(place, owners)));
+        let broken = channels_of(self.plan).find(|&channel| self.seams(channel) > 0);
+        let mut best = (f64::INFINITY, (places[0], REACHES[0]));
+        let Some(channel) = broken else { return best.1 };
+        let kites = REACHES.iter().flat_map(|&reach| places.iter().map(move |&at| (at, reach)));
+        for kite in kites {
+            let stretch = self.kite_stretch(streams, channel, kite);
+            if stretch <= MOST_STRETCH {
+                return kite;
+            }
+            if stretch < best.0 {
+                best = (stretch, kite);
+            }
+        }
+        best.1
+    }
+
+    /// One that moved and is convex comes first, and one that owns the strips beside it.
+    fn rank(&self, place: usize, owners: &Owners) -> (bool, bool, usize, usize) {
+        let plan = self.plan;
+        let sector = self.sectors[place];
         let fan = &plan.sectors.fans[sector];
-        let sides = [fan.first, fan.last.prev()];
-        let owns = |side: Corner| {
-            let edge = plan.edges.chamfered_at[side];
-            edge.is_some() && plan.edges.hard[edge].sides[owners.side[edge]] == side
+        let owns = |side: &Corner| {
+            let edge: Edge = plan.edges.chamfered_at[*side];
+            edge.is_some() && plan.edges.hard[edge].sides[owners.side[edge]] == *side
         };
-        sides.into_iter().filter(|&side| owns(side)).count()
-    };
-    let is_convex = |sector: Sector| {
-        let fan = &plan.sectors.fans[sector];
+        let owned = [fan.first, fan.last.prev()].iter().filter(|side| owns(side)).count();
         let at = base(plan, sector);
         let first = plan.view.position_at(fan.first.next()) - at;
         let last = plan.view.position_at(fan.last.prev()) - at;
-        first.cross(last).dot(plan.faces.normal[fan.first.triangle()]) > 0.0
-    };
-    let rank = |&place: &usize| {
-        let sector = ring[place];
-        (placement.has_moved(plan, sector), is_convex(sector), owned(sector), ring.len() - place)
-    };
-    (0..ring.len()).max_by_key(rank).unwrap_or(0)
-}
-
-/// The channels in which a ring's sectors do not lie around one point of one chart: there the
-/// fill is mapped into its owner's chart.
-pub fn fill_channels(plan: &Plan, ring: Ring) -> u8 {
-    let closed = plan.sectors.rings[ring].closed;
-    // One seam unfolds the faces around a closed ring; around an open one the border does.
-    let mut seams = [usize::from(!closed); UV_CHANNELS];
-    for &sector in plan.sectors.ring(ring) {
-        let edge = plan.edges.chamfered_at[plan.sectors.fans[sector].last.prev()];
-        if edge.is_none() {
-            continue;
-        }
-        let channels = seam_channels(plan, &plan.edges.hard[edge]);
-        for (channel, count) in seams.iter_mut().enumerate() {
-            *count += usize::from(channels >> channel & 1);
-        }
+        let is_convex = first.cross(last).dot(plan.faces.normal[fan.first.triangle()]) > 0.0;
+        let has_moved = self.placement.has_moved(plan, sector);
+        (has_moved, is_convex, owned, self.sectors.len() - place)
     }
-    (0..UV_CHANNELS).filter(|&k| seams[k] > 1).fold(0, |channels, k| channels | 1 << k)
-}
 
-/// Where in the owner's chart the other sectors of a ring come to lie: from the feet on the
-/// owner's two edges towards the old corner between them.
-pub fn fill_feet(
-    plan: &Plan,
-    placement: &Placement,
-    ring: Ring,
-    owner: usize,
-) -> Vec<(usize, Blend)> {
-    let sectors = plan.sectors.ring(ring);
-    let closed = plan.sectors.rings[ring].closed;
-    let fan = &plan.sectors.fans[sectors[owner]];
-    let corner = Blend::one(plan.view.vertex_at(fan.first).0);
-    let foot = |half_edge: Corner| foot_on_edge(plan, placement, half_edge, sectors[owner]);
-    let count = sectors.len();
-    let (behind, before) =
-        if closed { (count / 2, count - 1 - count / 2) } else { (count - 1 - owner, owner) };
-    let last = foot(fan.last.prev());
-    let first = foot(fan.first);
-    let behind = (0..behind).map(|k| {
-        let share = k as f64 / behind as f64;
-        ((owner + 1 + k) % count, between(last, corner, share))
-    });
-    let before = (0..before).map(|k| {
-        let share = k as f64 / before as f64;
-        ((owner + count - 1 - k) % count, between(first, corner, share))
-    });
-    behind.chain(before).collect()
+    /// How often a channel breaks around the ring, at edges and within sectors.
+    fn seams(&self, channel: usize) -> usize {
+        let plan = self.plan;
+        let breaks = |&sector: &Sector| {
+            let edge = plan.edges.chamfered_at[plan.sectors.fans[sector].last.prev()];
+            let at_edge =
+                edge.is_some() && seam_channels(plan, &plan.edges.hard[edge]) >> channel & 1 == 1;
+            usize::from(at_edge) + usize::from(is_broken(plan, sector, channel))
+        };
+        self.sectors.iter().map(breaks).sum()
+    }
+
+    /// The channels, as bits, in which the fill is mapped onto its owner's kite: where the sectors
+    /// do not lie around one point of one chart, or the one seam leaves too little around the corner.
+    pub fn channels(&self, streams: &Streams, kite: (usize, f64)) -> u8 {
+        let (owner, _) = kite;
+        let ring = self.plan.sectors.fans[self.sectors[owner]].ring;
+        let closed = self.plan.sectors.rings[ring].closed;
+        // One seam unfolds the faces around a closed ring; around an open one the border does.
+        let allowed = usize::from(closed && self.fill.middles.is_empty());
+        let is_mapped = |channel: &usize| {
+            let seams = self.seams(*channel);
+            seams > allowed
+                || seams > 0 && {
+                    let own = self.own_stretch(streams, *channel, owner);
+                    own > MOST_STRETCH && self.kite_stretch(streams, *channel, kite) < own
+                }
+        };
+        channels_of(self.plan).filter(is_mapped).fold(0, |channels, k| channels | 1 << k)
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::attributes::attributes;
+    use crate::ids::Triangle;
+    use crate::limits::limits;
+    use crate::options::Verify;
     use crate::plan::tests::plan_of;
     use crate::shapes;
 
@@ -275,45 +348,11 @@ mod tests {
     fn a_chain_of_edges_between_two_regions_has_one_owner() {
         let cylinder = shapes::cylinder(12);
         let plan = plan_of(&cylinder, 0.05);
-        let owners = owners(&plan);
-        let first = regions(&plan);
+        let placement = limits(&plan, Verify::Fast).placement;
+        let owners = owners(&plan, &placement, &attributes(&plan, &placement));
         for edge in plan.edges.hard.ids() {
             let owner = plan.edges.hard[edge].sides[owners.side[edge]].triangle();
-            assert_eq!(first[owner], Triangle(0), "the side of the cylinder comes first");
+            assert!(owner < Triangle(24), "the side of the cylinder comes first");
         }
-    }
-
-    #[test]
-    fn a_region_ends_at_hard_edges() {
-        let cube = shapes::plain_cube(1.0);
-        let region = regions(&plan_of(&cube, 0.1));
-        let expected = (0..12).map(|triangle| Triangle(triangle - triangle % 2));
-        assert!(region.iter().copied().eq(expected));
-    }
-
-    #[test]
-    fn between_two_vertices_both_weigh_their_share() {
-        let [a, b] = [Blend::one(3), Blend::one(5)];
-        assert_eq!(between(a, b, 0.0), a);
-        assert_eq!(between(a, b, 1.0), b);
-        let mixed = between(a, b, 0.25);
-        let weight_of = |vertex: u32| {
-            let pairs = mixed.vertices.into_iter().zip(mixed.weights);
-            pairs.filter(|(v, _)| *v == vertex).map(|(_, weight)| weight).sum::<f32>()
-        };
-        assert_eq!([3, 5].map(weight_of), [0.75, 0.25]);
-    }
-
-    #[test]
-    fn the_foot_of_a_pulled_vertex_lies_on_the_old_edge() {
-        let cube = shapes::cube(1.0);
-        let plan = plan_of(&cube, 0.1);
-        let mut placement = Placement::unmoved(&plan);
-        let sector = Sector(0);
-        placement.set(&plan, sector, 1.0);
-        let side = plan.sectors.fans[sector].first;
-        let foot = foot_on_edge(&plan, &placement, side, sector);
-        let weights: Vec<f32> = foot.weights.into_iter().filter(|weight| *weight != 0.0).collect();
-        assert!((weights[0] - 0.9).abs() < 1e-6 && (weights[1] - 0.1).abs() < 1e-6, "{foot:?}");
     }
 }

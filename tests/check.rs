@@ -13,7 +13,7 @@ fn unchanged(mesh: &MeshBuffers) -> Chamfered {
     Chamfered {
         mesh: mesh.clone(),
         vertex_sources: (0..vertices)
-            .map(|v| VertexSource { surface: Blend::one(v), chart: Blend::one(v) })
+            .map(|v| VertexSource::new(Blend::one(v), Blend::one(v)))
             .collect(),
         triangle_sources: (0..triangles)
             .map(|index| TriangleSource { kind: TriangleKind::Source, index })

@@ -1,6 +1,6 @@
 //! The vertex streams of the result, and how a blend of source vertices is evaluated in each.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use crate::ids::{Id, Vertex};
 use crate::math::unit;
@@ -28,7 +28,7 @@ impl Streams {
     pub fn of_source(plan: &Plan) -> Streams {
         let mesh = crate::mesh::Mesh { indices: &[], submesh_index_counts: &[], ..plan.view.mesh };
         let count = mesh.positions.len() as u32;
-        let untouched = |v| VertexSource { surface: Blend::one(v), chart: Blend::one(v) };
+        let untouched = |v| VertexSource::new(Blend::one(v), Blend::one(v));
         Streams {
             vertices: mesh.to_buffers(),
             sources: (0..count).map(untouched).collect(),
@@ -62,15 +62,62 @@ impl Streams {
 
     /// Takes back the vertex that was appended last.
     pub fn pop(&mut self) {
-        let vertices = &mut self.vertices;
-        vertices.positions.pop();
-        vertices.normals.pop();
-        vertices.tangents.pop();
-        vertices.colors.pop();
-        for uv in &mut vertices.uvs {
-            uv.values.truncate(uv.values.len() - uv.components as usize);
+        self.truncate(self.count() - 1);
+    }
+
+    /// Undoes what was done to a vertex that nothing uses yet: the last one, or one of the source.
+    pub fn give_back(&mut self, plan: &Plan, vertex: u32) {
+        if vertex as usize >= plan.view.mesh.positions.len() {
+            self.pop();
+            return;
         }
-        self.sources.pop();
+        let (place, source) = (vertex as usize, &plan.view.mesh);
+        self.vertices.positions[place] = source.positions[place];
+        self.vertices.normals[place] = source.normals[place];
+        if !source.tangents.is_empty() {
+            self.vertices.tangents[place] = source.tangents[place];
+        }
+        if !source.colors.is_empty() {
+            self.vertices.colors[place] = source.colors[place];
+        }
+        for (uv, source) in self.vertices.uvs.iter_mut().zip(&source.uvs) {
+            let values = place * uv.components as usize..(place + 1) * uv.components as usize;
+            uv.values[values.clone()].copy_from_slice(&source.values[values]);
+        }
+        self.sources[place] = VertexSource::new(Blend::one(vertex), Blend::one(vertex));
+    }
+
+    /// Takes back all vertices from a number on.
+    pub fn truncate(&mut self, count: u32) {
+        let count = count as usize;
+        let vertices = &mut self.vertices;
+        vertices.positions.truncate(count);
+        vertices.normals.truncate(count);
+        vertices.tangents.truncate(count);
+        vertices.colors.truncate(count);
+        for uv in &mut vertices.uvs {
+            uv.values.truncate(count * uv.components as usize);
+        }
+        self.sources.truncate(count);
+    }
+
+    /// Writes a vertex over an earlier one.
+    pub fn relocate(&mut self, vertex: u32, earlier: u32) {
+        let (from, to) = (vertex as usize, earlier as usize);
+        let vertices = &mut self.vertices;
+        vertices.positions[to] = vertices.positions[from];
+        vertices.normals[to] = vertices.normals[from];
+        if !vertices.tangents.is_empty() {
+            vertices.tangents[to] = vertices.tangents[from];
+        }
+        if !vertices.colors.is_empty() {
+            vertices.colors[to] = vertices.colors[from];
+        }
+        for uv in &mut vertices.uvs {
+            let components = uv.components as usize;
+            uv.values.copy_within(from * components..(from + 1) * components, to * components);
+        }
+        self.sources[to] = self.sources[from];
     }
 
     /// Whether two output vertices are equal in every stream.
@@ -90,22 +137,40 @@ impl Streams {
 
     /// Sets a vertex to a place on the source surface.
     pub fn resample(&mut self, plan: &Plan, vertex: u32, position: DVec3, source: VertexSource) {
+        let normal = blended_normal(plan, &source.surface);
+        self.set(plan, vertex, position, normal, source);
+    }
+
+    /// Sets a vertex to a place, with a normal of its own.
+    pub fn set(
+        &mut self,
+        plan: &Plan,
+        vertex: u32,
+        position: DVec3,
+        normal: DVec3,
+        source: VertexSource,
+    ) {
         let place = vertex as usize;
         self.vertices.positions[place] = position.as_vec3().to_array();
-        let normal = blended_normal(plan, &source.surface);
         self.vertices.normals[place] = normal.as_vec3().to_array();
         if !plan.view.mesh.colors.is_empty() {
             self.vertices.colors[place] = self.color(plan, &source.chart);
         }
-        self.rechart(plan, vertex, &source.chart, Channels::MAX);
+        self.set_texture(plan, place, &source.chart, Channels::MAX);
         self.sources[place] = source;
     }
 
-    /// Sets a vertex's tangent and some of its UV channels to a place in a chart.
-    pub fn rechart(&mut self, plan: &Plan, vertex: u32, chart: &Blend, channels: Channels) {
-        let place = vertex as usize;
-        self.sources[place].chart = *chart;
-        if !plan.view.mesh.tangents.is_empty() {
+    /// Sets some of a vertex's UV channels to a place in the chart that its chamfer continues.
+    pub fn rechart(&mut self, plan: &Plan, vertex: u32, owner: &Blend, channels: Channels) {
+        let source = &mut self.sources[vertex as usize];
+        source.owner = *owner;
+        source.owner_channels = u32::from(channels);
+        self.set_texture(plan, vertex as usize, owner, channels);
+    }
+
+    /// Sets UV channels, and the tangent along with the first of them.
+    fn set_texture(&mut self, plan: &Plan, place: usize, chart: &Blend, channels: Channels) {
+        if !plan.view.mesh.tangents.is_empty() && channels & 1 == 1 {
             let normal = wide(self.vertices.normals[place]);
             self.vertices.tangents[place] = tangent(plan, chart, normal);
         }
@@ -114,9 +179,11 @@ impl Streams {
         }
     }
 
-    pub fn set_position_and_normal(&mut self, vertex: u32, position: DVec3, normal: DVec3) {
-        self.vertices.positions[vertex as usize] = position.as_vec3().to_array();
-        self.vertices.normals[vertex as usize] = normal.as_vec3().to_array();
+    /// A vertex's value in a UV channel.
+    pub fn uv(&self, vertex: u32, channel: usize) -> DVec2 {
+        let uv = &self.vertices.uvs[channel];
+        let first = vertex as usize * uv.components as usize;
+        DVec2::new(f64::from(uv.values[first]), f64::from(uv.values[first + 1]))
     }
 
     fn set_uv(&mut self, plan: &Plan, place: usize, chart: &Blend, channel: usize) {

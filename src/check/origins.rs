@@ -32,8 +32,8 @@ impl<'a> Origins<'a> {
         }
         let source_vertices = before.positions.len() as u32;
         for (vertex, source) in after.vertex_sources.iter().enumerate() {
-            if ![source.surface, source.chart].iter().all(|blend| is_valid(blend, source_vertices))
-            {
+            let blends = [source.surface, source.chart, source.owner];
+            if !blends.iter().all(|blend| is_valid(blend, source_vertices)) {
                 findings.note(Rule::Origins, Element::Vertex(vertex as u32));
             }
         }
@@ -93,7 +93,9 @@ impl<'a> Origins<'a> {
         match self.vertices {
             Some(sources) => sources
                 .iter()
-                .map(|source| holds_for(&source.surface) && holds_for(&source.chart))
+                .map(|VertexSource { surface, chart, owner, .. }| {
+                    [surface, chart, owner].into_iter().all(holds_for)
+                })
                 .collect(),
             None => self.corners_hold(before, after, holds),
         }

@@ -32,7 +32,7 @@ pub fn with_normals(mesh: &Mesh, angle_degrees: f32) -> Result<Chamfered, Failur
 }
 
 fn copy_of(vertex: u32) -> VertexSource {
-    VertexSource { surface: Blend::one(vertex), chart: Blend::one(vertex) }
+    VertexSource::new(Blend::one(vertex), Blend::one(vertex))
 }
 
 fn gather(mesh: &Mesh, smoothed: Smoothed) -> MeshBuffers {

@@ -22,6 +22,11 @@ const _: () = {
     assert!(offset_of!(Blend, weights) == offset_of!(chamfer_blend, weights));
     assert!(size_of::<VertexSource>() == size_of::<chamfer_vertex_source>());
     assert!(offset_of!(VertexSource, chart) == offset_of!(chamfer_vertex_source, chart));
+    assert!(offset_of!(VertexSource, owner) == offset_of!(chamfer_vertex_source, owner));
+    assert!(
+        offset_of!(VertexSource, owner_channels)
+            == offset_of!(chamfer_vertex_source, owner_channels)
+    );
     assert!(size_of::<TriangleSource>() == size_of::<chamfer_triangle_source>());
     assert!(offset_of!(TriangleSource, kind) == offset_of!(chamfer_triangle_source, kind));
     assert!(offset_of!(TriangleSource, index) == offset_of!(chamfer_triangle_source, index));

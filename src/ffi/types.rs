@@ -250,8 +250,15 @@ pub struct chamfer_blend {
 pub struct chamfer_vertex_source {
     /// For what belongs to the surface: position, normal, skin weights, morph targets.
     pub surface: chamfer_blend,
-    /// For what belongs to the texture chart: UV channels, tangent, colour.
+    /// For what belongs to the vertex's own texture chart: colour, and the UV channels and tangent
+    /// that `owner_channels` does not name.
     pub chart: chamfer_blend,
+    /// A place in the chart that the chamfer continues over a seam; the same as `chart` where
+    /// `owner_channels` is 0.
+    pub owner: chamfer_blend,
+    /// The UV channels that follow `owner`: channel `k` where bit `k` is set. The tangent goes with
+    /// channel 0.
+    pub owner_channels: u32,
 }
 
 /// What an output triangle came from.

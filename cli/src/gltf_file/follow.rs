@@ -37,7 +37,7 @@ impl Follower<'_> {
         let mut values = Vec::with_capacity(vertices.len() * element.shape.components());
         for vertex in vertices {
             let source = &self.sources[*vertex as usize];
-            let blend = if belongs_to_chart(name) { &source.chart } else { &source.surface };
+            let blend = blend_of(source, name);
             let value = match is_label(name, element) {
                 true => nearest(&streams, blend),
                 false => mean(&streams, blend),
@@ -51,8 +51,17 @@ impl Follower<'_> {
     }
 }
 
-fn belongs_to_chart(name: &str) -> bool {
-    name == "TANGENT" || name.starts_with("TEXCOORD_") || name.starts_with("COLOR_")
+/// What an attribute is a blend of: of the surface, of the vertex's own chart, or of the chart that
+/// the chamfer continues.
+fn blend_of<'a>(source: &'a VertexSource, name: &str) -> &'a Blend {
+    if let Some(number) = name.strip_prefix("TEXCOORD_") {
+        return source.uv(number.parse().unwrap_or(0));
+    }
+    match name {
+        "TANGENT" => source.tangent(),
+        _ if name.starts_with("COLOR_") => &source.chart,
+        _ => &source.surface,
+    }
 }
 
 /// Plain integers that nothing says are quantities: numbers of joints, features, materials.

@@ -66,7 +66,7 @@ fn texcoords(origin: &Origin, result: &Chamfered) -> Table<3> {
     let uv = &result.mesh.uvs[0];
     let components = uv.components as usize;
     Table::new((0..result.mesh.positions.len()).map(|vertex| {
-        let source = result.vertex_sources[vertex].chart.vertices[0];
+        let source = result.vertex_sources[vertex].uv(0).vertices[0];
         if components == 0 || !origin.has_texcoord[source as usize] {
             return None;
         }
@@ -237,7 +237,7 @@ mod tests {
         let build::Built { mesh: source, origin, .. } = build::build(&obj, 30.0).unwrap();
         let mut mesh = source.clone();
         change(&mut mesh);
-        let one = |_| VertexSource { surface: Blend::one(0), chart: Blend::one(0) };
+        let one = |_| VertexSource::new(Blend::one(0), Blend::one(0));
         let vertex_sources = (0..mesh.positions.len()).map(one).collect();
         let result = Chamfered { mesh, vertex_sources, ..Chamfered::default() };
         String::from_utf8(write(&obj, &source, &origin, &result)).unwrap()

@@ -34,7 +34,7 @@ pub fn write(files: &[OutputFile]) {
 }
 
 fn identity(mesh: &MeshBuffers) -> Chamfered {
-    let source = |v| VertexSource { surface: Blend::one(v), chart: Blend::one(v) };
+    let source = |v| VertexSource::new(Blend::one(v), Blend::one(v));
     let triangle = |index| TriangleSource { kind: TriangleKind::Source, index };
     Chamfered {
         mesh: mesh.clone(),
@@ -99,7 +99,7 @@ fn push_blend(result: &mut Chamfered, mesh: &MeshBuffers, triangle: [u32; 3]) ->
         let (uvs, _) = mesh.uvs[channel].values.as_chunks::<2>();
         out.uvs[channel].values.extend(mean(uvs, triangle));
     }
-    result.vertex_sources.push(VertexSource { surface: blend, chart: blend });
+    result.vertex_sources.push(VertexSource::new(blend, blend));
     out.positions.len() as u32 - 1
 }
 

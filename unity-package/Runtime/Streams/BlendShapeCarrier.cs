@@ -16,7 +16,7 @@ namespace Chamfer.Streams
                 Positions = Array.ConvertAll(sources, source => Blend(frame.Positions, source.Surface)),
                 Normals = Array.ConvertAll(sources, source => Blend(frame.Normals, source.Surface)),
                 // Tangents follow the texture.
-                Tangents = Array.ConvertAll(sources, source => Blend(frame.Tangents, source.Chart))
+                Tangents = Array.ConvertAll(sources, source => Blend(frame.Tangents, source.TangentChart))
             });
         }
 

@@ -1,0 +1,85 @@
+//! Density: how much texture a triangle shows for its area.
+
+use glam::{DVec2, DVec3};
+
+use crate::ids::{Id, Triangle};
+use crate::math::area_vector;
+use crate::mesh::Uv;
+use crate::plan::Plan;
+
+/// A chamfer that lies this many times denser or thinner on the texture than the face that it
+/// continues looks smeared or noisy: then another way to map it is tried.
+pub const MOST_STRETCH: f64 = 4.0;
+
+/// Single precision, and a little for the arithmetic of exporters.
+const ROUNDING: f64 = 1e-6;
+
+/// Two components of a vertex in a UV channel: what lies on the texture.
+pub fn uv_point(uv: &Uv, vertex: u32) -> DVec2 {
+    let first = vertex as usize * uv.components as usize;
+    DVec2::new(f64::from(uv.values[first]), f64::from(uv.values[first + 1]))
+}
+
+/// UV area over surface area of a source triangle, negative where it is mirrored; 0 where it has
+/// none.
+pub fn density(plan: &Plan, triangle: Triangle, channel: usize) -> f64 {
+    let uv = &plan.view.mesh.uvs[channel];
+    let area = area_vector(plan.view.triangle(triangle)).length();
+    let points = triangle.corners().map(|c| uv_point(uv, plan.view.vertex_at(c).index() as u32));
+    if area > 0.0 && !is_line(points) { texture_area(points) / area } else { 0.0 }
+}
+
+/// Whether rounding its UVs can make a triangle's area vanish: models that are coloured by single
+/// texels have all of a face at one place.
+fn is_line(points: [DVec2; 3]) -> bool {
+    let [a, b, c] = points;
+    let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+    let size = points.iter().fold(0.0, |size: f64, point| size.max(point.abs().max_element()));
+    texture_area(points).abs() <= longest * size * ROUNDING
+}
+
+/// Twice the area on the texture.
+fn texture_area([a, b, c]: [DVec2; 3]) -> f64 {
+    (b - a).perp_dot(c - a)
+}
+
+/// The factor by which the worst of some triangles lies denser or thinner on the texture than a
+/// face of the given density: 1 at best, infinite where one is mirrored or has no UV area.
+pub fn stretch(
+    density: f64,
+    resolution: f64,
+    triangles: impl Iterator<Item = ([DVec3; 3], [DVec2; 3])>,
+) -> f64 {
+    if density == 0.0 {
+        return 1.0;
+    }
+    let of_triangle = |(points, uvs): ([DVec3; 3], [DVec2; 3])| {
+        let area = area_vector(points).length();
+        let ratio = texture_area(uvs) / density / area;
+        let is_tiny = area <= resolution * resolution;
+        match () {
+            () if is_tiny => 1.0,
+            () if ratio > 0.0 => ratio.max(1.0 / ratio),
+            () => f64::INFINITY,
+        }
+    };
+    triangles.map(of_triangle).fold(1.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FLAT: [DVec3; 3] = [DVec3::ZERO, DVec3::X, DVec3::Y];
+    const UVS: [DVec2; 3] = [DVec2::ZERO, DVec2::X, DVec2::Y];
+
+    #[test]
+    fn thin_and_dense_are_alike_and_mirrored_is_worst() {
+        let of = |uvs: [DVec2; 3]| stretch(1.0, 1e-6, [(FLAT, uvs)].into_iter());
+        assert_eq!(of(UVS), 1.0);
+        assert_eq!(of(UVS.map(|uv| uv * 2.0)), 4.0);
+        assert_eq!(of(UVS.map(|uv| uv * 0.5)), 4.0);
+        assert_eq!(of([UVS[0], UVS[2], UVS[1]]), f64::INFINITY);
+        assert_eq!(of([UVS[0]; 3]), f64::INFINITY);
+    }
+}

@@ -1,0 +1,133 @@
+//! Every stream of chamfered meshes, judged from what went in and what came out.
+//!
+//! `cargo test --release --test streams -- --nocapture` prints what was counted for each rule.
+
+#[path = "streams/charts.rs"]
+mod charts;
+#[path = "streams/footprint.rs"]
+mod footprint;
+#[path = "streams/rebuild.rs"]
+mod rebuild;
+#[path = "streams/surviving.rs"]
+mod surviving;
+#[path = "streams/tally.rs"]
+mod tally;
+
+use std::path::Path;
+
+use chamfer::{Chamfered, Mesh, MeshBuffers, Options, Verify, Width, chamfer, shapes};
+use chamfer_cli::document::ReadOptions;
+use chamfer_cli::format;
+use tally::Tally;
+
+const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/corpus");
+
+fn check(name: &str, before: &Mesh, after: &Chamfered, tally: &mut Tally) {
+    footprint::check(name, before, after, tally);
+    rebuild::check(name, before, after, tally);
+    surviving::check(name, before, after, tally);
+}
+
+fn check_affine(name: &str, before: &Mesh, percent: f32, tally: &mut Tally) {
+    let mesh = surviving::affine(before);
+    let size = mesh.positions.as_flattened().iter().fold(1e-30_f32, |m, x| m.max(x.abs()));
+    surviving::check_affine(name, &chamfered(&mesh.as_mesh(), percent), size, tally);
+}
+
+fn chamfered(mesh: &Mesh, percent: f32) -> Chamfered {
+    let width = Width::PercentOfExtent(percent);
+    chamfer(mesh, &Options { width, verify: Verify::Fast, ..Options::default() }).unwrap()
+}
+
+fn built() -> Vec<(&'static str, MeshBuffers)> {
+    let mut models = shapes::demo_models();
+    models.push(("aligned_strip", shapes::aligned_strip()));
+    models
+}
+
+fn of_shapes(percent: f32) -> Tally {
+    let mut tally = Tally::default();
+    for (name, mesh) in built() {
+        let mesh = mesh.as_mesh();
+        check(name, &mesh, &chamfered(&mesh, percent), &mut tally);
+        check_affine(name, &mesh, percent, &mut tally);
+    }
+    tally
+}
+
+fn of_corpus(percent: f32) -> Option<Tally> {
+    let mut paths: Vec<_> =
+        std::fs::read_dir(Path::new(FOLDER)).ok()?.flatten().map(|entry| entry.path()).collect();
+    paths.sort();
+    let mut tally = Tally::default();
+    for path in paths {
+        let Ok(document) = format::read(&path, &ReadOptions { smoothing_angle: 30.0 }) else {
+            continue;
+        };
+        for source in document.meshes() {
+            let file = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            let mesh = source.mesh.as_mesh();
+            let name = format!("{file}/{}", source.name);
+            check(&name, &mesh, &chamfered(&mesh, percent), &mut tally);
+            check_affine(&name, &mesh, percent, &mut tally);
+        }
+    }
+    Some(tally)
+}
+
+/// What nothing may break.
+const KEPT: [&str; 9] = [
+    "2 uv",
+    "2 colour",
+    "2 normal",
+    "3 swims",
+    "4 tangent",
+    "4 handedness",
+    "4 tangent rebuilt",
+    "5 colour range",
+    "6 duplicates",
+];
+
+/// What real models may break, at most, as a share of what was looked at: seams that run through
+/// the sector of a pulled vertex, slivers, and charts that the source has folded already.
+const BOUNDS: [(&str, f64); 9] = [
+    ("1 footprint", 0.022),
+    ("1 area", 0.005),
+    ("1 mirrored", 0.005),
+    ("1 thin strip", 0.045),
+    ("1 dense strip", 0.015),
+    ("1 thin fill", 0.12),
+    ("1 dense fill", 0.012),
+    ("2 position", 0.005),
+    ("3 affine", 0.005),
+];
+
+fn assert_kept(tally: &Tally) {
+    for rule in KEPT {
+        assert_eq!(tally.broken(rule), 0, "{rule}:\n{tally}");
+    }
+}
+
+#[test]
+fn built_shapes_keep_every_rule() {
+    for percent in [0.2, 0.5, 2.0] {
+        let tally = of_shapes(percent);
+        println!("shapes at {percent} %:\n{tally}");
+        assert_kept(&tally);
+        for (rule, _) in BOUNDS {
+            assert_eq!(tally.broken(rule), 0, "{rule}:\n{tally}");
+        }
+    }
+}
+
+#[test]
+fn real_models_keep_their_streams() {
+    for percent in [0.2, 0.5, 2.0] {
+        let Some(tally) = of_corpus(percent) else { continue };
+        println!("models at {percent} %:\n{tally}");
+        assert_kept(&tally);
+        for (rule, most) in BOUNDS {
+            assert!(tally.share(rule) <= most, "{rule} beyond {most}:\n{tally}");
+        }
+    }
+}
