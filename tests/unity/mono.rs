@@ -17,7 +17,7 @@ const STRICT: [&str; 6] = [
     "-warnaserror",
     "-define:UNITY_EDITOR",
     // Fields that only native code or the inspector sets.
-    "-nowarn:169,649",
+    "-nowarn:649",
 ];
 
 /// The compiled tests, beside the assemblies and the native library that they need.

@@ -30,7 +30,9 @@ namespace Chamfer.Interop
         {
             internal const int Count = 8;
 
+#pragma warning disable 169 // All but the first are reached by the indexer only.
             private NativeUv uv0, uv1, uv2, uv3, uv4, uv5, uv6, uv7;
+#pragma warning restore 169
 
             internal NativeUv this[int channel]
             {
