@@ -3,7 +3,7 @@
 //! Only exports that return a constant do without. The host's panic hook is left alone, so a fault
 //! of this library may still print its place.
 
-use std::ffi::c_char;
+use libc::c_char;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use super::sized::{self, StatesSize};

@@ -11,7 +11,7 @@ mod sized;
 mod status;
 mod types;
 
-use std::ffi::{c_char, c_void};
+use libc::{c_char, c_void};
 use std::ops::ControlFlow;
 use std::ptr;
 

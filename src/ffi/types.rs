@@ -6,7 +6,7 @@
 
 #![allow(non_camel_case_types)]
 
-use std::ffi::{c_char, c_void};
+use libc::{c_char, c_void};
 
 /// The version of this interface that the header describes. A program checks that
 /// `chamfer_abi_version` gives the same before it calls anything else.
