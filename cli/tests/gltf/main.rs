@@ -4,4 +4,5 @@ mod corpus;
 mod damage;
 mod features;
 mod files;
+mod morphs;
 mod support;
