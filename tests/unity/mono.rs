@@ -44,12 +44,15 @@ pub fn program() -> Option<&'static Program> {
         if is_there() || install() {
             return Some(compile_all());
         }
-        // Not by eprintln, which the test runner keeps to itself.
-        let line = "SKIPPED: no Mono (mcs and mono), so the Unity package is untested\n";
-        std::io::stderr().write_all(line.as_bytes()).unwrap();
+        skip("no Mono (mcs and mono), so the Unity package is untested");
         None
     });
     PROGRAM.as_ref()
+}
+
+/// Tells what is not tested, and not by eprintln, which the test runner keeps to itself.
+pub fn skip(why: &str) {
+    std::io::stderr().write_all(format!("SKIPPED: {why}\n").as_bytes()).unwrap();
 }
 
 fn is_there() -> bool {
