@@ -24,7 +24,9 @@ namespace ChamferEditor
             try
             {
                 ChamferSettings settings;
-                if (TryFindSettings(out settings)) { Process(root, settings, context.LogImportWarning); }
+                if (!TryFindSettings(out settings)) { return; }
+                context.DependsOnCustomDependency(ImportDependency.Name);
+                Process(root, settings, (message, mesh) => context.LogImportWarning(message, mesh));
             }
             // An import must never break because of a chamfer.
             catch (Exception exception) { context.LogImportWarning("Not chamfered: " + exception.Message, root); }

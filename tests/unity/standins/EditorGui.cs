@@ -16,12 +16,28 @@ namespace UnityEditor
     public class CustomEditor : Attribute { public CustomEditor(Type type) { } }
     public class CanEditMultipleObjects : Attribute { }
 
-    public class SerializedProperty { public int intValue { get; set; } }
-
-    public class SerializedObject
+    public class SerializedProperty
     {
-        public SerializedObject(UnityEngine.Object target) { }
-        public SerializedProperty FindProperty(string path) { return new SerializedProperty(); }
+        public int intValue { get; set; }
+        public bool boolValue { get; set; }
+    }
+
+    public class SerializedObject : IDisposable
+    {
+        private readonly UnityEngine.Object target;
+        private readonly SerializedProperty readable = new SerializedProperty();
+
+        public SerializedObject(UnityEngine.Object target) { this.target = target; }
+
+        public SerializedProperty FindProperty(string path)
+        {
+            return path == "m_IsReadable" ? readable : new SerializedProperty();
+        }
+
+        /// For the one property that the package changes by its name.
+        public bool ApplyModifiedPropertiesWithoutUndo() { ((Mesh)target).readable = readable.boolValue; return true; }
+
+        public void Dispose() { }
         public void Update() { }
         public bool ApplyModifiedProperties() { return false; }
     }
@@ -37,13 +53,34 @@ namespace UnityEditor
         public static void EndHorizontal() { }
     }
 
-    public struct Rect { }
+    public static class EditorGUI
+    {
+        public struct DisabledScope : IDisposable
+        {
+            public DisabledScope(bool disabled) { }
+            public void Dispose() { }
+        }
+    }
 
     public static class Handles
     {
-        public static Matrix4x4 matrix { get; set; }
-        public static Color color { get; set; }
-        public static void DrawLines(Vector3[] ends) { }
+        /// How many points were drawn in each colour.
+        public static readonly Dictionary<Color, int> drawn = new Dictionary<Color, int>();
+        private static Color color;
+
+        public static void DrawLines(Vector3[] ends)
+        {
+            int before;
+            drawn.TryGetValue(color, out before);
+            drawn[color] = before + ends.Length;
+        }
+
+        public struct DrawingScope : IDisposable
+        {
+            private readonly Color before;
+            public DrawingScope(Color color, Matrix4x4 matrix) { before = Handles.color; Handles.color = color; }
+            public void Dispose() { Handles.color = before; }
+        }
     }
 
     public enum SettingsScope { User, Project }
