@@ -54,8 +54,8 @@ fn install() -> bool {
 
 /// Builds the library that goes into the Unity package.
 pub fn windows_library() -> PathBuf {
-    let script = Path::new(ROOT).join("scripts/library");
-    let output = Command::new("bash").arg(script).arg("windows").output().unwrap();
+    let script = Path::new(ROOT).join("scripts/build");
+    let output = Command::new("bash").arg(script).args(["library", "windows"]).output().unwrap();
     let complaint = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{complaint}");
     let printed = String::from_utf8(output.stdout).unwrap();
