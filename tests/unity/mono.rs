@@ -80,6 +80,8 @@ fn compile_all() -> Program {
     compile(&folder, "Chamfer.Editor.dll", "unity-package/Editor", &runtime);
     let all = ["UnityStandIns.dll", "Chamfer.Runtime.dll", "Chamfer.Editor.dll", "System.Core.dll"];
     compile(&folder, "Chamfer.Tests.exe", "tests/unity/tests", &all);
+    // Samples are copied into projects, where they see what is public only.
+    compile(&folder, "Samples.dll", "unity-package/Samples~", &runtime);
 
     let library = format!("{DLL_PREFIX}chamfer{DLL_SUFFIX}");
     let built = env::current_exe().unwrap().with_file_name(&library);
