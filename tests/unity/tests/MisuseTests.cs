@@ -1,6 +1,5 @@
 // What misuse of the C interface leads to, as far as C# can commit it: the rows of docs/abi.md.
 using System;
-using System.Runtime.InteropServices;
 using System.Threading;
 using Chamfer.Interop;
 using Chamfer.Streams;
@@ -78,23 +77,28 @@ namespace Chamfer.Tests
             }
         }
 
+        /// As a program with a newer header would call: what this library does not know must not be set.
         public static void Fields_of_a_newer_header()
         {
-            int size = Marshal.SizeOf(typeof(NativeTotals));
-            var memory = Marshal.AllocHGlobal(2 * size);
-            try
+            Check.Equal(0, WithLongerOptions(0));
+            Check.Equal(StructSize, WithLongerOptions(1));
+        }
+
+        private static int WithLongerOptions(uint unknown)
+        {
+            var memory = stackalloc NativeOptions[2];
+            memory[0] = NativeInput.Options(ChamferSettings.Default);
+            memory[1] = new NativeOptions { StructSize = unknown };
+            memory[0].StructSize += 4;
+            using (var pins = new PinnedArrays())
             {
-                var totals = (NativeTotals*)memory;
-                totals[1] = new NativeTotals();
-                totals->StructSize = (uint)(2 * size);
-                using (var result = Run())
-                {
-                    Check.Equal(0, NativeMethods.ResultTotals(result, ref *totals));
-                    totals->StructSize = 3;
-                    Check.Equal(StructSize, NativeMethods.ResultTotals(result, ref *totals));
-                }
+                var mesh = NativeInput.Mesh(MeshReader.Read(Shapes.Cube()), pins);
+                var error = NativeError.Empty();
+                ResultHandle result;
+                int status = NativeMethods.Run(ref mesh, ref memory[0], null, IntPtr.Zero, out result, ref error);
+                result.Dispose();
+                return status;
             }
-            finally { Marshal.FreeHGlobal(memory); }
         }
 
         public static void Counts()
