@@ -1,8 +1,10 @@
+using System;
 using System.Collections.Generic;
 using System.Linq;
 using Chamfer;
 using UnityEditor;
 using UnityEngine;
+using Object = UnityEngine.Object;
 
 namespace ChamferEditor
 {
@@ -18,8 +20,9 @@ namespace ChamferEditor
                 if (!RunModel(path, settings, summary)) { return false; }
             }
             var selected = new List<Object>();
-            selected.AddRange(Paths("t:Prefab", folder).Select(AssetDatabase.LoadAssetAtPath<GameObject>));
-            selected.AddRange(Paths("t:Mesh", folder).Where(IsSource).Select(AssetDatabase.LoadAssetAtPath<Mesh>));
+            selected.AddRange(Paths("t:Prefab", folder).Select(path => AssetDatabase.LoadAssetAtPath<GameObject>(path)));
+            var meshes = Paths("t:Mesh", folder).Where(IsSource);
+            selected.AddRange(meshes.Select(path => AssetDatabase.LoadAssetAtPath<Mesh>(path)));
             return new ChamferSelection(selected.Where(item => item != null)).Chamfer(settings, summary);
         }
 
@@ -43,14 +46,15 @@ namespace ChamferEditor
         /// <summary>Whether a file holds a mesh of its own that is no result of an earlier time.</summary>
         private static bool IsSource(string path)
         {
-            return path.EndsWith(".asset") && !path.EndsWith(JobResult.Suffix + ".asset");
+            return path.EndsWith(".asset", StringComparison.Ordinal)
+                && !path.EndsWith(JobResult.Suffix + ".asset", StringComparison.Ordinal);
         }
 
         /// <summary>Sorted, so that each run does the same in the same order.</summary>
         private static IEnumerable<string> Paths(string filter, string folder)
         {
-            var guids = AssetDatabase.FindAssets(filter, new[] { folder });
-            return guids.Select(AssetDatabase.GUIDToAssetPath).Distinct().OrderBy(path => path, System.StringComparer.Ordinal);
+            var paths = AssetDatabase.FindAssets(filter, new[] { folder }).Select(guid => AssetDatabase.GUIDToAssetPath(guid));
+            return paths.Distinct().OrderBy(path => path, StringComparer.Ordinal);
         }
     }
 }

@@ -21,7 +21,9 @@ namespace UnityEditor
         public static bool IsPersistent(Object target) { return persistent.Contains(target); }
         public static void SetDirty(Object target) { dirty.Add(target); }
         public static void ClearProgressBar() { barShown = false; }
-        public static string SaveFolderPanel(string title, string folder, string name) { return ""; }
+        /// The folder that the user chooses; none if the dialogue is cancelled.
+        public static string chosen = "";
+        public static string SaveFolderPanel(string title, string folder, string name) { return chosen; }
 
         public static bool DisplayCancelableProgressBar(string title, string info, float progress)
         {

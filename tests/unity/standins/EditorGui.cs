@@ -1,4 +1,4 @@
-// The editor's drawing, which does nothing here: it only has to compile.
+// The editor's drawing: what it shows is recorded, and tests say what the user clicks on.
 using System;
 using System.Collections.Generic;
 using UnityEngine;
@@ -39,7 +39,10 @@ namespace UnityEditor
 
         public void Dispose() { }
         public void Update() { }
-        public bool ApplyModifiedProperties() { return false; }
+
+        /// Whether the user has changed a property.
+        public static bool changed;
+        public bool ApplyModifiedProperties() { return changed; }
     }
 
     public enum MessageType { None, Info, Warning, Error }
@@ -48,17 +51,21 @@ namespace UnityEditor
     {
         public static bool PropertyField(SerializedProperty property, params GUILayoutOption[] options) { return false; }
         public static bool PropertyField(SerializedProperty property, bool children, params GUILayoutOption[] options) { return false; }
-        public static void HelpBox(string text, MessageType type) { }
+        public static readonly List<string> boxes = new List<string>();
+        public static void HelpBox(string text, MessageType type) { boxes.Add(text); }
         public static Rect BeginHorizontal(params GUILayoutOption[] options) { return new Rect(); }
         public static void EndHorizontal() { }
     }
 
     public static class EditorGUI
     {
+        public static bool disabled;
+
         public struct DisabledScope : IDisposable
         {
-            public DisabledScope(bool disabled) { }
-            public void Dispose() { }
+            private readonly bool before;
+            public DisabledScope(bool disabled) { before = EditorGUI.disabled; EditorGUI.disabled |= disabled; }
+            public void Dispose() { disabled = before; }
         }
     }
 

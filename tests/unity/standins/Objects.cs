@@ -109,6 +109,14 @@ namespace UnityEngine
 
     public static class GUILayout
     {
-        public static bool Button(string text, params GUILayoutOption[] options) { return false; }
+        /// The button that the mouse is on; only one reacts to a click.
+        public static string clicked;
+
+        public static bool Button(string text, params GUILayoutOption[] options)
+        {
+            if (text != clicked || UnityEditor.EditorGUI.disabled) { return false; }
+            clicked = null;
+            return true;
+        }
     }
 }
