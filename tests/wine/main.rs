@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use chamfer::{MeshBuffers, shapes};
-use chamfer_cli::document::{Document, ReadOptions};
+use chamfer_cli::document::ReadOptions;
 use chamfer_cli::format;
 use raw_mesh::Numbers;
 
