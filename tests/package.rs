@@ -4,7 +4,6 @@ use std::collections::BTreeSet;
 use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 const PACKAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/unity-package");
 const HEADER: &str = include_str!("../include/chamfer.h");
@@ -192,55 +191,6 @@ fn files_are_short() {
     }
 }
 
-/// The files of an archive of libraries that were built elsewhere: here, empty ones.
-fn archived() -> Vec<String> {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("archive");
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).unwrap();
-    for library in ["libchamfer.so", "chamfer.dll", "libchamfer.dylib"] {
-        fs::write(folder.join(library), "").unwrap();
-    }
-    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/scripts/package-unity");
-    let mut pack = Command::new("bash");
-    pack.args([script, "--strict", "--libraries"]).arg(&folder).arg("--output").arg(&folder);
-    assert!(pack.output().unwrap().status.success());
-    let name = format!("com.chamfer.unity-{}.tgz", env!("CARGO_PKG_VERSION"));
-    let list = Command::new("tar").arg("-tzf").arg(folder.join(name)).output().unwrap();
-    let paths = String::from_utf8(list.stdout).unwrap();
-    paths.lines().map(|path| path.trim_end_matches('/').to_owned()).collect()
-}
-
-/// Packing needs GNU tar.
-#[test]
-#[cfg(target_os = "linux")]
-fn nothing_is_missing_in_the_archive() {
-    let archived = archived();
-    let has = |path: &str| archived.iter().any(|known| known == &format!("package/{path}"));
-    for path in [
-        "package.json",
-        "README.md",
-        "CHANGELOG.md",
-        "LICENSE.md",
-        "LICENSE-MIT.md",
-        "LICENSE-APACHE.md",
-        "Documentation~/index.md",
-        "Samples~/Pipeline/ChamferChildren.cs",
-        "Runtime/Plugins/x86_64/libchamfer.so",
-        "Runtime/Plugins/x86_64/chamfer.dll",
-        "Runtime/Plugins/macOS/libchamfer.dylib",
-    ] {
-        assert!(has(path), "{path}");
-    }
-    for path in imported().iter().filter(|path| !path.ends_with(".gitignore")) {
-        let path = path.strip_prefix(package()).unwrap().to_string_lossy().replace('\\', "/");
-        assert!(has(&path), "{path}");
-    }
-    let is_imported = |path: &&String| !path.contains('~') && *path != "package";
-    for path in archived.iter().filter(is_imported).filter(|path| !path.ends_with(".meta")) {
-        assert!(archived.contains(&format!("{path}.meta")), "{path} has no meta");
-    }
-}
-
 #[test]
 fn the_pictures_of_the_page_are_there() {
     let page = read("Documentation~/index.md");
@@ -278,6 +228,61 @@ fn actions_of_the_workflows_are_pinned() {
             let hash = pin.split(' ').next().unwrap();
             let is_commit = hash.len() == 40 && hash.chars().all(|c| c.is_ascii_hexdigit());
             assert!(is_commit && pin.contains("# v"), "{}: {action}", path.display());
+        }
+    }
+}
+
+/// Packing needs GNU tar.
+#[cfg(target_os = "linux")]
+mod archive {
+    use std::process::Command;
+
+    use super::*;
+
+    /// The files of an archive of libraries that were built elsewhere: here, empty ones.
+    fn archived() -> Vec<String> {
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("archive");
+        let _ = fs::remove_dir_all(&folder);
+        fs::create_dir_all(&folder).unwrap();
+        for library in ["libchamfer.so", "chamfer.dll", "libchamfer.dylib"] {
+            fs::write(folder.join(library), "").unwrap();
+        }
+        let script = concat!(env!("CARGO_MANIFEST_DIR"), "/scripts/package-unity");
+        let mut pack = Command::new("bash");
+        pack.args([script, "--strict", "--libraries"]).arg(&folder).arg("--output").arg(&folder);
+        assert!(pack.output().unwrap().status.success());
+        let name = format!("com.chamfer.unity-{}.tgz", env!("CARGO_PKG_VERSION"));
+        let list = Command::new("tar").arg("-tzf").arg(folder.join(name)).output().unwrap();
+        let paths = String::from_utf8(list.stdout).unwrap();
+        paths.lines().map(|path| path.trim_end_matches('/').to_owned()).collect()
+    }
+
+    #[test]
+    fn nothing_is_missing_in_the_archive() {
+        let archived = archived();
+        let has = |path: &str| archived.iter().any(|known| known == &format!("package/{path}"));
+        for path in [
+            "package.json",
+            "README.md",
+            "CHANGELOG.md",
+            "LICENSE.md",
+            "LICENSE-MIT.md",
+            "LICENSE-APACHE.md",
+            "Documentation~/index.md",
+            "Samples~/Pipeline/ChamferChildren.cs",
+            "Runtime/Plugins/x86_64/libchamfer.so",
+            "Runtime/Plugins/x86_64/chamfer.dll",
+            "Runtime/Plugins/macOS/libchamfer.dylib",
+        ] {
+            assert!(has(path), "{path}");
+        }
+        for path in imported().iter().filter(|path| !path.ends_with(".gitignore")) {
+            let path = path.strip_prefix(package()).unwrap().to_string_lossy().replace('\\', "/");
+            assert!(has(&path), "{path}");
+        }
+        let is_imported = |path: &&String| !path.contains('~') && *path != "package";
+        for path in archived.iter().filter(is_imported).filter(|path| !path.ends_with(".meta")) {
+            assert!(archived.contains(&format!("{path}.meta")), "{path} has no meta");
         }
     }
 }

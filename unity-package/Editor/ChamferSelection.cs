@@ -52,7 +52,7 @@ namespace ChamferEditor
         {
             foreach (var slot in MeshSlot.In(root, true))
             {
-                if (!SlotEditing.IsImported(slot.Holder) && holders.Add(slot.Holder)) { slots.Add(slot); }
+                if (!SlotEditing.IsLocked(slot.Holder) && holders.Add(slot.Holder)) { slots.Add(slot); }
             }
         }
 

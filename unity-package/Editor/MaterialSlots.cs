@@ -7,19 +7,21 @@ namespace ChamferEditor
     /// <summary>Materials for chamfers with a submesh of their own: Unity does not draw a submesh without one.</summary>
     internal static class MaterialSlots
     {
-        /// <summary>Repeats the last material until every submesh of the mesh has one; returns how often.</summary>
+        /// <summary>Repeats the last material for submeshes that a mesh gained; returns how often.</summary>
         internal static int Fill(MeshSlot slot, Mesh before, Mesh after, string action)
         {
-            var renderer = slot.Renderer;
-            int added = after.subMeshCount - before.subMeshCount;
-            if (renderer == null || added <= 0) { return 0; }
-            var materials = renderer.sharedMaterials;
-            // Who draws only some submeshes on purpose, or some of them twice, keeps it so.
-            if (materials.Length != before.subMeshCount || materials.Length == 0) { return 0; }
-            Undo.RecordObject(renderer, action);
-            renderer.sharedMaterials = Resized(materials, materials.Length + added);
-            SlotEditing.Changed(renderer);
-            return added;
+            int gained = after.subMeshCount - before.subMeshCount;
+            if (!CanFill(slot.Renderer, before.subMeshCount, gained)) { return 0; }
+            Undo.RecordObject(slot.Renderer, action);
+            Resize(slot.Renderer, gained);
+            SlotEditing.Changed(slot.Renderer);
+            return gained;
+        }
+
+        /// <summary>As <see cref="Fill"/>, in a model that is being imported, where nothing can be undone.</summary>
+        internal static void FillImported(MeshSlot slot, int before, int gained)
+        {
+            if (CanFill(slot.Renderer, before, gained)) { Resize(slot.Renderer, gained); }
         }
 
         /// <summary>Takes back what <see cref="Fill"/> did.</summary>
@@ -28,15 +30,22 @@ namespace ChamferEditor
             var renderer = slot.Renderer;
             if (renderer == null || added == 0 || renderer.sharedMaterials.Length <= added) { return; }
             Undo.RecordObject(renderer, action);
-            renderer.sharedMaterials = Resized(renderer.sharedMaterials, renderer.sharedMaterials.Length - added);
+            Resize(renderer, -added);
             SlotEditing.Changed(renderer);
         }
 
-        private static Material[] Resized(Material[] materials, int count)
+        /// <summary>Who draws only some submeshes on purpose, or some of them twice, keeps it so.</summary>
+        private static bool CanFill(Renderer renderer, int before, int gained)
         {
-            var resized = new Material[count];
-            for (int i = 0; i < count; i++) { resized[i] = materials[Math.Min(i, materials.Length - 1)]; }
-            return resized;
+            return renderer != null && gained > 0 && before > 0 && renderer.sharedMaterials.Length == before;
+        }
+
+        private static void Resize(Renderer renderer, int change)
+        {
+            var materials = renderer.sharedMaterials;
+            var resized = new Material[materials.Length + change];
+            for (int i = 0; i < resized.Length; i++) { resized[i] = materials[Math.Min(i, materials.Length - 1)]; }
+            renderer.sharedMaterials = resized;
         }
     }
 }

@@ -20,7 +20,7 @@ namespace ChamferEditor
         internal static IReadOnlyList<string> Chamfer(ChamferModifier modifier)
         {
             var slots = MeshSlot.In(modifier.gameObject, modifier.includeChildren);
-            slots.RemoveAll(slot => SlotEditing.IsImported(slot.Holder));
+            slots.RemoveAll(slot => SlotEditing.IsLocked(slot.Holder));
             var originals = slots.ConvertAll(slot => Original(modifier, slot));
             var job = new ChamferJob(Patience);
             if (!job.Run(originals, modifier.settings)) { return new string[0]; }

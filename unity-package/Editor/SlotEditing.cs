@@ -51,11 +51,12 @@ namespace ChamferEditor
             if (isInPrefab) { Undo.DestroyObjectImmediate(ours); }
         }
 
-        /// <summary>Whether the holder is in an imported file, such as a model, which nobody can change.</summary>
-        internal static bool IsImported(Component holder)
+        /// <summary>Whether nobody can change the holder, because it was imported or is in an installed package.</summary>
+        internal static bool IsLocked(Component holder)
         {
             if (!EditorUtility.IsPersistent(holder)) { return false; }
-            return !AssetDatabase.GetAssetPath(holder).EndsWith(".prefab", StringComparison.OrdinalIgnoreCase);
+            bool isPrefab = AssetDatabase.GetAssetPath(holder).EndsWith(".prefab", StringComparison.OrdinalIgnoreCase);
+            return !isPrefab || !AssetDatabase.CanOpenForEdit(holder);
         }
 
         private static string PrefabPath(Component holder)

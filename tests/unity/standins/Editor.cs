@@ -54,6 +54,7 @@ namespace UnityEditor
         public static void CreateAsset(Object target, string path) { paths[target] = path; }
         public static string GenerateUniqueAssetPath(string path) { return path; }
         public static void SaveAssets() { }
+        public static bool CanOpenForEdit(Object target) { return !paths[target].StartsWith("Packages/"); }
         public static bool IsValidFolder(string path) { return path.StartsWith("Assets"); }
         public static GUID GUIDFromAssetPath(string path) { return new GUID { path = path }; }
         public static string GUIDToAssetPath(string guid) { return guid; }

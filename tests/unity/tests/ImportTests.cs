@@ -39,8 +39,11 @@ namespace Chamfer.Tests
 
         private static AssetImportContext Import(Mesh mesh, params string[] labels)
         {
-            var root = new GameObject("Model");
-            root.AddComponent<MeshFilter>().sharedMesh = mesh;
+            return Import(Scene.Holding(mesh, "Model"), labels);
+        }
+
+        private static AssetImportContext Import(GameObject root, params string[] labels)
+        {
             AssetDatabase.labels["Assets/model.fbx"] = labels;
             var context = new AssetImportContext();
             var importer = new ModelChamfer { assetPath = "Assets/model.fbx", context = context };
@@ -56,6 +59,19 @@ namespace Chamfer.Tests
             Check.Equal(44 * 3, mesh.GetTriangles(0).Length);
             Check.Equal(2, mesh.blendShapeCount);
             Check.Equal(2, mesh.bindposes.Length);
+        }
+
+        public static void A_submesh_of_their_own_is_imported_with_a_material()
+        {
+            var mesh = Shapes.Cube();
+            GameObject first = Scene.Holding(mesh, "First"), second = Scene.Holding(mesh, "Second");
+            first.children.Add(second);
+            var project = ChamferProjectSettings.instance;
+            project.settings.submeshMode = ChamferSubmesh.Own;
+            try { Import(first, "Chamfer"); }
+            finally { project.settings.submeshMode = ChamferSubmesh.Owner; }
+            Check.Equal(2, mesh.subMeshCount);
+            foreach (var renderer in first.GetComponentsInChildren<Renderer>(true)) { Check.Equal(2, renderer.sharedMaterials.Length); }
         }
 
         public static void Importing_without_a_label_changes_nothing()

@@ -145,6 +145,13 @@ namespace Chamfer.Tests
             Check.That(new ChamferSelection(new[] { root }).IsEmpty, "models cannot be changed");
         }
 
+        public static void Prefabs_of_installed_packages_are_not_selectable()
+        {
+            var prefab = Scene.Holding(Shapes.Cube(), "Locked");
+            Scene.MakeAsset(prefab, "Packages/com.other/Locked.prefab");
+            Check.That(new ChamferSelection(new[] { prefab }).IsEmpty, "packages cannot be changed");
+        }
+
         public static void A_selected_mesh_asset_gets_a_file_beside_it()
         {
             var mesh = Shapes.Cube();
