@@ -85,7 +85,7 @@ impl<'a> Ground<'a> {
         let agree = |one, other| normal(one).dot(normal(other)) > SOFT_COSINE;
         let ends = [next(corner), corner].map(|corner| self.place[self.vertex(corner)]);
         let mut others = self.half_edges.get(&ends)?.iter().copied();
-        others.into_iter().find(|&other| agree(next(corner), other) && agree(corner, next(other)))
+        others.find(|&other| agree(next(corner), other) && agree(corner, next(other)))
     }
 
     /// How far it is from a half-edge to the half of the way to the next edge that ends the surface.
