@@ -8,9 +8,9 @@ namespace Chamfer.Tests
 {
     internal static class BatchTests
     {
-        private static int Run(string folder)
+        private static int Run(string folder, string width = "0.1")
         {
-            return ChamferBatch.Run(new[] { "Unity", "-batchmode", "-chamferFolder", folder, "-chamferWidth", "0.1" });
+            return ChamferBatch.Run(new[] { "Unity", "-batchmode", "-chamferFolder", folder, "-chamferWidth", width });
         }
 
         public static void Prefabs_of_the_folder_are_chamfered()
@@ -35,6 +35,14 @@ namespace Chamfer.Tests
                 Check.Equal(2, AssetDatabase.paths.Values.Count(path => path.StartsWith("Assets/Meshes/")));
             }
             Check.Equal(12 * 3, mesh.GetTriangles(0).Length);
+        }
+
+        /// At width 0 every edge stays hard, so the result could be chamfered again.
+        public static void Results_of_an_earlier_time_are_no_sources()
+        {
+            AssetDatabase.paths[Shapes.Cube()] = "Assets/Earlier/Cube.asset";
+            for (int time = 0; time < 2; time++) { Check.Equal(0, Run("Assets/Earlier", "0")); }
+            Check.Equal(2, AssetDatabase.paths.Values.Count(path => path.StartsWith("Assets/Earlier/")));
         }
 
         public static void Models_are_labelled_and_imported_again()
