@@ -81,9 +81,10 @@ namespace ChamferEditor
             foreach (var mesh in assets)
             {
                 JobResult result;
+                if (!TryFind(job, mesh, out result)) { continue; }
+                bool isSaved = result.Mesh != null && AssetDatabase.Contains(result.Mesh);
                 string path = AssetDatabase.GetAssetPath(mesh);
-                bool isNew = TryFind(job, mesh, out result) && (result.Mesh == null || !AssetDatabase.Contains(result.Mesh));
-                if (isNew && path.Length > 0) { SaveBeside(path, result); }
+                if (!isSaved && path.Length > 0) { SaveBeside(path, result); }
             }
         }
 
