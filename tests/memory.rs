@@ -66,10 +66,8 @@ fn dressed(mut mesh: MeshBuffers) -> MeshBuffers {
 fn rough_ground(side: u32) -> MeshBuffers {
     let height = |x: u32, z: u32| ((x * 7 + z * 13) % 5) as f32 / 3.0;
     let at = |place: u32| (place / side, place % side);
-    let points: Vec<[f32; 3]> = (0..side * side)
-        .map(|place| at(place))
-        .map(|(x, z)| [x as f32, height(x, z), z as f32])
-        .collect();
+    let points: Vec<[f32; 3]> =
+        (0..side * side).map(at).map(|(x, z)| [x as f32, height(x, z), z as f32]).collect();
     let cells = (0..side * side).filter(|&place| at(place).0 + 1 < side && at(place).1 + 1 < side);
     let indices: Vec<u32> =
         cells.flat_map(|a| [a, a + 1, a + side + 1, a, a + side + 1, a + side]).collect();

@@ -173,7 +173,7 @@ impl Size {
             Size::AsItIs => point,
             // In two steps: 2^-140 alone is a number with few bits left.
             Size::Scaled(exponent) => point.map(|along| along * power(exponent) * 0.75),
-            Size::Stretched(by) => [0, 1, 2].map(|axis| point[axis] * power(by[axis] / 4)),
+            Size::Stretched(by) => [0, 1, 2].map(|axis| point[axis] * power(by[axis] / 12)),
             Size::Shifted(by) => [0, 1, 2].map(|axis| point[axis] + (by[axis] / 1000) as f32),
             Size::Times(factor) => point.map(|along| along * factor),
         }
