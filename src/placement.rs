@@ -37,7 +37,8 @@ impl Placement {
         self.share[sector] = share;
         self.point[sector] = narrow(target);
         self.normals[sector] = [fan.first, fan.last].map(|corner| {
-            if share == 0.0 {
+            // A move that rounding swallows leaves the vertex, and so its normal, as it was.
+            if !self.has_moved(plan, sector) {
                 plan.view.normal_at(corner)
             } else {
                 blended_normal(plan, &surface_foot(plan, sector, corner).blend(plan, share))
