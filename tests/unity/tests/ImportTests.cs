@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.Linq;
 using System.Reflection;
 using Chamfer;
+using Chamfer.Streams;
 using ChamferEditor;
 using UnityEditor;
 using UnityEditor.AssetImporters;
@@ -102,6 +103,8 @@ namespace Chamfer.Tests
             AssetDatabase.paths[new GameObject("Barrel")] = "Assets/Rule/barrel.fbx";
             ImportDependency.Register();
             var before = AssetDatabase.dependencies[ImportDependency.Name];
+            Check.Equal(3, LibraryCheck.Version().Split('.').Length);
+            Check.That(before.text.StartsWith(LibraryCheck.Version() + "\n"), "the library's version");
             ImportDependency.Register();
             Check.Equal(before, AssetDatabase.dependencies[ImportDependency.Name]);
             project.folders.Add(folder);
