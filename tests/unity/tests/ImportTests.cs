@@ -38,6 +38,14 @@ namespace Chamfer.Tests
             Check.That(Find("Assets/Props/Fine/a.fbx", null, out settings) && settings.width == 0.25f, "nearer folder");
         }
 
+        public static void A_folder_without_a_width_takes_the_common_settings()
+        {
+            ChamferSettings settings;
+            var rules = new[] { new FolderRule { folder = "Assets/New" } };
+            Check.That(ImportRule.TryFind("Assets/New/a.fbx", new string[0], ChamferSettings.Default, rules, out settings), "on");
+            Check.Equal(ChamferSettings.Default, settings);
+        }
+
         private static AssetImportContext Import(Mesh mesh, params string[] labels)
         {
             return Import(Scene.Holding(mesh, "Model"), labels);
