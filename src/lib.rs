@@ -66,6 +66,10 @@ pub use report::{
 };
 pub use smoothing::{Smoothed, split_by_angle};
 
+/// For benchmarks, which time each stage.
+#[doc(hidden)]
+pub use pipeline::{Stage, chamfer_by_stages};
+
 /// The examples of the README, compiled as tests.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

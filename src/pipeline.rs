@@ -35,16 +35,63 @@ pub fn chamfer_with_progress(
     options: &Options,
     progress: &mut dyn FnMut(f32) -> ControlFlow<()>,
 ) -> Result<Chamfered, Error> {
-    let mut done = |share: f32| match progress(share) {
+    chamfer_by_stages(mesh, options, &mut |stage| progress(stage.share_done()))
+}
+
+/// A stage of the pipeline that can be timed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)] // Each is explained under its name in docs/pipeline.md.
+pub enum Stage {
+    View,
+    Weld,
+    Topology,
+    Faces,
+    Edges,
+    Sectors,
+    Offsets,
+    Limits,
+    Attributes,
+    Output,
+}
+
+impl Stage {
+    /// How much of a typical call is done when the stage ends.
+    fn share_done(self) -> f32 {
+        match self {
+            Stage::View => 0.02,
+            Stage::Weld => 0.05,
+            Stage::Topology => 0.12,
+            Stage::Faces => 0.14,
+            Stage::Edges => 0.16,
+            Stage::Sectors => 0.2,
+            Stage::Offsets => 0.25,
+            Stage::Limits => 0.5,
+            Stage::Attributes => 0.6,
+            Stage::Output => 1.0,
+        }
+    }
+}
+
+/// As [`chamfer`], calling `after` whenever a stage ends.
+///
+/// # Errors
+/// As [`chamfer`]; [`Error::Cancelled`] where `after` breaks.
+pub fn chamfer_by_stages(
+    mesh: &Mesh,
+    options: &Options,
+    after: &mut dyn FnMut(Stage) -> ControlFlow<()>,
+) -> Result<Chamfered, Error> {
+    let mut done = |stage: Stage| match after(stage) {
         ControlFlow::Continue(()) => Ok(()),
         ControlFlow::Break(()) => Err(Error::Cancelled),
     };
     let plan = plan(mesh, options, &mut done)?;
     let limits = limits(&plan, options.verify);
-    done(0.8)?;
+    done(Stage::Limits)?;
     let attributes = attributes(&plan, &limits.placement);
+    done(Stage::Attributes)?;
     let chamfered = output(&plan, &limits, attributes, options.chamfer_submesh);
-    done(1.0)?;
+    done(Stage::Output)?;
     Ok(chamfered)
 }
 
@@ -52,17 +99,21 @@ pub fn chamfer_with_progress(
 pub(crate) fn plan<'a>(
     mesh: &Mesh<'a>,
     options: &Options,
-    done: &mut dyn FnMut(f32) -> Result<(), Error>,
+    done: &mut dyn FnMut(Stage) -> Result<(), Error>,
 ) -> Result<Plan<'a>, Error> {
     let view = view(mesh, options)?;
+    done(Stage::View)?;
     let weld = weld(mesh);
-    done(0.1)?;
+    done(Stage::Weld)?;
     let topology = topology(&view, &weld);
+    done(Stage::Topology)?;
     let faces = faces(&view, &topology);
+    done(Stage::Faces)?;
     let edges = edges(&view, &topology, &faces);
-    done(0.3)?;
+    done(Stage::Edges)?;
     let sectors = sectors(&topology, &edges);
+    done(Stage::Sectors)?;
     let offsets = offsets(&view, &topology, &faces, &sectors);
-    done(0.4)?;
+    done(Stage::Offsets)?;
     Ok(Plan { view, topology, faces, edges, sectors, offsets })
 }
