@@ -40,7 +40,10 @@ fn main() {
                 for (place, source) in document.meshes().iter().enumerate() {
                     let hash = chamfer(&source.mesh.as_mesh(), &options);
                     let hash = hash.map(|result| format!("{:016x}", fingerprint(&result)));
-                    println!("{percent} % {file} {place}: {}", hash.unwrap_or_else(|e| e.to_string()));
+                    println!(
+                        "{percent} % {file} {place}: {}",
+                        hash.unwrap_or_else(|e| e.to_string())
+                    );
                 }
             }
         }

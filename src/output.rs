@@ -4,7 +4,7 @@
 //! per submesh: strips in the order of their edges, then fills in the order of their rings.
 
 mod collapsed;
-mod duplicates;
+mod copies;
 mod middles;
 
 use crate::attributes::Attributes;
@@ -14,24 +14,27 @@ use crate::mesh::MeshBuffers;
 use crate::options::ChamferSubmesh;
 use crate::plan::Plan;
 use crate::report::{Chamfered, TriangleKind, TriangleSource};
-use crate::seams::{self, Copies, FillMap, Owners};
+use crate::seams::{self, FillMap, Owners};
 use crate::strips;
 use crate::verdicts::{totals, verdicts};
+
+pub use copies::Copies;
 
 /// The result of all stages.
 pub fn output(
     plan: &Plan,
     limits: &Limits,
-    attributes: Attributes,
+    mut attributes: Attributes,
     target: ChamferSubmesh,
 ) -> Chamfered {
     let owners = seams::owners(plan, &limits.placement, &attributes);
+    let copies = Copies::new(plan, &mut attributes);
     let mut surface = Surface {
         plan,
         limits,
         owners,
         attributes,
-        copies: Copies::default(),
+        copies,
         submeshes: Submeshes::new(plan, target),
         new: Vec::new(),
     };
@@ -97,21 +100,23 @@ impl Surface<'_> {
             return;
         }
         let sectors = plan.sectors.ring(ring);
+        let cluster = plan.topology.cluster_at[plan.sectors.fans[sectors[0]].first];
         let map = FillMap::new(plan, placement, &self.attributes, ring, &fill);
         let streams = &mut self.attributes.streams;
         let choice = map.owner(streams, &self.owners);
         let channels = map.channels(streams, choice);
         let kite = map.kite(choice);
         let mut vertices = map.vertices.clone();
+        let copies = &mut self.copies;
         if channels != 0 {
             for (place, foot) in &kite.feet {
-                let copies = &mut self.copies;
                 vertices[*place] = copies.get(plan, streams, vertices[*place], foot, channels);
             }
         }
         for places in &fill.middles {
-            vertices.push(middles::add(plan, placement, streams, sectors, places));
-            streams.rechart(plan, vertices[vertices.len() - 1], &kite.middle, channels);
+            let middle = middles::add(plan, placement, streams, sectors, places);
+            streams.rechart(plan, middle, &kite.middle, channels);
+            vertices.push(copies.settle(streams, cluster));
         }
         let first = plan.sectors.fans[sectors[choice.0]].first;
         let submesh = self.submeshes.for_new(first.triangle());
@@ -126,9 +131,8 @@ impl Surface<'_> {
 
     fn finish(self) -> Chamfered {
         let verdicts = verdicts(self.plan, self.limits);
-        let (mut indices, triangle_sources, submesh_index_counts) = self.triangles();
-        let mut streams = self.attributes.streams;
-        duplicates::join(&mut streams, self.plan.view.mesh.positions.len(), &mut indices);
+        let (indices, triangle_sources, submesh_index_counts) = self.triangles();
+        let streams = self.attributes.streams;
         Chamfered {
             mesh: MeshBuffers { indices, submesh_index_counts, ..streams.vertices },
             vertex_sources: streams.sources,

@@ -115,5 +115,5 @@ pub(crate) fn plan<'a>(
     done(Stage::Sectors)?;
     let offsets = offsets(&view, &topology, &faces, &sectors);
     done(Stage::Offsets)?;
-    Ok(Plan { view, topology, faces, edges, sectors, offsets })
+    Ok(Plan { view, weld, topology, faces, edges, sectors, offsets })
 }

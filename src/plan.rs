@@ -7,10 +7,12 @@ use crate::offsets::Offset;
 use crate::sectors::Sectors;
 use crate::topology::Topology;
 use crate::view::View;
+use crate::weld::Weld;
 
 /// The values of the stages up to the offsets.
 pub struct Plan<'a> {
     pub view: View<'a>,
+    pub weld: Weld,
     pub topology: Topology,
     pub faces: Faces,
     pub edges: Edges,

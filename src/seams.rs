@@ -9,15 +9,14 @@ mod density;
 mod feet;
 mod owners;
 
-use std::collections::HashMap;
-
 use glam::{DVec2, DVec3};
 
 use crate::attributes::{Attributes, Streams};
 use crate::corners::{Fill, middle};
 use crate::edges::HardEdge;
-use crate::ids::{Corner, Edge, Id, Ring, Sector, Vertex};
+use crate::ids::{Corner, Edge, Id, Ring, Sector};
 use crate::mesh::UV_CHANNELS;
+use crate::output::Copies;
 use crate::placement::{Placement, base};
 use crate::plan::Plan;
 use crate::report::Blend;
@@ -64,40 +63,6 @@ fn place_of(plan: &Plan, channel: usize, blend: &Blend) -> DVec2 {
     let uv = &plan.view.mesh.uvs[channel];
     let terms = blend.vertices.iter().zip(blend.weights);
     terms.map(|(&vertex, weight)| uv_point(uv, vertex) * f64::from(weight)).sum()
-}
-
-/// Copies of vertices in other charts; each is made once.
-#[derive(Default)]
-pub struct Copies {
-    /// Copies in the order of their making: of which output vertex, and which one it is.
-    made: HashMap<u32, Vec<u32>>,
-}
-
-impl Copies {
-    /// An output vertex with the given channels taken from a place in another chart.
-    pub fn get(
-        &mut self,
-        plan: &Plan,
-        streams: &mut Streams,
-        vertex: u32,
-        chart: &Blend,
-        channels: u8,
-    ) -> u32 {
-        let copy = streams.append(Vertex(vertex));
-        streams.rechart(plan, copy, chart, channels);
-        let known = self.made.entry(vertex).or_default();
-        let equal = std::iter::once(vertex).chain(known.iter().copied());
-        match equal.into_iter().find(|&other| streams.are_equal(other, copy)) {
-            Some(other) => {
-                streams.pop();
-                other
-            }
-            None => {
-                known.push(copy);
-                copy
-            }
-        }
-    }
 }
 
 /// How a strip lies on the texture of a channel.
