@@ -2,7 +2,7 @@
 //!
 //! `cargo run --release --example ratios -- [--rounds N] [--full]`
 
-#[path = "../benches/models.rs"]
+#[path = "../benches/support/models.rs"]
 mod models;
 
 use std::hint::black_box;

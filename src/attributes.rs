@@ -6,7 +6,7 @@
 
 mod streams;
 
-use crate::ids::{Corner, IdVec, Sector, Vertex};
+use crate::ids::{Corner, Few, IdVec, Sector, Vertex};
 use crate::placement::Placement;
 use crate::plan::Plan;
 use crate::report::{Blend, VertexSource};
@@ -55,7 +55,7 @@ fn move_sector(
     taken: &mut IdVec<Vertex, bool>,
     attributes: &mut Attributes,
 ) {
-    let mut seen: Vec<(Vertex, u32)> = Vec::new();
+    let mut seen: Few<(Vertex, u32)> = Few::new();
     for corner in plan.sectors.corners(&plan.topology, sector) {
         let vertex = plan.view.vertex_at(corner);
         let known = seen.iter().find(|(other, _)| *other == vertex).map(|(_, output)| *output);

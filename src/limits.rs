@@ -11,7 +11,7 @@ mod room;
 use glam::DVec3;
 
 use crate::corners;
-use crate::ids::{Corner, Edge, IdVec, Ring, Sector, Triangle};
+use crate::ids::{Corner, Edge, Few, IdVec, Ring, Sector, Triangle};
 use crate::math::unit;
 use crate::options::Verify;
 use crate::placement::Placement;
@@ -78,26 +78,34 @@ enum Element {
 }
 
 /// Shrinks whatever is bad among the suspects, and then around what has shrunk.
-fn shrink(plan: &Plan, limits: &mut Limits, mut suspects: Vec<Element>) {
-    let mut round = 0;
-    loop {
-        let mut shrunk = Vec::new();
-        for element in suspects {
-            if !is_valid(plan, &limits.placement, element) {
-                let reason = match element {
-                    Element::Surface(_) => Reason::NoRoom,
-                    Element::Strip(_) | Element::Fill(_) => Reason::Folds,
-                };
-                blame(plan, limits, element, reason, &mut shrunk);
-            }
-        }
+fn shrink(plan: &Plan, limits: &mut Limits, suspects: impl Iterator<Item = Element>) {
+    let mut shrunk = blame_bad(plan, limits, suspects);
+    for round in 0.. {
         if shrunk.is_empty() {
             return;
         }
         apply(plan, limits, round, &mut shrunk);
-        suspects = around(plan, &shrunk);
-        round += 1;
+        shrunk = blame_bad(plan, limits, around(plan, &shrunk).into_iter());
     }
+}
+
+/// The sectors of all suspects that are bad.
+fn blame_bad(
+    plan: &Plan,
+    limits: &mut Limits,
+    suspects: impl Iterator<Item = Element>,
+) -> Vec<Sector> {
+    let mut blamed = Vec::new();
+    for element in suspects {
+        if !is_valid(plan, &limits.placement, element) {
+            let reason = match element {
+                Element::Surface(_) => Reason::NoRoom,
+                Element::Strip(_) | Element::Fill(_) => Reason::Folds,
+            };
+            blame(plan, limits, element, reason, &mut blamed);
+        }
+    }
+    blamed
 }
 
 /// Shrinks sectors, each once; after some rounds to nothing, together with their whole rings.
@@ -133,14 +141,13 @@ fn spread_over_rings(plan: &Plan, limits: &mut Limits, shrunk: &mut Vec<Sector>)
     }
 }
 
-fn all_elements(plan: &Plan) -> Vec<Element> {
+fn all_elements(plan: &Plan) -> impl Iterator<Item = Element> {
     let triangles = plan.view.triangles().filter(|&triangle| is_touched(plan, triangle));
     let edges = plan.edges.hard.ids().filter(|&edge| plan.edges.hard[edge].skipped.is_none());
     triangles
         .map(Element::Surface)
         .chain(edges.map(Element::Strip))
         .chain(plan.sectors.rings.ids().map(Element::Fill))
-        .collect()
 }
 
 fn is_touched(plan: &Plan, triangle: Triangle) -> bool {
@@ -164,7 +171,7 @@ fn blame(
 }
 
 /// The sectors that an element's corners stand on.
-fn sectors_of(plan: &Plan, element: Element) -> Vec<Sector> {
+fn sectors_of(plan: &Plan, element: Element) -> Few<Sector> {
     let sector_of = |corner: Corner| plan.sectors.sector_of[corner];
     match element {
         Element::Surface(triangle) => {
@@ -173,7 +180,7 @@ fn sectors_of(plan: &Plan, element: Element) -> Vec<Sector> {
         Element::Strip(edge) => {
             strips::corners(&plan.edges.hard[edge]).into_iter().map(sector_of).collect()
         }
-        Element::Fill(ring) => plan.sectors.ring(ring).to_vec(),
+        Element::Fill(ring) => Few::from_slice(plan.sectors.ring(ring)),
     }
 }
 
@@ -231,8 +238,8 @@ pub fn fill(plan: &Plan, placement: &Placement, ring: Ring) -> Option<corners::F
     if sectors.len() < 3 {
         return Some(corners::Fill::default());
     }
-    let points: Vec<_> = sectors.iter().map(|&sector| placement.point[sector]).collect();
-    let normals: Vec<_> = sectors.iter().map(|&sector| placement.normals[sector][0]).collect();
+    let points: Few<_> = sectors.iter().map(|&sector| placement.point[sector]).collect();
+    let normals: Few<_> = sectors.iter().map(|&sector| placement.normals[sector][0]).collect();
     corners::fill(&points, &normals, plan.view.resolution)
 }
 
@@ -281,7 +288,7 @@ mod tests {
     fn shares(mesh: &MeshBuffers, width: f32) -> Vec<f64> {
         let plan = plan_of(mesh, width);
         let limits = limits(&plan, Verify::Fast);
-        assert!(all_elements(&plan).into_iter().all(|e| is_valid(&plan, &limits.placement, e)));
+        assert!(all_elements(&plan).all(|e| is_valid(&plan, &limits.placement, e)));
         let movable = plan.sectors.fans.ids().filter(|&sector| plan.offsets[sector].moves());
         movable.map(|sector| limits.placement.share[sector]).collect()
     }

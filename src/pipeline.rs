@@ -14,6 +14,7 @@ use crate::output::output;
 use crate::plan::Plan;
 use crate::report::Chamfered;
 use crate::sectors::sectors;
+use crate::strips::strips;
 use crate::topology::topology;
 use crate::view::view;
 use crate::weld::weld;
@@ -50,6 +51,7 @@ pub enum Stage {
     Sectors,
     Offsets,
     Limits,
+    Strips,
     Attributes,
     Output,
 }
@@ -66,6 +68,7 @@ impl Stage {
             Stage::Sectors => 0.2,
             Stage::Offsets => 0.25,
             Stage::Limits => 0.5,
+            Stage::Strips => 0.52,
             Stage::Attributes => 0.6,
             Stage::Output => 1.0,
         }
@@ -88,9 +91,11 @@ pub fn chamfer_by_stages(
     let plan = plan(mesh, options, &mut done)?;
     let limits = limits(&plan, options.verify);
     done(Stage::Limits)?;
+    let cuts = strips(&plan, &limits.placement);
+    done(Stage::Strips)?;
     let attributes = attributes(&plan, &limits.placement);
     done(Stage::Attributes)?;
-    let chamfered = output(&plan, &limits, attributes, options.chamfer_submesh);
+    let chamfered = output(&plan, &limits, &cuts, attributes, options.chamfer_submesh);
     done(Stage::Output)?;
     Ok(chamfered)
 }

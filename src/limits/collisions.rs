@@ -5,7 +5,7 @@
 
 use crate::corners;
 use crate::groups::Groups;
-use crate::ids::{Corner, Id, IdVec, Sector, Triangle};
+use crate::ids::{Corner, Few, Id, IdVec, Sector, Triangle};
 use crate::intersect::self_intersections;
 use crate::plan::Plan;
 use crate::report::Reason;
@@ -31,7 +31,7 @@ pub fn resolve(plan: &Plan, limits: &mut Limits) {
         }
         apply(plan, limits, round, &mut shrunk);
         let changed = around(plan, &shrunk);
-        shrink(plan, limits, changed);
+        shrink(plan, limits, changed.into_iter());
     }
     give_back(&mut search, limits, &free);
 }
@@ -141,7 +141,7 @@ fn soup(plan: &Plan, limits: &Limits, part_of: &[u32]) -> Soup {
         let hard = &plan.edges.hard[edge];
         let quad = strips::quad(plan, placement, hard);
         let part = part_of[hard.sides[0].triangle().index()];
-        for corners in strips::cut(&quad) {
+        for corners in strips::cut(&quad).triangles() {
             soup.push(corners.map(|place| quad.points[place]), part, Element::Strip(edge));
         }
     }
@@ -149,8 +149,8 @@ fn soup(plan: &Plan, limits: &Limits, part_of: &[u32]) -> Soup {
         let sectors = plan.sectors.ring(ring);
         let part = part_of[plan.sectors.fans[sectors[0]].first.triangle().index()];
         let fill = fill(plan, placement, ring).unwrap_or_default();
-        let mut points: Vec<_> = sectors.iter().map(|&sector| placement.point[sector]).collect();
-        let middles: Vec<_> =
+        let mut points: Few<_> = sectors.iter().map(|&sector| placement.point[sector]).collect();
+        let middles: Few<_> =
             fill.middles.iter().map(|places| corners::middle(&points, places)).collect();
         points.extend(middles);
         for corners in &fill.triangles {

@@ -1,7 +1,7 @@
 //! Feet: where in its owner's chart the far vertices of a chamfer come to lie.
 
 use crate::edges::HardEdge;
-use crate::ids::{Corner, Id, Sector};
+use crate::ids::{Corner, Few, Id, Sector};
 use crate::mesh::UV_CHANNELS;
 use crate::placement::Placement;
 use crate::plan::Plan;
@@ -89,7 +89,7 @@ pub const REACHES: [f64; 3] = [1.0, 2.0, 4.0];
 /// owner's two edges, and the old corner.
 pub struct Kite {
     /// The other sectors, as places in the ring.
-    pub feet: Vec<(usize, Blend)>,
+    pub feet: Few<(usize, Blend)>,
     /// For vertices in the middle.
     pub middle: Blend,
 }

@@ -4,11 +4,12 @@ use std::collections::HashMap;
 
 use super::density::MOST_STRETCH;
 use super::feet::{is_pair, strip_feet};
-use super::{StripMap, seam_channels, strays};
+use super::{StripMap, strays};
 use crate::attributes::Attributes;
 use crate::ids::{Corner, Edge, IdVec, Triangle};
 use crate::placement::Placement;
 use crate::plan::Plan;
+use crate::strips::Cut;
 
 /// `#hard edges`: which of its two sides owns the chamfer.
 pub struct Owners {
@@ -21,9 +22,14 @@ const UNDECIDED: usize = usize::MAX;
 /// A whole chain of edges between two smooth regions has one owner, so that the texture does not
 /// zigzag: the region whose band fits more of the strips, or else the one that comes first in the
 /// mesh. Where its band does not fit at all but the other side's does, an edge has the other.
-pub fn owners(plan: &Plan, placement: &Placement, attributes: &Attributes) -> Owners {
+pub fn owners(
+    plan: &Plan,
+    placement: &Placement,
+    cuts: &IdVec<Edge, Cut>,
+    attributes: &Attributes,
+) -> Owners {
     let region = regions(plan);
-    let fits = fits(plan, placement, attributes);
+    let fits = fits(plan, placement, cuts, attributes);
     let misfits = misfits(plan, &region, &fits);
     let mut side = IdVec::filled(UNDECIDED, plan.edges.hard.len());
     for edge in plan.edges.hard.ids() {
@@ -46,15 +52,20 @@ pub fn owners(plan: &Plan, placement: &Placement, attributes: &Attributes) -> Ow
 }
 
 /// `#hard edges`: for each side whether the strip fits onto its band.
-fn fits(plan: &Plan, placement: &Placement, attributes: &Attributes) -> IdVec<Edge, [bool; 2]> {
+fn fits(
+    plan: &Plan,
+    placement: &Placement,
+    cuts: &IdVec<Edge, Cut>,
+    attributes: &Attributes,
+) -> IdVec<Edge, [bool; 2]> {
     let of_edge = |edge: Edge| {
         let hard = &plan.edges.hard[edge];
-        let channels = if hard.skipped.is_some() { 0 } else { seam_channels(plan, hard) };
+        let channels = if hard.skipped.is_some() { 0 } else { hard.seams };
         if channels == 0 {
             return [true; 2];
         }
         let channel = channels.trailing_zeros() as usize;
-        let map = StripMap::new(plan, placement, attributes, hard);
+        let map = StripMap::new(plan, placement, attributes, hard, cuts[edge]);
         [0, 1].map(|owner| {
             let feet = strip_feet(plan, placement, hard, owner);
             let face = hard.sides[owner];
