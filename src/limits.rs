@@ -8,11 +8,13 @@
 mod collisions;
 mod room;
 
+use std::cmp::Ordering;
+
 use glam::DVec3;
 
 use crate::corners;
 use crate::ids::{Corner, Edge, Few, IdVec, Ring, Sector, Triangle};
-use crate::math::unit;
+use crate::math::{area_vector, unit};
 use crate::options::Verify;
 use crate::placement::Placement;
 use crate::plan::Plan;
@@ -23,7 +25,8 @@ use crate::validity::{stays_line, survives};
 /// How much a sector that takes part in something bad keeps in each round.
 const SHRINK: f64 = 0.5;
 
-/// After so many rounds a share is down to a sixteenth; what is still bad gets no offset at all.
+/// After so many rounds a share is down to a sixteenth. A ring that is still bad then gets the same
+/// share for all its sectors, which keeps its shape; if that is bad as well, no offset at all.
 const SHRINK_ROUNDS: usize = 4;
 
 /// Steps of bisection when width is given back: the rest is within 2 % of what would fit.
@@ -108,7 +111,8 @@ fn blame_bad(
     blamed
 }
 
-/// Shrinks sectors, each once; after some rounds to nothing, together with their whole rings.
+/// Shrinks sectors, each once; after some rounds together with their whole rings: to one share for
+/// all, and then to nothing.
 fn apply(plan: &Plan, limits: &mut Limits, round: usize, shrunk: &mut Vec<Sector>) {
     shrunk.sort_unstable();
     shrunk.dedup();
@@ -117,9 +121,20 @@ fn apply(plan: &Plan, limits: &mut Limits, round: usize, shrunk: &mut Vec<Sector
     }
     for &sector in shrunk.iter() {
         let share = limits.placement.share[sector];
-        let smaller = if round < SHRINK_ROUNDS { share * SHRINK } else { 0.0 };
+        let smaller = match round.cmp(&SHRINK_ROUNDS) {
+            Ordering::Less => share * SHRINK,
+            Ordering::Equal => least_in_ring(plan, &limits.placement, sector),
+            Ordering::Greater => 0.0,
+        };
         limits.placement.set(plan, sector, smaller);
     }
+}
+
+/// The smallest share that a sector or another one of its ring has, of those that moved.
+fn least_in_ring(plan: &Plan, placement: &Placement, sector: Sector) -> f64 {
+    let ring = plan.sectors.ring(plan.sectors.fans[sector].ring);
+    let shares = ring.iter().map(|&other| placement.share[other]).filter(|&share| share > 0.0);
+    shares.fold(placement.share[sector], f64::min)
 }
 
 /// Adds to the sectors all others of their rings that have moved, for the same reason.
@@ -221,8 +236,23 @@ fn surface_is_valid(plan: &Plan, placement: &Placement, triangle: Triangle) -> b
     } else if faces.normal[triangle] == DVec3::ZERO || faces.is_line(triangle) {
         stays_line(old, new, faces.normal[triangle], plan.view.resolution)
     } else {
-        survives(old, new)
+        survives(old, new) && still_faces_out(plan, placement, triangle, [old, new])
     }
+}
+
+/// Whether a triangle that faced the way its vertex normals point still does.
+fn still_faces_out(
+    plan: &Plan,
+    placement: &Placement,
+    triangle: Triangle,
+    [old, new]: [[DVec3; 3]; 2],
+) -> bool {
+    let corners = triangle.corners();
+    let facing = |points: [DVec3; 3], normals: [DVec3; 3]| {
+        area_vector(points).dot(normals[0] + normals[1] + normals[2])
+    };
+    facing(new, corners.map(|corner| placement.normal_at(plan, corner))) > 0.0
+        || facing(old, corners.map(|corner| plan.view.normal_at(corner))) <= 0.0
 }
 
 fn strip_is_valid(plan: &Plan, placement: &Placement, edge: Edge) -> bool {
@@ -317,6 +347,42 @@ mod tests {
         let shares = shares(&both, 0.1);
         assert!(shares[..24].iter().all(|&share| share == 1.0), "{shares:?}");
         assert!(shares[24..].iter().any(|&share| share < 1.0), "{shares:?}");
+    }
+
+    #[test]
+    fn a_triangle_may_not_turn_from_its_vertex_normals() {
+        let mut cube = shapes::plain_cube(1.0);
+        let plan = plan_of(&cube, 0.1);
+        let placement = Placement::unmoved(&plan);
+        let old = plan.view.triangle(Triangle(0));
+        let turned = [old[0], old[2], old[1]];
+        assert!(still_faces_out(&plan, &placement, Triangle(0), [old, old]));
+        assert!(!still_faces_out(&plan, &placement, Triangle(0), [old, turned]));
+        cube.normals.iter_mut().for_each(|normal| *normal = normal.map(|part| -part));
+        let plan = plan_of(&cube, 0.1);
+        let placement = Placement::unmoved(&plan);
+        assert!(still_faces_out(&plan, &placement, Triangle(0), [old, turned]), "it never did");
+    }
+
+    /// A corner that three unlike shares fold, and equal ones do not.
+    #[test]
+    fn a_ring_that_folds_gets_one_share_before_none() {
+        let cube = shapes::plain_cube(1.0);
+        let plan = plan_of(&cube, 0.1);
+        let mut placement = Placement::unmoved(&plan);
+        let ring = plan.sectors.ring(Ring(0)).to_vec();
+        for (&sector, share) in ring.iter().zip([0.5, 0.25, 0.0]) {
+            placement.set(&plan, sector, share);
+        }
+        let reason = IdVec::filled(Reason::Folds, plan.offsets.len());
+        let mut limits = Limits { placement, reason };
+        let shares = |limits: &Limits| ring.iter().map(|&s| limits.placement.share[s]).collect();
+        apply(&plan, &mut limits, SHRINK_ROUNDS, &mut ring.clone());
+        let even: Vec<f64> = shares(&limits);
+        assert_eq!(even, [0.25, 0.25, 0.0]);
+        apply(&plan, &mut limits, SHRINK_ROUNDS + 1, &mut ring.clone());
+        let none: Vec<f64> = shares(&limits);
+        assert_eq!(none, [0.0; 3]);
     }
 
     #[test]

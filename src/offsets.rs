@@ -133,6 +133,8 @@ fn course(
     let total = last.start.plus(last.angle);
     match (fan.starts_at_border, fan.ends_at_border()) {
         (true, true) => None,
+        // Parts that only touch, as at a T-junction, would gape where one of them moves.
+        (true, false) | (false, true) if fan.borders_meet => None,
         // At a border the vertex has to stay on it, which no hard edge inside the fan allows.
         (true, false) | (false, true) if crease(view, faces, spread).is_hard() => None,
         (true, false) => slide(view, first.corner, Turn::ZERO, &[total]),

@@ -58,10 +58,13 @@ impl Placement {
         if sector.is_none() { plan.view.position_at(corner) } else { self.point[sector] }
     }
 
-    /// The normal at the first or last corner of a sector.
+    /// The normal at a corner; between the first and the last corner of a sector, the last one's.
     #[inline]
     pub fn normal_at(&self, plan: &Plan, corner: Corner) -> DVec3 {
         let sector = plan.sectors.sector_of[corner];
+        if sector.is_none() {
+            return plan.view.normal_at(corner);
+        }
         let is_first = plan.sectors.fans[sector].first == corner;
         self.normals[sector][usize::from(!is_first)]
     }
