@@ -24,8 +24,10 @@ pub struct Attributes {
 
 pub fn attributes(plan: &Plan, placement: &Placement) -> Attributes {
     let vertex_at = plan.view.mesh.indices.to_vec();
-    let mut attributes =
-        Attributes { streams: Streams::of_source(plan), vertex_at: IdVec::from_vec(vertex_at) };
+    let mut attributes = Attributes {
+        streams: Streams::of_source(&plan.view),
+        vertex_at: IdVec::from_vec(vertex_at),
+    };
     let mut taken = staying(plan, placement);
     for sector in plan.sectors.fans.ids().filter(|&sector| placement.has_moved(plan, sector)) {
         move_sector(plan, placement, sector, &mut taken, &mut attributes);

@@ -3,14 +3,18 @@
 use glam::DVec3;
 
 use crate::faces::Faces;
-use crate::ids::{Corner, Edge, Id, IdVec};
+use crate::ids::{Corner, Edge, Id, IdVec, Vertex};
 use crate::report::Reason;
 use crate::resample::uv_at;
 use crate::topology::Topology;
 use crate::view::View;
+use crate::weld::Weld;
 
 /// Normals that differ by less than a degree are one normal: importers quantize them.
 pub const HARD_COSINE: f64 = 0.999_847_695_156_391_2;
+
+/// Two normals that both differ from a third one by less than 0.4 degrees differ by less than one.
+const ALIKE_COSINE: f64 = 0.999_975_630_705_4;
 
 /// Two faces back to back: their normals are opposite to within a tenth of a degree. Between them
 /// there is nothing to cut off.
@@ -36,6 +40,18 @@ pub struct Edges {
     pub hard: IdVec<Edge, HardEdge>,
     /// `#corners`: the edge that the half-edge is a side of, where it is to be chamfered.
     pub chamfered_at: IdVec<Corner, Edge>,
+}
+
+/// Whether any edge can be hard: at one position at least, normals differ.
+pub fn may_be_hard(view: &View, weld: &Weld) -> bool {
+    let differs = |vertex: Vertex| {
+        let first = weld.first_vertex[weld.cluster_of[vertex]];
+        let [one, other] = [vertex, first].map(|vertex| view.normal(vertex));
+        let lengths = (one.length_squared() * other.length_squared()).sqrt();
+        // A normal without length is like none.
+        first != vertex && one.dot(other) <= ALIKE_COSINE * lengths
+    };
+    weld.cluster_of.ids().any(differs)
 }
 
 pub fn edges(view: &View, topology: &Topology, faces: &Faces) -> Edges {

@@ -50,6 +50,7 @@ mod seams;
 mod sectors;
 mod smoothing;
 mod strips;
+mod threads;
 mod topology;
 mod validity;
 mod verdicts;
@@ -59,7 +60,7 @@ mod weld;
 pub use error::{Error, Stream};
 pub use mesh::{Mesh, MeshBuffers, UV_CHANNELS, Uv, UvBuffer};
 pub use options::{ChamferSubmesh, Options, Verify, Width};
-pub use pipeline::{chamfer, chamfer_with_progress};
+pub use pipeline::{Prepared, chamfer, chamfer_with_progress};
 pub use report::{
     Blend, Chamfered, EdgeVerdict, Outcome, Reason, Totals, TriangleKind, TriangleSource,
     VertexSource,

@@ -8,7 +8,7 @@ mod copies;
 mod middles;
 mod submeshes;
 
-use crate::attributes::Attributes;
+use crate::attributes::{Attributes, Streams};
 use crate::ids::{Edge, IdVec, Ring};
 use crate::limits::{self, Limits};
 use crate::mesh::MeshBuffers;
@@ -18,10 +18,28 @@ use crate::report::{Chamfered, TriangleKind, TriangleSource};
 use crate::seams::{self, FillMap, Owners};
 use crate::strips::Cut;
 use crate::verdicts::{totals, verdicts};
+use crate::view::View;
 
 use submeshes::{Submeshes, Triangles};
 
 pub use copies::Copies;
+
+/// The source as it is, for want of hard edges.
+pub fn unchanged(view: &View, target: ChamferSubmesh) -> Chamfered {
+    let Streams { vertices, sources, .. } = Streams::of_source(view);
+    let kind = TriangleKind::Source;
+    let mut submesh_index_counts = view.mesh.submesh_index_counts.to_vec();
+    if target == ChamferSubmesh::Own {
+        submesh_index_counts.push(0);
+    }
+    Chamfered {
+        mesh: MeshBuffers { indices: view.mesh.indices.to_vec(), submesh_index_counts, ..vertices },
+        vertex_sources: sources,
+        triangle_sources: view.triangles().map(|t| TriangleSource { kind, index: t.0 }).collect(),
+        width: view.width as f32,
+        ..Chamfered::default()
+    }
+}
 
 /// The result of all stages.
 pub fn output(

@@ -63,11 +63,13 @@ impl Cut {
 
 /// `#hard edges`: how each strip is cut where the sectors stand now.
 pub fn strips(plan: &Plan, placement: &Placement) -> IdVec<Edge, Cut> {
-    let of_edge = |edge: &HardEdge| match edge.skipped {
-        Some(_) => Cut::Closed,
-        None => cut(&quad(plan, placement, edge)),
-    };
-    IdVec::from_vec(plan.edges.hard.iter().map(of_edge).collect())
+    plan.view.threads.map(plan.edges.hard.len(), |edge| {
+        let edge = &plan.edges.hard[edge];
+        match edge.skipped {
+            Some(_) => Cut::Closed,
+            None => cut(&quad(plan, placement, edge)),
+        }
+    })
 }
 
 pub fn quad(plan: &Plan, placement: &Placement, edge: &HardEdge) -> Quad {

@@ -55,6 +55,25 @@ impl Threads {
         IdVec::from_vec((0..count).map(value).collect())
     }
 
+    /// As [`Threads::map`], with a scratch value that each thread makes once.
+    pub fn map_with<I: Id, T: Send, S>(
+        &self,
+        count: usize,
+        scratch: impl Fn() -> S + Sync + Send,
+        value: impl Fn(&mut S, I) -> T + Sync + Send,
+    ) -> IdVec<I, T> {
+        let value = |scratch: &mut S, index| value(scratch, I::new(index));
+        #[cfg(feature = "parallel")]
+        if let Some(pool) = self.pool.as_ref().filter(|_| count >= LEAST_WORK) {
+            use rayon::prelude::*;
+            return IdVec::from_vec(
+                pool.install(|| (0..count).into_par_iter().map_init(scratch, value).collect()),
+            );
+        }
+        let mut scratch = scratch();
+        IdVec::from_vec((0..count).map(|index| value(&mut scratch, index)).collect())
+    }
+
     /// The ids that are such, in ascending order.
     pub fn filter<I: Id + Send>(
         &self,

@@ -11,7 +11,7 @@ use crate::plan::Plan;
 use crate::report::Reason;
 use crate::strips;
 
-use super::{Element, Limits, apply, around, blame, fill, is_valid, sectors_of, shrink};
+use super::{Element, Limits, apply, bad_around, blame, fill, sectors_of, shrink};
 
 /// Rounds in which width is given back: the rest is within an eighth of what would fit.
 const GIVE_BACK_ROUNDS: usize = 3;
@@ -30,8 +30,8 @@ pub fn resolve(plan: &Plan, limits: &mut Limits) {
             break;
         }
         apply(plan, limits, round, &mut shrunk);
-        let changed = around(plan, &shrunk);
-        shrink(plan, limits, changed.into_iter());
+        let bad = bad_around(plan, &limits.placement, &shrunk);
+        shrink(plan, limits, bad);
     }
     give_back(&mut search, limits, &free);
 }
@@ -52,8 +52,7 @@ fn give_back(search: &mut Search, limits: &mut Limits, free: &IdVec<Sector, f64>
         }
         loop {
             let mut bad = search.new_cuts(limits);
-            let suspects = around(plan, &shrunk);
-            bad.extend(suspects.into_iter().filter(|&e| !is_valid(plan, &limits.placement, e)));
+            bad.extend(bad_around(plan, &limits.placement, &shrunk));
             let mut back: Vec<Sector> = bad.iter().flat_map(|&e| sectors_of(plan, e)).collect();
             back.retain(|&sector| limits.placement.share[sector] > safe[sector]);
             if back.is_empty() {
