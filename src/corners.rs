@@ -118,11 +118,13 @@ impl Loop<'_> {
     fn has_valid_middle(&self) -> bool {
         let middle = middle(self.points, &self.places);
         let normal = unit(self.places.iter().map(|&place| self.normals[place]).sum());
-        self.sides().all(|[from, to]| {
-            let points = [self.points[from], self.points[to], middle];
-            let normals = [self.normals[from], self.normals[to], normal];
-            facing(points, normals, self.resolution).is_some()
-        })
+        // Where all sides face each other, a vertex between them faces nowhere.
+        normal != DVec3::ZERO
+            && self.sides().all(|[from, to]| {
+                let points = [self.points[from], self.points[to], middle];
+                let normals = [self.normals[from], self.normals[to], normal];
+                facing(points, normals, self.resolution).is_some()
+            })
     }
 
     /// How far the triangle over three places in the loop turns away from its normals.

@@ -37,6 +37,7 @@ mod ids;
 mod intersect;
 mod limits;
 mod math;
+mod memory;
 mod mesh;
 mod offsets;
 mod options;
@@ -58,6 +59,7 @@ mod view;
 mod weld;
 
 pub use error::{Error, Stream};
+pub use memory::most_memory;
 pub use mesh::{Mesh, MeshBuffers, UV_CHANNELS, Uv, UvBuffer};
 pub use options::{ChamferSubmesh, Options, Verify, Width};
 pub use pipeline::{Prepared, chamfer, chamfer_with_progress};

@@ -27,18 +27,19 @@ impl Placement {
     /// Every sector at a share of its offset; `share: #sectors`.
     pub fn at(plan: &Plan, share: &IdVec<Sector, f64>) -> Placement {
         let (threads, count) = (&plan.view.threads, share.len());
-        Placement {
-            share: share.clone(),
-            point: threads.map(count, |sector| point_at(plan, sector, share[sector])),
-            normals: threads.map(count, |sector| normals_at(plan, sector, share[sector])),
-        }
+        let point = threads.map(count, |sector| point_at(plan, sector, share[sector]));
+        let normals = threads.map(count, |sector| {
+            let has_moved = point[sector] != base(plan, sector);
+            normals_at(plan, sector, share[sector], has_moved)
+        });
+        Placement { share: share.clone(), point, normals }
     }
 
     /// Moves a sector's vertex to a share of its offset.
     pub fn set(&mut self, plan: &Plan, sector: Sector, share: f64) {
         self.share[sector] = share;
         self.point[sector] = point_at(plan, sector, share);
-        self.normals[sector] = normals_at(plan, sector, share);
+        self.normals[sector] = normals_at(plan, sector, share, self.has_moved(plan, sector));
     }
 
     /// Whether the sector's vertices stand elsewhere than in the source.
@@ -72,10 +73,11 @@ fn point_at(plan: &Plan, sector: Sector, share: f64) -> DVec3 {
 }
 
 /// The normals there, at the sector's first and at its last corner.
-fn normals_at(plan: &Plan, sector: Sector, share: f64) -> [DVec3; 2] {
+fn normals_at(plan: &Plan, sector: Sector, share: f64, has_moved: bool) -> [DVec3; 2] {
     let fan = &plan.sectors.fans[sector];
     let at = |corner: Corner| {
-        if share == 0.0 {
+        // A move that rounding swallows leaves the vertex, and so its normal, as it was.
+        if !has_moved {
             plan.view.normal_at(corner)
         } else {
             blended_normal(plan, &surface_foot(plan, sector, corner).blend(plan, share))
