@@ -56,6 +56,12 @@ namespace ChamferEditor
             return !isPrefab || !AssetDatabase.CanOpenForEdit(holder);
         }
 
+        /// <summary>Whether the holder is in a prefab's file, or in a prefab that is open.</summary>
+        internal static bool IsInPrefab(Component holder)
+        {
+            return PrefabPath(holder).Length > 0;
+        }
+
         /// <summary>The scene of a holder keeps its meshes by itself, but a prefab only what is in its own file.</summary>
         private static void WriteNew(JobResult result, Component holder, string action)
         {
