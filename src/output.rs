@@ -5,16 +5,15 @@
 
 mod collapsed;
 mod duplicates;
-mod middles;
 
-use crate::attributes::Attributes;
+use crate::attributes::{Attributes, middles};
 use crate::ids::{Corner, Edge, Ring, Triangle};
 use crate::limits::{self, Limits};
 use crate::mesh::MeshBuffers;
 use crate::options::ChamferSubmesh;
 use crate::plan::Plan;
 use crate::report::{Chamfered, TriangleKind, TriangleSource};
-use crate::seams::{self, Copies, FillMap, Owners};
+use crate::seams::{self, Copies, FillLay, FillMap, Owners};
 use crate::strips;
 use crate::verdicts::{totals, verdicts};
 
@@ -99,21 +98,19 @@ impl Surface<'_> {
         let sectors = plan.sectors.ring(ring);
         let map = FillMap::new(plan, placement, &self.attributes, ring, &fill);
         let streams = &mut self.attributes.streams;
-        let choice = map.owner(streams, &self.owners);
-        let channels = map.channels(streams, choice);
-        let kite = map.kite(choice);
+        let FillLay { owner, channels, lay } = map.lay(streams, &self.owners);
         let mut vertices = map.vertices.clone();
         if channels != 0 {
-            for (place, foot) in &kite.feet {
+            for (place, foot) in &lay.feet {
                 let copies = &mut self.copies;
                 vertices[*place] = copies.get(plan, streams, vertices[*place], foot, channels);
             }
         }
         for places in &fill.middles {
             vertices.push(middles::add(plan, placement, streams, sectors, places));
-            streams.rechart(plan, vertices[vertices.len() - 1], &kite.middle, channels);
+            streams.rechart(plan, vertices[vertices.len() - 1], &lay.middle, channels);
         }
-        let first = plan.sectors.fans[sectors[choice.0]].first;
+        let first = plan.sectors.fans[sectors[owner]].first;
         let submesh = self.submeshes.for_new(first.triangle());
         let at = plan.view.vertex_at(plan.sectors.fans[sectors[0]].first);
         let source = TriangleSource { kind: TriangleKind::Corner, index: at.0 };

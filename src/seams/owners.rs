@@ -2,9 +2,9 @@
 
 use std::collections::HashMap;
 
-use super::density::MOST_STRETCH;
-use super::feet::{is_pair, strip_feet};
-use super::{StripMap, seam_channels, strays};
+use super::feet::is_pair;
+use super::seam_channels;
+use super::strip_map::StripMap;
 use crate::attributes::Attributes;
 use crate::ids::{Corner, Edge, IdVec, Triangle};
 use crate::placement::Placement;
@@ -55,14 +55,7 @@ fn fits(plan: &Plan, placement: &Placement, attributes: &Attributes) -> IdVec<Ed
         }
         let channel = channels.trailing_zeros() as usize;
         let map = StripMap::new(plan, placement, attributes, hard);
-        [0, 1].map(|owner| {
-            let feet = strip_feet(plan, placement, hard, owner);
-            let face = hard.sides[owner];
-            let streams = &attributes.streams;
-            let near = [face, face.next()].map(|corner| attributes.vertex_at[corner]);
-            !near.into_iter().any(|vertex| strays(streams, vertex))
-                && map.stretch(streams, channel, face, &feet) <= MOST_STRETCH
-        })
+        [0, 1].map(|owner| map.fits(&attributes.streams, channel, owner))
     };
     IdVec::from_vec(plan.edges.hard.ids().map(of_edge).collect())
 }
