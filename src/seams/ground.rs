@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use crate::ids::{Corner, Ring};
+use crate::ids::Corner;
 use crate::plan::Plan;
 
 use super::density::uv_point;
@@ -58,15 +58,38 @@ impl<'a> Ground<'a> {
     }
 
     fn triangles(&self) -> impl Iterator<Item = [DVec2; 3]> + '_ {
-        let plan = self.plan;
-        self.corners.iter().flat_map(move |&at| {
-            let ring: Ring = plan.sectors.fans[plan.sectors.sector_of[at]].ring;
-            let sectors = plan.sectors.ring(ring).iter();
-            sectors
-                .flat_map(|&sector| plan.sectors.corners(&plan.topology, sector))
-                .filter(move |&corner| !seam_between(plan, self.channel, at, corner))
-                .map(|corner| self.points(corner))
+        let around = |&at: &Corner| self.ahead(at).chain(self.behind(at));
+        self.corners.iter().flat_map(around).map(|corner| self.points(corner))
+    }
+
+    /// The corners from one on, counter-clockwise around its vertex, up to the chart's end.
+    fn ahead(&self, at: Corner) -> impl Iterator<Item = Corner> + '_ {
+        let mut following = Some(at);
+        std::iter::from_fn(move || {
+            let corner = following?;
+            let side = corner.prev();
+            let next = self.plan.topology.twin[side];
+            following = (self.runs_on(side) && next != at).then_some(next);
+            Some(corner)
         })
+    }
+
+    /// The corners before one, clockwise.
+    fn behind(&self, at: Corner) -> impl Iterator<Item = Corner> + '_ {
+        let mut side = at;
+        std::iter::from_fn(move || {
+            let twin = self.plan.topology.twin[side];
+            let next = self.runs_on(side).then(|| twin.next()).filter(|&corner| corner != at)?;
+            side = next;
+            Some(next)
+        })
+    }
+
+    /// Whether the chart goes on beyond a half-edge.
+    fn runs_on(&self, side: Corner) -> bool {
+        let twin = self.plan.topology.twin[side];
+        let meet = |one, other| !seam_between(self.plan, self.channel, one, other);
+        twin.is_some() && meet(side, twin.next()) && meet(side.next(), twin)
     }
 
     fn points(&self, corner: Corner) -> [DVec2; 3] {
