@@ -106,9 +106,9 @@ impl Surface<'_> {
                 vertices[*place] = copies.get(plan, streams, vertices[*place], foot, channels);
             }
         }
-        for places in &fill.middles {
+        for (places, foot) in fill.middles.iter().zip(&lay.middles) {
             vertices.push(middles::add(plan, placement, streams, sectors, places));
-            streams.rechart(plan, vertices[vertices.len() - 1], &lay.middle, channels);
+            streams.rechart(plan, vertices[vertices.len() - 1], foot, channels);
         }
         let first = plan.sectors.fans[sectors[owner]].first;
         let submesh = self.submeshes.for_new(first.triangle());

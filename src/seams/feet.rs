@@ -21,10 +21,6 @@ const DEEPEST: f64 = 0.9;
 /// A fill that is laid into a triangle reaches at most so far along its sides.
 const WIDEST: f64 = 0.75;
 
-/// How far the bow of such a fill bends: its vertices stay in line with none of their neighbours,
-/// and within the triangle.
-const BOW: f64 = 1.5;
-
 /// Where along the old edge the far corners of a strip land.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Spread {
@@ -172,8 +168,8 @@ pub enum Wings {
 pub struct Lay {
     /// Sectors, as places in the ring.
     pub feet: Vec<(usize, Blend)>,
-    /// For vertices in the middle.
-    pub middle: Blend,
+    /// For each vertex in the middle.
+    pub middles: Vec<Blend>,
 }
 
 /// The kite between the pulled corner of one of a ring's sectors, the feet on its two edges, and
@@ -185,6 +181,7 @@ pub fn kite(
     sectors: &[Sector],
     owner: usize,
     wings: Wings,
+    middles: usize,
 ) -> Lay {
     let sector = sectors[owner];
     let [behind, before] = feet_of_wings(plan, placement, sector, wings);
@@ -197,7 +194,7 @@ pub fn kite(
     };
     Lay {
         feet: on_others(sectors.len(), owner, on_bow),
-        middle: chart_foot(plan, sector, fan.first).blend(plan, share),
+        middles: vec![chart_foot(plan, sector, fan.first).blend(plan, share); middles],
     }
 }
 
@@ -244,23 +241,51 @@ fn feet_of_wings(plan: &Plan, placement: &Placement, sector: Sector, wings: Wing
     [Blend { vertices, ..behind }, before]
 }
 
-/// A fill of some area laid into the triangle at a corner of its owner: the owner's vertex on the
-/// corner, the others on a bow that bends away from it, the middle in between.
-pub fn corner_lay(plan: &Plan, corner: Corner, count: usize, owner: usize, area: f64) -> Lay {
+/// A fill laid flat into the triangle at a corner, as large as it is if there is room. Its points
+/// are those of a ring and then its middles; the normal is that of the whole.
+pub fn corner_lay(
+    plan: &Plan,
+    corner: Corner,
+    points: &[DVec3],
+    ring: usize,
+    normal: DVec3,
+) -> Lay {
+    let apex = (0..ring).max_by(|&one, &other| {
+        let opening = |apex| spread_at(points, ring, apex, normal);
+        opening(one).total_cmp(&opening(other))
+    });
+    let apex = apex.unwrap_or(0);
+    let [to_next, to_prev] = arms_at(points, ring, apex);
+    let opening = spread_at(points, ring, apex, normal);
+    let coordinates = |point: &DVec3| {
+        let way = *point - points[apex];
+        [way.cross(to_prev), to_next.cross(way)].map(|part| part.dot(normal) / opening)
+    };
+    let flat: Vec<[f64; 2]> = points.iter().map(coordinates).collect();
+    let least = [0, 1].map(|k| flat.iter().map(|at| at[k]).fold(0.0, f64::min));
+    let reach = |at: &[f64; 2]| at[0] - least[0] + at[1] - least[1];
+    let farthest = flat.iter().map(reach).fold(0.0, f64::max);
     let face = area_vector(plan.view.triangle(corner.triangle())).length();
-    let size = (area / face).sqrt().min(WIDEST);
+    let size = (opening / face).sqrt().min(WIDEST / farthest);
     let vertices = [corner, corner.next(), corner.prev()].map(|c| plan.view.vertex_at(c).0);
-    let blend = |to_next: f64, to_prev: f64| {
+    let blend = |at: &[f64; 2]| {
+        let [to_next, to_prev] = [0, 1].map(|k| size * (at[k] - least[k]));
         let weights = [1.0 - to_next - to_prev, to_next, to_prev].map(|weight| weight as f32);
         Blend { vertices, weights }
     };
-    let on_bow = |along: f64| {
-        let bend = BOW * along * (1.0 - along);
-        blend(size * (along * along + bend), size * ((1.0 - along).powi(2) + bend))
-    };
-    let mut feet = on_others(count, owner, on_bow);
-    feet.push((owner, blend(0.0, 0.0)));
-    Lay { feet, middle: blend(size * MIDDLE_SHARE * BOW / 2.0, size * MIDDLE_SHARE * BOW / 2.0) }
+    let mut blends = flat.iter().map(blend);
+    Lay { feet: blends.by_ref().take(ring).enumerate().collect(), middles: blends.collect() }
+}
+
+/// From one of a ring's points to the next and to the previous one.
+fn arms_at(points: &[DVec3], ring: usize, at: usize) -> [DVec3; 2] {
+    [points[(at + 1) % ring] - points[at], points[(at + ring - 1) % ring] - points[at]]
+}
+
+/// Twice the area between the sides at one of a ring's points, seen along a unit normal.
+fn spread_at(points: &[DVec3], ring: usize, at: usize, normal: DVec3) -> f64 {
+    let [to_next, to_prev] = arms_at(points, ring, at);
+    to_next.cross(to_prev).dot(normal)
 }
 
 /// Whether a sector and one other go all around their cluster.
@@ -310,17 +335,18 @@ mod tests {
         assert!((weight_of(&foot, to) - 0.1).abs() < 1e-6, "{foot:?}");
     }
 
-    /// Half the face's area, with one vertex on the corner and two on its sides.
+    /// A flat right angle of half the face's area, in the face's right angle.
     #[test]
-    fn a_fill_in_a_corner_takes_as_much_of_the_face_as_it_has() {
+    fn a_fill_in_a_corner_keeps_its_shape_and_area() {
         let cube = shapes::cube(1.0);
         let plan = plan_of(&cube, 0.1);
-        let lay = corner_lay(&plan, Corner(0), 3, 1, 0.25);
-        let places: Vec<usize> = lay.feet.iter().map(|(place, _)| *place).collect();
-        assert_eq!(places, [2, 0, 1]);
-        let own = plan.view.vertex_at(Corner(0)).0;
-        assert_eq!(weight_of(&lay.feet[2].1, own), 1.0);
-        let half = 1.0 - 0.25_f32.sqrt();
-        assert!((weight_of(&lay.feet[0].1, own) - half).abs() < 1e-6);
+        let points = [DVec3::ZERO, DVec3::X * 0.5, DVec3::Y * 0.5, DVec3::new(0.1, 0.1, 0.0)];
+        let lay = corner_lay(&plan, Corner(0), &points, 3, DVec3::Z);
+        let [from, next, prev] = [0, 1, 2].map(|corner| plan.view.vertex_at(Corner(corner)).0);
+        let weights = |blend: &Blend| [from, next, prev].map(|v| weight_of(blend, v));
+        let feet: Vec<[f32; 3]> = lay.feet.iter().map(|(_, foot)| weights(foot)).collect();
+        assert_eq!(feet, [[1.0, 0.0, 0.0], [0.5, 0.5, 0.0], [0.5, 0.0, 0.5]]);
+        let middle = weights(&lay.middles[0]);
+        assert!((middle[0] - 0.8).abs() < 1e-6 && (middle[1] - 0.1).abs() < 1e-6);
     }
 }

@@ -9,7 +9,7 @@ use super::{Owners, channels_of, place_of, seam_channels};
 use crate::attributes::{Attributes, Streams, middles};
 use crate::corners::{Fill, middle};
 use crate::ids::{Corner, Edge, Ring, Sector};
-use crate::math::area_vector;
+use crate::math::{area_vector, unit};
 use crate::placement::{Placement, base};
 use crate::plan::Plan;
 use crate::report::Blend;
@@ -102,11 +102,15 @@ impl<'a> FillMap<'a> {
 
     fn laid(&self, way: Way, owner: usize) -> Lay {
         match way {
-            Way::Kite(wings) => kite(self.plan, self.placement, self.sectors, owner, wings),
+            Way::Kite(wings) => {
+                let middles = self.fill.middles.len();
+                kite(self.plan, self.placement, self.sectors, owner, wings, middles)
+            }
             Way::Corner => {
                 let triangles = self.fill.triangles.iter();
-                let areas = triangles.map(|t| area_vector(t.map(|k| self.points[k])).length());
-                corner_lay(self.plan, self.first(owner), self.sectors.len(), owner, areas.sum())
+                let normal = triangles.map(|t| area_vector(t.map(|k| self.points[k]))).sum();
+                let count = self.sectors.len();
+                corner_lay(self.plan, self.first(owner), &self.points, count, unit(normal))
             }
         }
     }
@@ -117,8 +121,8 @@ impl<'a> FillMap<'a> {
 
     /// How badly the fill lies on its owner's texture: see [`misfit`].
     fn misfit(&self, streams: &Streams, channel: usize, owner: usize, lay: &Lay) -> f64 {
-        let mut uvs = vec![place_of(self.plan, channel, &lay.middle); self.points.len()];
-        uvs[owner] = streams.uv(self.vertices[owner], channel);
+        let mut uvs: Vec<DVec2> = self.vertices.iter().map(|&v| streams.uv(v, channel)).collect();
+        uvs.extend(lay.middles.iter().map(|middle| place_of(self.plan, channel, middle)));
         for (place, foot) in &lay.feet {
             uvs[*place] = place_of(self.plan, channel, foot);
         }
