@@ -3,12 +3,13 @@
 use glam::{DVec2, DVec3};
 
 use super::density::{Facing, MOST_STRETCH, misfit};
-use super::feet::{Depth, Spread, band_foot, inside};
+use super::feet::{Depth, Spread, band_foot, corner_lay, inside};
 use super::ground::Ground;
 use super::{Copies, channels_of, place_of, seam_channels};
 use crate::attributes::{Attributes, Streams};
 use crate::edges::HardEdge;
 use crate::ids::Corner;
+use crate::math::{area_vector, unit};
 use crate::placement::Placement;
 use crate::plan::Plan;
 use crate::report::Blend;
@@ -21,8 +22,10 @@ enum Way {
     Own,
     /// On the band that the owner's side has left free, or a part of it.
     Band(usize, Spread, Depth),
-    /// Within the triangle of the owner's side.
+    /// Along the edge, within the triangle of the owner's side.
     Inside(usize),
+    /// Flat, anywhere in that triangle.
+    Flat(usize),
 }
 
 /// The ways onto one side's band, best first.
@@ -79,6 +82,7 @@ impl<'a> StripMap<'a> {
                     feet[place] = band_foot(self.plan, self.placement, at, spread, depth);
                 }
             }
+            Way::Flat(owner) => feet = self.flat(owner),
             Way::Inside(owner) => {
                 for (end, place) in far_places(owner).into_iter().enumerate() {
                     let [near, far] = inside(self.plan, self.placement, (self.edge, owner, end));
@@ -87,13 +91,25 @@ impl<'a> StripMap<'a> {
                 }
             }
         }
-        self.used(feet)
+        std::array::from_fn(|place| feet[place].filter(|_| self.is_used(place)))
     }
 
-    /// Without those of corners that no triangle has.
-    fn used(&self, feet: Feet) -> Feet {
-        let is_used = |place: &usize| self.cut.iter().any(|triangle| triangle.contains(place));
-        std::array::from_fn(|place| feet[place].filter(|_| is_used(&place)))
+    /// Whether some triangle has the corner.
+    fn is_used(&self, place: usize) -> bool {
+        self.cut.iter().any(|triangle| triangle.contains(&place))
+    }
+
+    fn flat(&self, owner: usize) -> Feet {
+        let places: Vec<usize> = (0..4).filter(|&place| self.is_used(place)).collect();
+        let points: Vec<DVec3> = places.iter().map(|&place| self.points[place]).collect();
+        let areas = self.cut.iter().map(|t| area_vector(t.map(|k| self.points[k])));
+        let normal = unit(areas.sum());
+        let lay = corner_lay(self.plan, self.edge.sides[owner], &points, points.len(), normal);
+        let mut feet = [None; 4];
+        for (k, foot) in lay.feet {
+            feet[places[k]] = Some(foot);
+        }
+        feet
     }
 
     /// How badly the strip lies on a channel in some way: see [`misfit`].
@@ -104,7 +120,9 @@ impl<'a> StripMap<'a> {
         };
         let uvs = [0, 1, 2, 3].map(uv);
         match way {
-            Way::Band(owner, ..) | Way::Inside(owner) => self.misfit_on(owner, channel, uvs),
+            Way::Band(owner, ..) | Way::Inside(owner) | Way::Flat(owner) => {
+                self.misfit_on(owner, channel, uvs)
+            }
             Way::Own => [0, 1]
                 .map(|owner| self.misfit_on(owner, channel, uvs))
                 .into_iter()
@@ -133,7 +151,8 @@ impl<'a> StripMap<'a> {
         let seams = seam_channels(self.plan, self.edge);
         let own = (seams >> channel & 1 == 0).then_some(Way::Own);
         let ways = own.into_iter().chain(bands(owner)).chain(bands(1 - owner));
-        let inside = [Way::Inside(owner), Way::Inside(1 - owner)];
+        let sides = [owner, 1 - owner];
+        let inside = sides.map(Way::Inside).into_iter().chain(sides.map(Way::Flat));
         let mut best = (f64::INFINITY, *taken);
         let mut is_first = true;
         for way in ways.chain(inside) {
