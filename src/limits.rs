@@ -8,11 +8,13 @@
 mod collisions;
 mod room;
 
+use std::cmp::Ordering;
+
 use glam::DVec3;
 
 use crate::corners;
-use crate::ids::{Corner, Edge, IdVec, Ring, Sector, Triangle};
-use crate::math::unit;
+use crate::ids::{Corner, Edge, Few, IdVec, Ring, Sector, Triangle};
+use crate::math::{area_vector, unit};
 use crate::options::Verify;
 use crate::placement::Placement;
 use crate::plan::Plan;
@@ -23,7 +25,8 @@ use crate::validity::{stays_line, survives};
 /// How much a sector that takes part in something bad keeps in each round.
 const SHRINK: f64 = 0.5;
 
-/// After so many rounds a share is down to a sixteenth; what is still bad gets no offset at all.
+/// After so many rounds a share is down to a sixteenth. A ring that is still bad then gets the same
+/// share for all its sectors, which keeps its shape; if that is bad as well, no offset at all.
 const SHRINK_ROUNDS: usize = 4;
 
 /// Steps of bisection when width is given back: the rest is within 2 % of what would fit.
@@ -46,7 +49,8 @@ pub struct Limits {
 pub fn limits(plan: &Plan, verify: Verify) -> Limits {
     let room = room::room(plan);
     let mut limits = bounded(plan, &room);
-    shrink(plan, &mut limits, all_elements(plan));
+    let bad = bad_elements(plan, &limits.placement);
+    shrink(plan, &mut limits, bad);
     for _ in 0..GROW_PASSES {
         grow(plan, &room, &mut limits);
     }
@@ -58,15 +62,14 @@ pub fn limits(plan: &Plan, verify: Verify) -> Limits {
 
 /// Every sector at the width that its own triangles leave room for.
 fn bounded(plan: &Plan, shares: &IdVec<Sector, f64>) -> Limits {
-    let mut placement = Placement::unmoved(plan);
-    let mut reason = IdVec::filled(Reason::None, shares.len());
-    for sector in shares.ids().filter(|&sector| plan.offsets[sector].moves()) {
-        placement.set(plan, sector, shares[sector]);
-        if shares[sector] < 1.0 {
-            reason[sector] = Reason::NoRoom;
-        }
+    let reason = |sector: Sector| {
+        let is_narrow = plan.offsets[sector].moves() && shares[sector] < 1.0;
+        if is_narrow { Reason::NoRoom } else { Reason::None }
+    };
+    Limits {
+        placement: Placement::at(plan, shares),
+        reason: plan.view.threads.map(shares.len(), reason),
     }
-    Limits { placement, reason }
 }
 
 /// Anything that can go bad.
@@ -77,30 +80,33 @@ enum Element {
     Fill(Ring),
 }
 
-/// Shrinks whatever is bad among the suspects, and then around what has shrunk.
-fn shrink(plan: &Plan, limits: &mut Limits, mut suspects: Vec<Element>) {
-    let mut round = 0;
-    loop {
+/// Shrinks what is bad, and then what is bad around what has shrunk.
+fn shrink(plan: &Plan, limits: &mut Limits, mut bad: Vec<Element>) {
+    for round in 0.. {
         let mut shrunk = Vec::new();
-        for element in suspects {
-            if !is_valid(plan, &limits.placement, element) {
-                let reason = match element {
-                    Element::Surface(_) => Reason::NoRoom,
-                    Element::Strip(_) | Element::Fill(_) => Reason::Folds,
-                };
-                blame(plan, limits, element, reason, &mut shrunk);
-            }
+        for element in bad {
+            let reason = match element {
+                Element::Surface(_) => Reason::NoRoom,
+                Element::Strip(_) | Element::Fill(_) => Reason::Folds,
+            };
+            blame(plan, limits, element, reason, &mut shrunk);
         }
         if shrunk.is_empty() {
             return;
         }
         apply(plan, limits, round, &mut shrunk);
-        suspects = around(plan, &shrunk);
-        round += 1;
+        bad = bad_around(plan, &limits.placement, &shrunk);
     }
 }
 
-/// Shrinks sectors, each once; after some rounds to nothing, together with their whole rings.
+/// All that depends on the sectors and is bad.
+fn bad_around(plan: &Plan, placement: &Placement, sectors: &[Sector]) -> Vec<Element> {
+    let suspects = around(plan, sectors).into_iter();
+    suspects.filter(|&element| !is_valid(plan, placement, element)).collect()
+}
+
+/// Shrinks sectors, each once; after some rounds together with their whole rings: to one share for
+/// all, and then to nothing.
 fn apply(plan: &Plan, limits: &mut Limits, round: usize, shrunk: &mut Vec<Sector>) {
     shrunk.sort_unstable();
     shrunk.dedup();
@@ -109,9 +115,20 @@ fn apply(plan: &Plan, limits: &mut Limits, round: usize, shrunk: &mut Vec<Sector
     }
     for &sector in shrunk.iter() {
         let share = limits.placement.share[sector];
-        let smaller = if round < SHRINK_ROUNDS { share * SHRINK } else { 0.0 };
+        let smaller = match round.cmp(&SHRINK_ROUNDS) {
+            Ordering::Less => share * SHRINK,
+            Ordering::Equal => least_in_ring(plan, &limits.placement, sector),
+            Ordering::Greater => 0.0,
+        };
         limits.placement.set(plan, sector, smaller);
     }
+}
+
+/// The smallest share that a sector or another one of its ring has, of those that moved.
+fn least_in_ring(plan: &Plan, placement: &Placement, sector: Sector) -> f64 {
+    let ring = plan.sectors.ring(plan.sectors.fans[sector].ring);
+    let shares = ring.iter().map(|&other| placement.share[other]).filter(|&share| share > 0.0);
+    shares.fold(placement.share[sector], f64::min)
 }
 
 /// Adds to the sectors all others of their rings that have moved, for the same reason.
@@ -133,14 +150,20 @@ fn spread_over_rings(plan: &Plan, limits: &mut Limits, shrunk: &mut Vec<Sector>)
     }
 }
 
-fn all_elements(plan: &Plan) -> Vec<Element> {
-    let triangles = plan.view.triangles().filter(|&triangle| is_touched(plan, triangle));
-    let edges = plan.edges.hard.ids().filter(|&edge| plan.edges.hard[edge].skipped.is_none());
-    triangles
-        .map(Element::Surface)
-        .chain(edges.map(Element::Strip))
-        .chain(plan.sectors.rings.ids().map(Element::Fill))
-        .collect()
+/// Everything that is bad where the sectors stand now.
+fn bad_elements(plan: &Plan, placement: &Placement) -> Vec<Element> {
+    let threads = &plan.view.threads;
+    let is_bad = |element| !is_valid(plan, placement, element);
+    let triangles = threads.filter(plan.faces.normal.len(), |triangle| {
+        is_touched(plan, triangle) && is_bad(Element::Surface(triangle))
+    });
+    let edges = threads.filter(plan.edges.hard.len(), |edge| {
+        plan.edges.hard[edge].skipped.is_none() && is_bad(Element::Strip(edge))
+    });
+    let rings = threads.filter(plan.sectors.rings.len(), |ring| is_bad(Element::Fill(ring)));
+    let surface = triangles.into_iter().map(Element::Surface);
+    let strips = edges.into_iter().map(Element::Strip);
+    surface.chain(strips).chain(rings.into_iter().map(Element::Fill)).collect()
 }
 
 fn is_touched(plan: &Plan, triangle: Triangle) -> bool {
@@ -164,7 +187,7 @@ fn blame(
 }
 
 /// The sectors that an element's corners stand on.
-fn sectors_of(plan: &Plan, element: Element) -> Vec<Sector> {
+fn sectors_of(plan: &Plan, element: Element) -> Few<Sector> {
     let sector_of = |corner: Corner| plan.sectors.sector_of[corner];
     match element {
         Element::Surface(triangle) => {
@@ -173,7 +196,7 @@ fn sectors_of(plan: &Plan, element: Element) -> Vec<Sector> {
         Element::Strip(edge) => {
             strips::corners(&plan.edges.hard[edge]).into_iter().map(sector_of).collect()
         }
-        Element::Fill(ring) => plan.sectors.ring(ring).to_vec(),
+        Element::Fill(ring) => Few::from_slice(plan.sectors.ring(ring)),
     }
 }
 
@@ -214,8 +237,23 @@ fn surface_is_valid(plan: &Plan, placement: &Placement, triangle: Triangle) -> b
     } else if faces.normal[triangle] == DVec3::ZERO || faces.is_line(triangle) {
         stays_line(old, new, faces.normal[triangle], plan.view.resolution)
     } else {
-        survives(old, new)
+        survives(old, new) && still_faces_out(plan, placement, triangle, [old, new])
     }
+}
+
+/// Whether a triangle that faced the way its vertex normals point still does.
+fn still_faces_out(
+    plan: &Plan,
+    placement: &Placement,
+    triangle: Triangle,
+    [old, new]: [[DVec3; 3]; 2],
+) -> bool {
+    let corners = triangle.corners();
+    let facing = |points: [DVec3; 3], normals: [DVec3; 3]| {
+        area_vector(points).dot(normals[0] + normals[1] + normals[2])
+    };
+    facing(new, corners.map(|corner| placement.normal_at(plan, corner))) > 0.0
+        || facing(old, corners.map(|corner| plan.view.normal_at(corner))) <= 0.0
 }
 
 fn strip_is_valid(plan: &Plan, placement: &Placement, edge: Edge) -> bool {
@@ -231,8 +269,8 @@ pub fn fill(plan: &Plan, placement: &Placement, ring: Ring) -> Option<corners::F
     if sectors.len() < 3 {
         return Some(corners::Fill::default());
     }
-    let points: Vec<_> = sectors.iter().map(|&sector| placement.point[sector]).collect();
-    let normals: Vec<_> = sectors.iter().map(|&sector| placement.normals[sector][0]).collect();
+    let points: Few<_> = sectors.iter().map(|&sector| placement.point[sector]).collect();
+    let normals: Few<_> = sectors.iter().map(|&sector| placement.normals[sector][0]).collect();
     corners::fill(&points, &normals, plan.view.resolution)
 }
 
@@ -281,7 +319,7 @@ mod tests {
     fn shares(mesh: &MeshBuffers, width: f32) -> Vec<f64> {
         let plan = plan_of(mesh, width);
         let limits = limits(&plan, Verify::Fast);
-        assert!(all_elements(&plan).into_iter().all(|e| is_valid(&plan, &limits.placement, e)));
+        assert!(bad_elements(&plan, &limits.placement).is_empty());
         let movable = plan.sectors.fans.ids().filter(|&sector| plan.offsets[sector].moves());
         movable.map(|sector| limits.placement.share[sector]).collect()
     }
@@ -310,6 +348,42 @@ mod tests {
         let shares = shares(&both, 0.1);
         assert!(shares[..24].iter().all(|&share| share == 1.0), "{shares:?}");
         assert!(shares[24..].iter().any(|&share| share < 1.0), "{shares:?}");
+    }
+
+    #[test]
+    fn a_triangle_may_not_turn_from_its_vertex_normals() {
+        let mut cube = shapes::plain_cube(1.0);
+        let plan = plan_of(&cube, 0.1);
+        let placement = Placement::unmoved(&plan);
+        let old = plan.view.triangle(Triangle(0));
+        let turned = [old[0], old[2], old[1]];
+        assert!(still_faces_out(&plan, &placement, Triangle(0), [old, old]));
+        assert!(!still_faces_out(&plan, &placement, Triangle(0), [old, turned]));
+        cube.normals.iter_mut().for_each(|normal| *normal = normal.map(|part| -part));
+        let plan = plan_of(&cube, 0.1);
+        let placement = Placement::unmoved(&plan);
+        assert!(still_faces_out(&plan, &placement, Triangle(0), [old, turned]), "it never did");
+    }
+
+    /// A corner that three unlike shares fold, and equal ones do not.
+    #[test]
+    fn a_ring_that_folds_gets_one_share_before_none() {
+        let cube = shapes::plain_cube(1.0);
+        let plan = plan_of(&cube, 0.1);
+        let mut placement = Placement::unmoved(&plan);
+        let ring = plan.sectors.ring(Ring(0)).to_vec();
+        for (&sector, share) in ring.iter().zip([0.5, 0.25, 0.0]) {
+            placement.set(&plan, sector, share);
+        }
+        let reason = IdVec::filled(Reason::Folds, plan.offsets.len());
+        let mut limits = Limits { placement, reason };
+        let shares = |limits: &Limits| ring.iter().map(|&s| limits.placement.share[s]).collect();
+        apply(&plan, &mut limits, SHRINK_ROUNDS, &mut ring.clone());
+        let even: Vec<f64> = shares(&limits);
+        assert_eq!(even, [0.25, 0.25, 0.0]);
+        apply(&plan, &mut limits, SHRINK_ROUNDS + 1, &mut ring.clone());
+        let none: Vec<f64> = shares(&limits);
+        assert_eq!(none, [0.0; 3]);
     }
 
     #[test]

@@ -69,20 +69,18 @@ pub fn offsets(
     faces: &Faces,
     sectors: &Sectors,
 ) -> IdVec<Sector, Offset> {
-    let mut spread = Vec::new();
-    let offset = |sector| {
-        unfold(view, topology, sectors, sector, &mut spread);
+    view.threads.map_with(sectors.fans.len(), Vec::new, |spread, sector| {
+        unfold(view, topology, sectors, sector, spread);
         let fan = &sectors.fans[sector];
-        let chosen = course(view, topology, faces, fan, &spread)
-            .and_then(|course| place(view, faces, &spread, &course));
+        let chosen = course(view, topology, faces, fan, spread)
+            .and_then(|course| place(view, faces, spread, &course));
         chosen.unwrap_or(Offset {
             vector: DVec3::ZERO,
             within: fan.first,
             foot: Foot::at(fan.first),
             is_capped: false,
         })
-    };
-    IdVec::from_vec(sectors.fans.ids().map(offset).collect())
+    })
 }
 
 /// A corner of a fan, unfolded into the plane.
@@ -137,6 +135,8 @@ fn course(
     let total = last.start.plus(last.angle);
     match (fan.starts_at_border, fan.ends_at_border()) {
         (true, true) => None,
+        // Parts that only touch, as at a T-junction, would gape where one of them moves.
+        (true, false) | (false, true) if fan.borders_meet => None,
         // At a border the vertex has to stay on it, which no hard edge inside the fan allows.
         (true, false) | (false, true) if crease(view, faces, spread).is_hard() => None,
         (true, false) => slide(view, first.corner, Turn::ZERO, &[total]),

@@ -23,6 +23,10 @@ pub struct Foot {
     pub along: [f64; 2],
 }
 
+/// Past so many times a triangle's sides its streams tell nothing, and single precision cannot add
+/// the weights up to 1 any more.
+const MOST_WEIGHT: f64 = 1024.0;
+
 /// Weights below this are rounding: a vertex that slides along an edge is on that edge.
 const LEAST_WEIGHT: f64 = 1e-9;
 
@@ -35,6 +39,9 @@ impl Foot {
     /// The blend of the triangle's vertices at a share of the way.
     pub fn blend(&self, plan: &Plan, share: f64) -> Blend {
         let [to_next, to_prev] = [0, 1].map(|k| self.start[k] + self.along[k] * share);
+        if to_next.abs().max(to_prev.abs()) > MOST_WEIGHT {
+            return Blend::one(plan.view.vertex_at(self.corner).0);
+        }
         Blend {
             vertices: [self.corner, self.corner.next(), self.corner.prev()]
                 .map(|corner| plan.view.vertex_at(corner).0),
@@ -220,5 +227,13 @@ mod tests {
         let uv = crate::mesh::Uv { components: 3, values: &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0] };
         assert_eq!(uv_at(&uv, 1), [4.0, 5.0, 6.0]);
         assert!(uv_at(&crate::mesh::Uv::default(), 1).is_empty());
+    }
+
+    #[test]
+    fn far_past_a_sliver_a_vertex_keeps_its_own_values() {
+        let cube = shapes::plain_cube(1.0);
+        let plan = plan_of(&cube, 0.1);
+        let far = Foot { corner: Corner::new(0), start: [0.0; 2], along: [1e7, -1e7] };
+        assert_eq!(far.blend(&plan, 1.0), Blend::one(plan.view.vertex_at(far.corner).0));
     }
 }

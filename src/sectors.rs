@@ -5,7 +5,7 @@
 //! corner-connected vertices). Sectors that are joined by chamfered edges form a ring.
 
 use crate::edges::Edges;
-use crate::ids::{Corner, Id, IdVec, Ring, Sector};
+use crate::ids::{Cluster, Corner, Id, IdVec, Ring, Sector};
 use crate::topology::Topology;
 
 /// An ordered fan of corners, counter-clockwise seen from outside.
@@ -19,6 +19,8 @@ pub struct Fan {
     pub next: Sector,
     /// Whether the first edge is a border.
     pub starts_at_border: bool,
+    /// Whether several borders run through the cluster, of parts that only touch here.
+    pub borders_meet: bool,
     pub ring: Ring,
 }
 
@@ -85,6 +87,7 @@ pub fn sectors(topology: &Topology, edges: &Edges) -> Sectors {
         }
     }
     join_rings(topology, &mut sectors);
+    mark_meeting_borders(topology, &mut sectors);
     sectors
 }
 
@@ -105,7 +108,14 @@ fn add_fan(topology: &Topology, edges: &Edges, sectors: &mut Sectors, corner: Co
         sectors.sector_of[last] = sector;
     }
     let starts_at_border = topology.twin[first].is_none();
-    sectors.fans.push(Fan { first, last, next: Sector::NONE, starts_at_border, ring: Ring::NONE });
+    sectors.fans.push(Fan {
+        first,
+        last,
+        next: Sector::NONE,
+        starts_at_border,
+        borders_meet: false,
+        ring: Ring::NONE,
+    });
 }
 
 fn join_rings(topology: &Topology, sectors: &mut Sectors) {
@@ -124,6 +134,31 @@ fn join_rings(topology: &Topology, sectors: &mut Sectors) {
             }
         }
     }
+}
+
+fn mark_meeting_borders(topology: &Topology, sectors: &mut Sectors) {
+    if sectors.fans.iter().all(|fan| !fan.starts_at_border) {
+        return;
+    }
+    let meeting = meeting_borders(topology);
+    for sector in sectors.fans.ids() {
+        let cluster = topology.cluster_at[sectors.fans[sector].first];
+        sectors.fans[sector].borders_meet = meeting.binary_search(&cluster).is_ok();
+    }
+}
+
+/// The clusters, sorted, that several borders run through.
+fn meeting_borders(topology: &Topology) -> Vec<Cluster> {
+    let is_border = |corner: &Corner| {
+        topology.twin[*corner].is_none() && !topology.is_collapsed(corner.triangle())
+    };
+    let borders = topology.twin.ids().filter(is_border);
+    let mut starts: Vec<Cluster> = borders.map(|corner| topology.cluster_at[corner]).collect();
+    starts.sort_unstable();
+    let mut meeting: Vec<Cluster> =
+        starts.windows(2).filter(|pair| pair[0] == pair[1]).map(|pair| pair[0]).collect();
+    meeting.dedup();
+    meeting
 }
 
 fn add_ring(sectors: &mut Sectors, first: Sector) {

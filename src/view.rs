@@ -6,8 +6,10 @@ use glam::DVec3;
 
 use crate::error::{Error, Stream};
 use crate::ids::{Corner, Id, Triangle, Vertex};
+use crate::memory;
 use crate::mesh::{Mesh, UV_CHANNELS, Uv};
 use crate::options::{ChamferSubmesh, Options, Width};
+use crate::threads::Threads;
 
 /// New elements are fewer than eight for each source corner, so ids stay within 32 bits.
 const MAX_CORNERS: usize = u32::MAX as usize / 8;
@@ -16,6 +18,9 @@ const MAX_CORNERS: usize = u32::MAX as usize / 8;
 /// coordinate cannot be told apart reliably.
 const RESOLUTION_STEPS: f64 = 4.0;
 
+/// Below the normal range (1e-38) single precision goes on in steps of this size.
+const SMALLEST_STEP: f64 = f32::from_bits(1) as f64;
+
 /// A mesh that keeps all rules.
 pub struct View<'a> {
     pub mesh: Mesh<'a>,
@@ -23,6 +28,8 @@ pub struct View<'a> {
     pub width: f64,
     /// The shortest length that single precision can tell from zero on this mesh.
     pub resolution: f64,
+    /// Who does the work.
+    pub threads: Threads,
 }
 
 /// Validates a mesh and the options that go with it.
@@ -30,17 +37,21 @@ pub fn view<'a>(mesh: &Mesh<'a>, options: &Options) -> Result<View<'a>, Error> {
     check_lengths(mesh)?;
     check_indices(mesh)?;
     check_finite(mesh)?;
+    view_of_checked(mesh, options)
+}
+
+/// As [`view`], of a mesh that keeps all rules for sure.
+pub fn view_of_checked<'a>(mesh: &Mesh<'a>, options: &Options) -> Result<View<'a>, Error> {
     if let ChamferSubmesh::Given(submesh) = options.chamfer_submesh {
         let submeshes = mesh.submesh_index_counts.len() as u32;
         if submesh >= submeshes {
             return Err(Error::SubmeshRange { submesh, submeshes });
         }
     }
-    Ok(View {
-        mesh: *mesh,
-        width: width_in_units(mesh, options.width)?,
-        resolution: resolution(mesh),
-    })
+    let width = width_in_units(mesh, options.width)?;
+    memory::check(mesh, options.verify)?;
+    let threads = Threads::new(options.threads, mesh.indices.len());
+    Ok(View { mesh: *mesh, width, resolution: resolution(mesh), threads })
 }
 
 impl View<'_> {
@@ -102,7 +113,8 @@ fn width_in_units(mesh: &Mesh, width: Width) -> Result<f64, Error> {
 /// The shortest length that single precision can tell from zero on a mesh.
 pub fn resolution(mesh: &Mesh) -> f64 {
     let largest = mesh.positions.as_flattened().iter().fold(0.0_f32, |m, x| m.max(x.abs()));
-    f64::from(largest) * f64::from(f32::EPSILON) * RESOLUTION_STEPS
+    let step = f64::from(largest) * f64::from(f32::EPSILON);
+    step.max(SMALLEST_STEP) * RESOLUTION_STEPS
 }
 
 fn check_lengths(mesh: &Mesh) -> Result<(), Error> {
@@ -163,7 +175,8 @@ pub fn check_indices(mesh: &Mesh) -> Result<(), Error> {
     }
 }
 
-fn check_finite(mesh: &Mesh) -> Result<(), Error> {
+/// Whether all values of all streams are finite.
+pub fn check_finite(mesh: &Mesh) -> Result<(), Error> {
     check_stream(Stream::Positions, mesh.positions.as_flattened(), 3)?;
     check_stream(Stream::Normals, mesh.normals.as_flattened(), 3)?;
     check_stream(Stream::Tangents, mesh.tangents.as_flattened(), 4)?;
@@ -175,7 +188,7 @@ fn check_finite(mesh: &Mesh) -> Result<(), Error> {
 }
 
 /// Whether all values of a stream, so many to a vertex, are finite.
-pub fn check_stream(stream: Stream, values: &[f32], components: usize) -> Result<(), Error> {
+fn check_stream(stream: Stream, values: &[f32], components: usize) -> Result<(), Error> {
     // A plain pass over all values is much faster than a search, and nearly always enough.
     if values.iter().fold(true, |all, value| all & value.is_finite()) {
         return Ok(());

@@ -216,3 +216,46 @@ fn an_open_t_junction_stays_as_it_is() {
     assert_eq!(result.totals.hard_edges, 0, "borders are not hard edges");
     harms_no_cube("an open T-junction, with a cube", t_junction(false));
 }
+
+/// A box that a lid of finer pieces closes: they share the four corners, and no edge.
+///
+/// ```text
+/// *-----*-----*     the lid from above; each of its sides has a vertex
+/// | \   |   / |     in the middle, which those of the box do not have
+/// *-----*-----*
+/// | /   |   \ |
+/// *-----*-----*
+/// ```
+fn box_under_finer_lid() -> MeshBuffers {
+    let open = shapes::open_box();
+    let (mut positions, mut normals) = (open.positions, open.normals);
+    let center = positions.len() as u32;
+    positions.push([0.0, 1.0, 0.0]);
+    for [x, z] in [[1, 1], [1, 0], [1, -1], [0, -1], [-1, -1], [-1, 0], [-1, 1], [0, 1]] {
+        positions.push([x as f32, 1.0, z as f32]);
+    }
+    normals.resize(positions.len(), UP);
+    let rim = |k: u32| center + 1 + k % 8;
+    let lid = (0..8).flat_map(|k| [center, rim(k), rim(k + 1)]);
+    let indices = open.indices.iter().copied().chain(lid).collect();
+    plain(positions, normals, indices)
+}
+
+#[test]
+fn where_borders_of_two_parts_meet_nothing_gapes() {
+    let mesh = box_under_finer_lid();
+    let result = chamfered("a box under a finer lid", &mesh, 0.1);
+    let upright: Vec<_> = result
+        .verdicts
+        .iter()
+        .filter(|v| v.vertices.map(|v| mesh.positions[v as usize][1]) != [0.0; 2])
+        .collect();
+    assert_eq!(upright.len(), 4);
+    for verdict in upright {
+        let heights = verdict.vertices.map(|vertex| mesh.positions[vertex as usize][1]);
+        for (height, width) in heights.into_iter().zip(verdict.widths) {
+            assert_eq!(width > 0.0999, height == 0.0, "{width} at {height}");
+            assert!(height == 0.0 || width == 0.0, "the chamfer ends at the lid");
+        }
+    }
+}

@@ -86,3 +86,33 @@ fn a_flat_face_with_a_sliver_stays_flat() {
     let result = chamfered(&mesh, Width::PercentOfExtent(12.964855));
     assert_sound("prism", &mesh.as_mesh(), &result);
 }
+
+/// Below 1e-38 all steps of single precision are of one size, and a cube of 1e-43 has 71 of them.
+#[test]
+fn a_cube_of_denormal_numbers_has_widths_as_told() {
+    let mut cube = shapes::plain_cube(1.0);
+    cube.positions.as_flattened_mut().iter_mut().for_each(|along| *along *= 1e-43);
+    assert_sound("denormal cube", &cube.as_mesh(), &chamfered(&cube, Width::PercentOfExtent(9.0)));
+}
+
+/// So far from the origin, rounding swallows the move of the first vertex: its normal, which is not
+/// unit length, stays as it is, and so does what the strip's triangles must face.
+#[test]
+fn a_move_that_rounding_swallows_leaves_the_normal() {
+    let up = [-0.5558825, 0.66470605, -0.49915978];
+    let tent = MeshBuffers {
+        positions: vec![
+            [936336.0, 1796921.0, -1220181.0],
+            [936380.0, 1796921.0, -1220230.0],
+            [936388.0, 1796975.0, -1220167.0],
+            [936388.0, 1796921.0, -1220167.0],
+            [936336.0, 1796921.0, -1220181.0],
+            [936380.0, 1796921.0, -1220230.0],
+        ],
+        normals: [vec![[0.640625, 0.765625, 0.703125], up, up], vec![[0.0, -1.0, 0.0]; 3]].concat(),
+        indices: vec![2, 1, 0, 3, 4, 5],
+        submesh_index_counts: vec![6],
+        ..MeshBuffers::default()
+    };
+    assert_sound("tent", &tent.as_mesh(), &chamfered(&tent, Width::Units(1.6)));
+}

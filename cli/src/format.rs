@@ -1,9 +1,9 @@
 //! The formats of model files, and which can become which.
 
-use std::fmt;
 use std::path::Path;
+use std::{fmt, fs};
 
-use anyhow::{Result, bail};
+use anyhow::{Context, Result, bail};
 
 use crate::document::{Document, ReadOptions};
 use crate::gltf_file::GltfDocument;
@@ -78,12 +78,49 @@ impl fmt::Display for Format {
 /// # Errors
 /// Where the extension is unknown, the file cannot be read, or what is in it makes no sense.
 pub fn read(path: &Path, options: &ReadOptions) -> Result<Box<dyn Document + Send>> {
-    Ok(match Format::of(path) {
-        Some(Format::Glb | Format::Gltf) => Box::new(GltfDocument::read(path, options)?),
-        Some(Format::Obj) => Box::new(obj_file::read(path, options)?),
-        Some(Format::Stl) => Box::new(stl_file::read(path, options)?),
-        None => bail!("unknown kind of file: give .glb, .gltf, .obj or .stl"),
+    // Looked at first: whatever a file of an unknown kind holds, there is no need to load it.
+    let format = known(path)?;
+    decode_as(format, path, read_file(path)?, options)
+}
+
+/// Reads a model from the bytes of its file. What it refers to is looked for beside `path`.
+///
+/// # Errors
+/// As [`read`].
+pub fn decode(
+    path: &Path,
+    bytes: Vec<u8>,
+    options: &ReadOptions,
+) -> Result<Box<dyn Document + Send>> {
+    decode_as(known(path)?, path, bytes, options)
+}
+
+fn known(path: &Path) -> Result<Format> {
+    Format::of(path).context("unknown kind of file: give .glb, .gltf, .obj or .stl")
+}
+
+fn decode_as(
+    format: Format,
+    path: &Path,
+    bytes: Vec<u8>,
+    options: &ReadOptions,
+) -> Result<Box<dyn Document + Send>> {
+    Ok(match format {
+        Format::Glb | Format::Gltf => Box::new(GltfDocument::decode(path, bytes, options)?),
+        Format::Obj => Box::new(obj_file::decode(path, bytes, options)?),
+        Format::Stl => Box::new(stl_file::decode(path, &bytes, options)?),
     })
+}
+
+/// Reads a plain file: a pipe or a device could block for ever.
+///
+/// # Errors
+/// Where it is missing, may not be read, or is something else. Callers say which file it was.
+pub fn read_file(path: &Path) -> Result<Vec<u8>> {
+    if !fs::metadata(path)?.is_file() {
+        bail!("not a file");
+    }
+    Ok(fs::read(path)?)
 }
 
 #[cfg(test)]

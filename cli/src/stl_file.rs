@@ -4,7 +4,6 @@
 //! "solid" for an ASCII one, and many CAD programs write such headers.
 
 use std::collections::HashMap;
-use std::fs;
 use std::path::Path;
 
 use anyhow::{Context, Result, bail};
@@ -30,13 +29,13 @@ pub struct StlDocument {
     normals: NormalsRead,
 }
 
-/// Reads an ASCII or binary STL. Corners at one position become one vertex, split again where
+/// Reads the bytes of an ASCII or binary STL. Corners at one position become one vertex, split again where
 /// faces meet at more than the smoothing angle. The normals in the file are not used.
 ///
 /// # Errors
-/// Where the file cannot be read, is cut off or holds anything but finite triangles.
-pub fn read(path: &Path, options: &ReadOptions) -> Result<StlDocument> {
-    let triangles = parse(&fs::read(path)?)?;
+/// Where it is cut off or holds anything but finite triangles.
+pub fn decode(path: &Path, bytes: &[u8], options: &ReadOptions) -> Result<StlDocument> {
+    let triangles = parse(bytes)?;
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let mesh = build(&triangles, options.smoothing_angle)?;
     let normals = NormalsRead { computed: true, ..NormalsRead::default() };

@@ -16,6 +16,9 @@ const SOFT_COSINE: f64 = 0.999_657;
 /// the smallest steps of single precision.
 const ROUNDING: f64 = 4.0 * f32::EPSILON as f64;
 
+/// The same for coordinates below the normal range, whose steps are all of one size.
+const LEAST_ROUNDING: f64 = 4.0 * f32::from_bits(1) as f64;
+
 /// One side of a triangle.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct HalfEdge {
@@ -91,7 +94,7 @@ impl<'a> Surface<'a> {
     /// How far a position may be off by rounding alone, in mesh units.
     pub fn rounding(&self) -> f64 {
         let largest = self.mesh.positions.as_flattened().iter().map(|along| along.abs());
-        ROUNDING * f64::from(largest.fold(0.0, f32::max))
+        (ROUNDING * f64::from(largest.fold(0.0, f32::max))).max(LEAST_ROUNDING)
     }
 
     /// The cluster of a corner: the first vertex at its position.

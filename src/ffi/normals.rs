@@ -2,10 +2,11 @@
 
 use super::status::Failure;
 use super::types::CHAMFER_STATUS_BAD_ANGLE;
-use crate::view::{check_indices, check_stream};
+use crate::memory;
+use crate::view::{check_finite, check_indices};
 use crate::{
-    Blend, Chamfered, Mesh, MeshBuffers, Smoothed, Stream, TriangleKind, TriangleSource, Uv,
-    UvBuffer, VertexSource, split_by_angle,
+    Blend, Chamfered, Mesh, MeshBuffers, Smoothed, TriangleKind, TriangleSource, Uv, UvBuffer,
+    Verify, VertexSource, split_by_angle,
 };
 
 /// The mesh with new normals, its vertices split where they differ, and where each came from.
@@ -18,7 +19,9 @@ pub fn with_normals(mesh: &Mesh, angle_degrees: f32) -> Result<Chamfered, Failur
     }
     // `split_by_angle` takes positions and indices on trust.
     check_indices(mesh)?;
-    check_stream(Stream::Positions, mesh.positions.as_flattened(), 3)?;
+    // Its normals are ignored, whatever they are; all else goes out again.
+    check_finite(&Mesh { normals: &[], ..*mesh })?;
+    memory::check(mesh, Verify::Fast)?;
     let smoothed = split_by_angle(mesh.positions, mesh.indices, angle_degrees);
     let triangles = smoothed.indices.len() as u32 / 3;
     Ok(Chamfered {

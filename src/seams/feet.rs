@@ -126,7 +126,11 @@ fn share_of(plan: &Plan, placement: &Placement, half_edge: Corner, pulled: Secto
 fn on_edge(plan: &Plan, half_edge: Corner, share: f64) -> Blend {
     let [from, to] = [half_edge, half_edge.next()].map(|corner| plan.view.vertex_at(corner).0);
     let share = share.clamp(0.0, 1.0);
-    mixed(&[(Blend::one(from), 1.0 - share), (Blend::one(to), share)])
+    match [1.0 - share, share].map(|weight| weight as f32) {
+        [0.0, weight] => Blend { vertices: [to; 3], weights: [weight, 0.0, 0.0] },
+        [weight, 0.0] => Blend { vertices: [from; 3], weights: [weight, 0.0, 0.0] },
+        [near, far] => Blend { vertices: [from, to, from], weights: [near, far, 0.0] },
+    }
 }
 
 /// A weighted sum of blends that have no more than three vertices between them; of others, those
@@ -250,7 +254,7 @@ pub fn corner_lay(
     ring: usize,
     normal: DVec3,
 ) -> Lay {
-    let apex = (0..ring).max_by(|&one, &other| {
+    let apex = (0..ring).rev().max_by(|&one, &other| {
         let opening = |apex| spread_at(points, ring, apex, normal);
         opening(one).total_cmp(&opening(other))
     });

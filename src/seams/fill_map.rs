@@ -5,10 +5,10 @@ use glam::{DVec2, DVec3};
 use super::density::{Facing, MOST_STRETCH, misfit};
 use super::feet::{Lay, Wings, corner_lay, is_broken, kite};
 use super::ground::Ground;
-use super::{Owners, channels_of, place_of, seam_channels};
+use super::{Owners, channels_of, place_of};
 use crate::attributes::{Attributes, Streams, middles};
 use crate::corners::{Fill, middle};
-use crate::ids::{Corner, Edge, Ring, Sector};
+use crate::ids::{Corner, Edge, Few, Ring, Sector};
 use crate::math::{area_vector, unit};
 use crate::placement::{Placement, base};
 use crate::plan::Plan;
@@ -46,9 +46,9 @@ pub struct FillMap<'a> {
     placement: &'a Placement,
     sectors: &'a [Sector],
     fill: &'a Fill,
-    points: Vec<DVec3>,
+    points: Few<DVec3>,
     /// `#sectors`: their output vertices.
-    pub vertices: Vec<u32>,
+    pub vertices: Few<u32>,
 }
 
 impl<'a> FillMap<'a> {
@@ -61,8 +61,8 @@ impl<'a> FillMap<'a> {
     ) -> Self {
         let sectors = plan.sectors.ring(ring);
         let own = |sector: &Sector| attributes.vertex_at[plan.sectors.fans[*sector].first];
-        let mut points: Vec<DVec3> = sectors.iter().map(|&s| placement.point[s]).collect();
-        let middles: Vec<DVec3> = fill.middles.iter().map(|at| middle(&points, at)).collect();
+        let mut points: Few<DVec3> = sectors.iter().map(|&s| placement.point[s]).collect();
+        let middles: Few<DVec3> = fill.middles.iter().map(|at| middle(&points, at)).collect();
         points.extend(middles);
         let vertices = sectors.iter().map(own).collect();
         FillMap { plan, placement, sectors, fill, points, vertices }
@@ -72,8 +72,10 @@ impl<'a> FillMap<'a> {
     /// else those that fit best.
     pub fn lay(&self, streams: &Streams, owners: &Owners) -> FillLay {
         let plan = self.plan;
-        let mut places: Vec<usize> = (0..self.sectors.len()).collect();
-        places.sort_by_key(|&place| std::cmp::Reverse(self.rank(place, owners)));
+        let mut ranked: Few<_> =
+            (0..self.sectors.len()).map(|place| (self.rank(place, owners), place)).collect();
+        ranked.sort_unstable_by(|one, other| other.cmp(one));
+        let places: Few<usize> = ranked.iter().map(|&(_, place)| place).collect();
         let broken = |channel: &usize| self.own_misfit(streams, *channel) > MOST_STRETCH;
         let channels = channels_of(plan).filter(broken).fold(0, |channels, k| channels | 1 << k);
         let worst = |owner: usize, lay: &Lay| {
@@ -121,7 +123,7 @@ impl<'a> FillMap<'a> {
 
     /// How badly the fill lies on its owner's texture: see [`misfit`].
     fn misfit(&self, streams: &Streams, channel: usize, owner: usize, lay: &Lay) -> f64 {
-        let mut uvs: Vec<DVec2> = self.vertices.iter().map(|&v| streams.uv(v, channel)).collect();
+        let mut uvs: Few<DVec2> = self.vertices.iter().map(|&v| streams.uv(v, channel)).collect();
         uvs.extend(lay.middles.iter().map(|middle| place_of(self.plan, channel, middle)));
         for (place, foot) in &lay.feet {
             uvs[*place] = place_of(self.plan, channel, foot);
@@ -135,7 +137,7 @@ impl<'a> FillMap<'a> {
         if self.seams(channel) > self.allowed_seams() {
             return f64::INFINITY;
         }
-        let mut uvs: Vec<DVec2> = self.vertices.iter().map(|&v| streams.uv(v, channel)).collect();
+        let mut uvs: Few<DVec2> = self.vertices.iter().map(|&v| streams.uv(v, channel)).collect();
         let middle = |&at: &DVec3| -> Blend { middles::nearest(self.plan, self.sectors, at) };
         let middles = self.points[self.sectors.len()..].iter().map(middle);
         uvs.extend(middles.map(|blend| place_of(self.plan, channel, &blend)));
@@ -162,8 +164,7 @@ impl<'a> FillMap<'a> {
         let plan = self.plan;
         let breaks = |&sector: &Sector| {
             let edge = plan.edges.chamfered_at[plan.sectors.fans[sector].last.prev()];
-            let at_edge =
-                edge.is_some() && seam_channels(plan, &plan.edges.hard[edge]) >> channel & 1 == 1;
+            let at_edge = edge.is_some() && plan.edges.hard[edge].seams >> channel & 1 == 1;
             usize::from(at_edge) + usize::from(is_broken(plan, sector, channel))
         };
         self.sectors.iter().map(breaks).sum()

@@ -5,11 +5,12 @@ use glam::{DVec2, DVec3};
 use super::density::{Facing, MOST_STRETCH, misfit};
 use super::feet::{Depth, Spread, band_foot, corner_lay, inside};
 use super::ground::Ground;
-use super::{Copies, channels_of, place_of, seam_channels};
+use super::{channels_of, place_of};
 use crate::attributes::{Attributes, Streams};
 use crate::edges::HardEdge;
 use crate::ids::Corner;
 use crate::math::{area_vector, unit};
+use crate::output::Copies;
 use crate::placement::Placement;
 use crate::plan::Plan;
 use crate::report::Blend;
@@ -64,11 +65,12 @@ impl<'a> StripMap<'a> {
         placement: &'a Placement,
         attributes: &Attributes,
         edge: &'a HardEdge,
+        cut: Cut,
     ) -> Self {
-        let quad = strips::quad(plan, placement, edge);
-        let vertices = strips::corners(edge).map(|corner| attributes.vertex_at[corner]);
+        let corners = strips::corners(edge);
+        let points = corners.map(|corner| placement.position_at(plan, corner));
+        let vertices = corners.map(|corner| attributes.vertex_at[corner]);
         let ends = edge.sides.map(|side| [side, side.next()]);
-        let (points, cut) = (quad.points, strips::cut(&quad));
         StripMap { plan, placement, edge, points, cut, vertices, ends }
     }
 
@@ -96,13 +98,13 @@ impl<'a> StripMap<'a> {
 
     /// Whether some triangle has the corner.
     fn is_used(&self, place: usize) -> bool {
-        self.cut.iter().any(|triangle| triangle.contains(&place))
+        self.cut.triangles().iter().any(|triangle| triangle.contains(&place))
     }
 
     fn flat(&self, owner: usize) -> Feet {
         let places: Vec<usize> = (0..4).filter(|&place| self.is_used(place)).collect();
         let points: Vec<DVec3> = places.iter().map(|&place| self.points[place]).collect();
-        let areas = self.cut.iter().map(|t| area_vector(t.map(|k| self.points[k])));
+        let areas = self.cut.triangles().iter().map(|t| area_vector(t.map(|k| self.points[k])));
         let normal = unit(areas.sum());
         let lay = corner_lay(self.plan, self.edge.sides[owner], &points, points.len(), normal);
         let mut feet = [None; 4];
@@ -132,7 +134,8 @@ impl<'a> StripMap<'a> {
 
     fn misfit_on(&self, owner: usize, channel: usize, uvs: [DVec2; 4]) -> f64 {
         let ground = Ground::new(self.plan, channel, &self.ends[owner]);
-        let triangles = self.cut.iter().map(|t| (t.map(|k| self.points[k]), t.map(|k| uvs[k])));
+        let triangles =
+            self.cut.triangles().iter().map(|t| (t.map(|k| self.points[k]), t.map(|k| uvs[k])));
         misfit(self.plan, self.edge.sides[owner], Facing::AsFace, channel, &ground, triangles)
     }
 
@@ -148,8 +151,7 @@ impl<'a> StripMap<'a> {
     /// The feet of the first way that fits, or else of the one that fits best, among those that
     /// agree with what other channels have taken.
     fn lay(&self, streams: &Streams, channel: usize, owner: usize, taken: &Feet) -> Feet {
-        let seams = seam_channels(self.plan, self.edge);
-        let own = (seams >> channel & 1 == 0).then_some(Way::Own);
+        let own = (self.edge.seams >> channel & 1 == 0).then_some(Way::Own);
         let ways = own.into_iter().chain(bands(owner)).chain(bands(1 - owner));
         let sides = [owner, 1 - owner];
         let inside = sides.map(Way::Inside).into_iter().chain(sides.map(Way::Flat));
@@ -188,10 +190,11 @@ pub fn strip_vertices(
     placement: &Placement,
     owner: usize,
     edge: &HardEdge,
+    cut: Cut,
     attributes: &mut Attributes,
     copies: &mut Copies,
 ) -> [u32; 4] {
-    let map = StripMap::new(plan, placement, attributes, edge);
+    let map = StripMap::new(plan, placement, attributes, edge, cut);
     let streams = &mut attributes.streams;
     let (mut taken, mut channels): (Feet, [u8; 4]) = ([None; 4], [0; 4]);
     for channel in channels_of(plan) {

@@ -1,5 +1,6 @@
 //! C programs, compiled strictly against the header and linked to the built library.
 
+use std::collections::BTreeSet;
 use std::env;
 use std::ffi::OsString;
 use std::io::Write;
@@ -28,13 +29,14 @@ fn run(name: &str, sources: &[&str]) -> String {
     let mut compile = compiler("CC", "cc");
     compile.arg("-std=c99").args(sources.iter().map(|path| source(path))).arg(&library);
     let folder = library.parent().unwrap().display().to_string();
-    compile.arg(format!("-Wl,-rpath,{folder}")).arg("-lm").arg("-o").arg(&program);
+    compile.arg(format!("-Wl,-rpath,{folder}")).args(["-lm", "-pthread", "-o"]).arg(&program);
     let status = compile.status().expect("a C compiler: install cc or set CC");
     assert!(status.success(), "{compile:?}");
 
     let output = Command::new(&program).output().unwrap();
-    let printed = String::from_utf8(output.stdout).unwrap();
-    assert!(output.status.success(), "{name}: {}\n{printed}", output.status);
+    let [printed, told] =
+        [output.stdout, output.stderr].map(|text| String::from_utf8(text).unwrap());
+    assert!(output.status.success(), "{name}: {}\n{printed}{told}", output.status);
     printed
 }
 
@@ -47,6 +49,37 @@ fn a_c_program_chamfers_a_cube() {
 fn the_example_chamfers_a_cube() {
     let printed = run("chamfer_cube", &["examples/c/chamfer_cube.c"]);
     assert_eq!(printed, "24 vertices, 44 triangles\n");
+}
+
+/// Rows of the table that nobody can try: the library has no known fault, and what is undefined has
+/// no outcome.
+const UNTRIED: [&str; 2] = [
+    "a fault of the library itself | `INTERNAL`",
+    "a result used after it was destroyed, or destroyed twice | undefined, as with `free`",
+];
+
+/// The table of misuse in docs/abi.md: what is wrong, and what that leads to, without remarks.
+fn rows_of_the_page() -> BTreeSet<String> {
+    let page = include_str!("../../docs/abi.md");
+    let table = page.split_once("\n| misuse | status |\n|---|---|\n").expect("the table").1;
+    let rows = table.lines().take_while(|line| line.starts_with('|'));
+    let outcome = |row: &str| row.split_once(": ").map_or(row, |(outcome, _)| outcome).to_owned();
+    rows.map(|row| outcome(row.trim_matches(['|', ' ']))).collect()
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn misuse_leads_to_what_the_page_says() {
+    let mut printed = run("misuse", &["tests/c/misuse.c"]);
+    printed += &run("scarce", &["tests/c/scarce.c"]);
+    let tried = printed.lines().map(str::to_owned).chain(UNTRIED.map(str::to_owned));
+    assert_eq!(tried.collect::<BTreeSet<_>>(), rows_of_the_page());
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn many_calls_leave_no_memory_behind() {
+    assert_eq!(run("many", &["tests/c/many.c"]), "10000 calls\n");
 }
 
 #[test]

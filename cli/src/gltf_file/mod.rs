@@ -38,6 +38,7 @@ use chamfer::Chamfered;
 use serde_json::Value;
 
 use crate::document::{Document, Instance, NormalsRead, OutputFile, ReadOptions, SourceMesh};
+use crate::format;
 use accessor_writer::AccessorWriter;
 use budget::Budget;
 use container::{Container, Format};
@@ -73,10 +74,14 @@ impl GltfDocument {
     /// Where the file, or one that it refers to, cannot be read; where it breaks a rule of glTF
     /// that its geometry or its nodes depend on; where its geometry is compressed.
     pub fn read(path: &Path, options: &ReadOptions) -> Result<GltfDocument> {
-        Self::parse(path, uri::read_file(path)?, options)
+        Self::decode(path, format::read_file(path)?, options)
     }
 
-    fn parse(path: &Path, bytes: Vec<u8>, options: &ReadOptions) -> Result<GltfDocument> {
+    /// Reads the bytes of a .glb or .gltf that lies, or would lie, at `path`.
+    ///
+    /// # Errors
+    /// As [`GltfDocument::read`].
+    pub fn decode(path: &Path, bytes: Vec<u8>, options: &ReadOptions) -> Result<GltfDocument> {
         let Container { format, json, binary, .. } = container::parse(&bytes)?;
         let json: Value = serde_json::from_slice(json).context("the JSON cannot be read")?;
         ensure!(json.is_object(), "the JSON is not an object");

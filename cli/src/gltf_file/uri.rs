@@ -1,6 +1,5 @@
 //! URIs of buffers and images. A file may only name what lies in its own folder or below.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
@@ -8,6 +7,8 @@ use base64::Engine;
 use base64::alphabet::STANDARD;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 use percent_encoding::percent_decode_str;
+
+use crate::format::read_file;
 
 /// Exporters differ in whether they pad.
 const BASE64: GeneralPurpose = GeneralPurpose::new(
@@ -87,17 +88,6 @@ pub fn read(uri: &str, folder: &Path) -> Result<Vec<u8>> {
             "the URI {uri:?} leaves the model's folder: put the file beside the model and name it relatively"
         ),
     }
-}
-
-/// Reads a plain file: a pipe or a device could block for ever.
-///
-/// # Errors
-/// Where it is missing, may not be read, or is something else. Callers say which file it was.
-pub fn read_file(path: &Path) -> Result<Vec<u8>> {
-    if !fs::metadata(path)?.is_file() {
-        bail!("not a file");
-    }
-    Ok(fs::read(path)?)
 }
 
 /// A data URI of a buffer.

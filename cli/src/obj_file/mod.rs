@@ -10,7 +10,6 @@ mod parse;
 mod polygon;
 mod write;
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
@@ -39,13 +38,12 @@ pub struct ObjDocument {
     unchanged: Option<Vec<u8>>,
 }
 
-/// Reads an OBJ file. Polygons are cut into triangles; corners without a normal get one by the
+/// Reads the bytes of an OBJ file. Polygons are cut into triangles; corners without a normal get one by the
 /// smoothing angle.
 ///
 /// # Errors
-/// Where the file cannot be read, or a line makes no sense: it is named by its number.
-pub fn read(path: &Path, options: &ReadOptions) -> Result<ObjDocument> {
-    let bytes = fs::read(path)?;
+/// Where a line makes no sense: it is named by its number.
+pub fn decode(path: &Path, bytes: Vec<u8>, options: &ReadOptions) -> Result<ObjDocument> {
     let obj = parse::parse(&bytes)?;
     let build::Built { mesh, origin, normals } = build::build(&obj, options.smoothing_angle)?;
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();

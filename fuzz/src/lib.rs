@@ -1,0 +1,11 @@
+//! What the fuzz targets share: meshes and files made from arbitrary bytes, and what must hold for
+//! whatever becomes of them.
+
+pub mod c_interface;
+pub mod documents;
+pub mod edits;
+pub mod gltf;
+pub mod meshes;
+pub mod noise;
+pub mod oracle;
+pub mod shapes;

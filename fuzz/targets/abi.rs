@@ -1,0 +1,216 @@
+//! The C interface on structs of arbitrary content over memory that is there.
+#![no_main]
+
+use std::ffi::c_void;
+use std::{ptr, slice};
+
+use arbitrary::Arbitrary;
+use chamfer_fuzz::c_interface::*;
+use chamfer_fuzz::meshes::Spec;
+use libfuzzer_sys::fuzz_target;
+
+#[derive(Arbitrary, Debug)]
+struct Input {
+    mesh: Spec,
+    pointers: Pointers,
+    mesh_size: Size,
+    options: Options,
+    options_size: Size,
+    out: Pointer,
+    error: ErrorWish,
+    /// After how many calls to cancel.
+    cancel_after: Option<u8>,
+    angle: f32,
+}
+
+#[derive(Arbitrary, Debug)]
+struct Pointers {
+    mesh: Pointer,
+    options: Pointer,
+    streams: [Pointer; 6],
+    uv: Pointer,
+}
+
+#[derive(Arbitrary, Debug, Clone, Copy, PartialEq)]
+enum Pointer {
+    Right,
+    /// So that most are right.
+    RightToo,
+    AlsoRight,
+    Null,
+    Misaligned,
+}
+
+impl Pointer {
+    fn of<T>(self, right: *const T) -> *const T {
+        match self {
+            Pointer::Right | Pointer::RightToo | Pointer::AlsoRight => right,
+            Pointer::Null => ptr::null(),
+            Pointer::Misaligned => right.wrapping_byte_add(1),
+        }
+    }
+}
+
+/// What a struct says of its own size, and the bytes behind it.
+#[derive(Arbitrary, Debug)]
+enum Size {
+    Right,
+    RightToo,
+    Longer(u8, bool),
+    Any(u32),
+}
+
+#[derive(Arbitrary, Debug)]
+struct Options {
+    width: f32,
+    is_small: bool,
+    choices: [u8; 3],
+    submesh: u8,
+    threads: u8,
+}
+
+#[derive(Arbitrary, Debug)]
+enum ErrorWish {
+    Right,
+    RightToo,
+    Null,
+    Sized(Size),
+}
+
+/// A struct in memory of exactly as many bytes as it states to have.
+struct Placed {
+    words: Vec<u64>,
+    shift: usize,
+}
+
+/// No struct is longer for the library: the bytes behind need not be there.
+const LONGEST: usize = 4096;
+
+impl Placed {
+    fn new<T: Copy>(value: &T, size: &Size) -> Placed {
+        let known = size_of::<T>();
+        let (stated, tail) = match *size {
+            Size::Right | Size::RightToo => (known as u32, 0),
+            Size::Longer(by, zero) => ((known + usize::from(by)) as u32, u8::from(!zero)),
+            Size::Any(size) => (size, 0),
+        };
+        let there = (stated as usize).clamp(4, LONGEST);
+        let words = vec![0; (there + 8).div_ceil(8)];
+        // At the end of the memory, so that a byte read past it is noticed, where alignment lets it.
+        let shift = (words.len() * 8 - there) / align_of::<T>() * align_of::<T>();
+        let mut placed = Placed { words, shift };
+        let bytes = placed.bytes();
+        bytes.fill(tail);
+        // SAFETY: `T` is one of the header's structs, whose bytes may be looked at.
+        let from = unsafe { slice::from_raw_parts(ptr::from_ref(value).cast::<u8>(), known) };
+        let both = known.min(bytes.len());
+        bytes[..both].copy_from_slice(&from[..both]);
+        bytes[..4].copy_from_slice(&stated.to_ne_bytes());
+        placed
+    }
+
+    fn bytes(&mut self) -> &mut [u8] {
+        let whole = self.words.len() * 8;
+        // SAFETY: words are made of bytes.
+        let bytes = unsafe { slice::from_raw_parts_mut(self.words.as_mut_ptr().cast(), whole) };
+        &mut bytes[self.shift..]
+    }
+
+    fn pointer<T>(&mut self) -> *mut T {
+        self.bytes().as_mut_ptr().cast()
+    }
+}
+
+struct Progress {
+    calls: u32,
+    cancel_after: u32,
+}
+
+unsafe extern "C" fn note(user: *mut c_void, done: f32) -> i32 {
+    assert!((0.0..=1.0).contains(&done));
+    // SAFETY: the call below hands one over.
+    let progress = unsafe { &mut *user.cast::<Progress>() };
+    assert!(progress.calls < progress.cancel_after, "called again after it cancelled");
+    progress.calls += 1;
+    i32::from(progress.calls >= progress.cancel_after)
+}
+
+fuzz_target!(|input: Input| {
+    let memory = Memory::new(&input.mesh.mesh());
+    let mut mesh = memory.view();
+    let wish = &input.pointers;
+    mesh.positions = wish.streams[0].of(mesh.positions);
+    mesh.normals = wish.streams[1].of(mesh.normals);
+    mesh.tangents = wish.streams[2].of(mesh.tangents);
+    mesh.colors = wish.streams[3].of(mesh.colors);
+    mesh.indices = wish.streams[4].of(mesh.indices);
+    mesh.submesh_index_counts = wish.streams[5].of(mesh.submesh_index_counts);
+    mesh.uvs[0].values = wish.uv.of(mesh.uvs[0].values);
+    let mut mesh = Placed::new(&mesh, &input.mesh_size);
+    let mesh = wish.mesh.of(mesh.pointer::<chamfer_mesh>().cast_const());
+    let before = memory.hash();
+    run(&input, mesh);
+    split(&input, mesh);
+    assert_eq!(memory.hash(), before, "the library wrote to its input");
+});
+
+fn run(input: &Input, mesh: *const chamfer_mesh) {
+    let mut options = Placed::new(&raw_options(&input.options), &input.options_size);
+    let options = input.pointers.options.of(options.pointer::<chamfer_options>().cast_const());
+    let cancel_after = input.cancel_after.map_or(u32::MAX, |calls| u32::from(calls % 8) + 1);
+    let mut progress = Progress { calls: 0, cancel_after };
+    let user = (&raw mut progress).cast();
+    call(input, |out, error| {
+        // SAFETY: memory is there; all else is for the library to check.
+        unsafe { chamfer_run(mesh, options, Some(note), user, out, error) }
+    });
+}
+
+fn split(input: &Input, mesh: *const chamfer_mesh) {
+    call(input, |out, error| {
+        // SAFETY: as above.
+        unsafe { chamfer_split_by_angle(mesh, input.angle, out, error) }
+    });
+}
+
+fn raw_options(wish: &Options) -> chamfer_options {
+    let [width_unit, verify, submesh_mode] = wish.choices.map(|choice| u32::from(choice % 4));
+    chamfer_options {
+        struct_size: 0,
+        width: if wish.is_small { wish.width.abs() % 10.0 } else { wish.width },
+        width_unit,
+        verify,
+        submesh_mode,
+        submesh: u32::from(wish.submesh % 4),
+        threads: u32::from(wish.threads % 4),
+    }
+}
+
+/// Calls with a place for the result and for the error, and looks at what became of them.
+fn call(input: &Input, make: impl FnOnce(*mut *mut chamfer_result, *mut chamfer_error) -> i32) {
+    const UNTOUCHED: *mut chamfer_result = ptr::without_provenance_mut(0x5A5A);
+    let mut place = [UNTOUCHED; 2];
+    let out = input.out.of(place.as_mut_ptr().cast_const()).cast_mut();
+    let size = match &input.error {
+        ErrorWish::Sized(size) => size,
+        _ => &Size::Right,
+    };
+    let mut error = Placed::new(&empty_error(), size);
+    let told = match input.error {
+        ErrorWish::Null => ptr::null_mut(),
+        _ => error.pointer::<chamfer_error>(),
+    };
+    let status = make(out, told);
+    assert!(is_known(status), "{status}");
+    assert_ne!(status, CHAMFER_STATUS_INTERNAL, "a fault of the library");
+    let result = place[0];
+    match out.is_null() || !out.is_aligned() {
+        true => assert!(place == [UNTOUCHED; 2] && status != CHAMFER_STATUS_OK),
+        false => assert_eq!(result.is_null(), status != CHAMFER_STATUS_OK),
+    }
+    if status == CHAMFER_STATUS_OK {
+        look_at(result);
+        // SAFETY: it came from the library, and nobody has it any more.
+        unsafe { chamfer_result_destroy(result) };
+    }
+}

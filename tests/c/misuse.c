@@ -1,0 +1,620 @@
+/* Everything that a caller can get wrong and the library can see. Each row is one of the table in
+   docs/abi.md, word for word; the test compares what is printed with the page. */
+
+#define _DEFAULT_SOURCE
+#include "chamfer.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/mman.h>
+
+#define VERTICES 24
+#define INDICES 36
+#define CHANNELS CHAMFER_UV_CHANNELS
+
+static int failures = 0;
+static const char *row_of_now = "";
+
+static void check(int condition, int line, const char *text) {
+    if (!condition) {
+        fprintf(stderr, "misuse.c:%d: not so: %s (%s)\n", line, text, row_of_now);
+        ++failures;
+    }
+}
+
+#define CHECK(condition) check((condition) != 0, __LINE__, #condition)
+
+/* A cube with every stream that there is. */
+struct model {
+    float positions[VERTICES][3];
+    float normals[VERTICES][3];
+    float tangents[VERTICES][4];
+    float colors[VERTICES][4];
+    float uvs[CHANNELS][VERTICES][2];
+    uint32_t indices[INDICES];
+    uint32_t counts[2];
+};
+
+static struct model model;
+static chamfer_mesh mesh;
+static chamfer_options options;
+
+static void make_vertex(int v, int axis, float side) {
+    const int corner = v % 4;
+    const float right = corner % 2 ? side : -side, up = corner / 2 ? 1.0f : -1.0f;
+    int channel;
+    model.positions[v][axis] = model.normals[v][axis] = side;
+    model.positions[v][(axis + 1) % 3] = right;
+    model.positions[v][(axis + 2) % 3] = up;
+    model.tangents[v][(axis + 1) % 3] = model.tangents[v][3] = 1.0f;
+    for (channel = 0; channel < CHANNELS; ++channel) {
+        model.uvs[channel][v][0] = right;
+        model.uvs[channel][v][1] = up;
+    }
+}
+
+/* Every row starts from a mesh and options without fault. */
+static void reset(void) {
+    static const uint32_t corners[6] = {0, 1, 2, 2, 1, 3};
+    int v, i, channel;
+    memset(&model, 0, sizeof model);
+    for (v = 0; v < VERTICES; ++v) {
+        make_vertex(v, v / 8, v / 4 % 2 ? 1.0f : -1.0f);
+    }
+    for (i = 0; i < INDICES; ++i) {
+        model.indices[i] = (uint32_t)(4 * (i / 6)) + corners[i % 6];
+    }
+    model.counts[0] = model.counts[1] = INDICES / 2;
+
+    mesh.struct_size = sizeof mesh;
+    CHECK(chamfer_mesh_init(&mesh) == CHAMFER_STATUS_OK);
+    mesh.vertex_count = VERTICES;
+    mesh.positions = &model.positions[0][0];
+    mesh.normals = &model.normals[0][0];
+    mesh.tangents = &model.tangents[0][0];
+    mesh.colors = &model.colors[0][0];
+    for (channel = 0; channel < CHANNELS; ++channel) {
+        mesh.uvs[channel].components = 2;
+        mesh.uvs[channel].values = &model.uvs[channel][0][0];
+    }
+    mesh.submesh_count = 2;
+    mesh.submesh_index_counts = model.counts;
+    mesh.index_count = INDICES;
+    mesh.indices = model.indices;
+    options.struct_size = sizeof options;
+    CHECK(chamfer_options_init(&options) == CHAMFER_STATUS_OK);
+}
+
+static chamfer_result *const garbage = (chamfer_result *)0x5A5A5A5A;
+
+/* What every failed call leaves behind: no result, and the reason. */
+static void check_told(int32_t status, int32_t expected, chamfer_result *result,
+                       const chamfer_error *error) {
+    CHECK(status == expected);
+    CHECK(error->status == status);
+    CHECK((result == NULL) == (status != CHAMFER_STATUS_OK));
+    CHECK((error->message[0] == '\0') == (status == CHAMFER_STATUS_OK));
+    CHECK(strcmp(chamfer_status_string(status), "unknown status") != 0);
+    chamfer_result_destroy(result);
+}
+
+static void run(int32_t expected, const chamfer_mesh *on, const chamfer_options *how) {
+    static struct model before;
+    chamfer_error error = {.struct_size = sizeof error};
+    chamfer_result *result = garbage;
+    int32_t status;
+    memcpy(&before, &model, sizeof model);
+    status = chamfer_run(on, how, NULL, NULL, &result, &error);
+    check_told(status, expected, result, &error);
+    CHECK(memcmp(&before, &model, sizeof model) == 0);
+}
+
+static void split(int32_t expected, const chamfer_mesh *on, float angle) {
+    chamfer_error error = {.struct_size = sizeof error};
+    chamfer_result *result = garbage;
+    const int32_t status = chamfer_split_by_angle(on, angle, &result, &error);
+    check_told(status, expected, result, &error);
+}
+
+/* Both functions that make a result. */
+static void both(int32_t expected) {
+    run(expected, &mesh, &options);
+    split(expected, &mesh, 30.0f);
+}
+
+static chamfer_result *good_result(void) {
+    chamfer_result *result = NULL;
+    CHECK(chamfer_run(&mesh, &options, NULL, NULL, &result, NULL) == CHAMFER_STATUS_OK);
+    return result;
+}
+
+/* All getters, each with all its places or without one; none may write. */
+static void getters(int32_t expected, const chamfer_result *result, int shift, int has_place) {
+    union {
+        chamfer_mesh mesh;
+        chamfer_totals totals;
+        const void *array;
+    } room[2], before[2];
+    uint32_t counts[2] = {77, 77};
+    char *at = has_place ? (char *)room + shift : NULL;
+    memset(room, 0x5A, sizeof room);
+    memcpy(before, room, sizeof room);
+    CHECK(chamfer_result_mesh(result, (chamfer_mesh *)(void *)at) == expected);
+    CHECK(chamfer_result_totals(result, (chamfer_totals *)(void *)at) == expected);
+    CHECK(chamfer_result_verdicts(result, (const chamfer_edge_verdict **)(void *)at, counts) ==
+          expected);
+    CHECK(chamfer_result_vertex_sources(result, (const chamfer_vertex_source **)(void *)at,
+                                        counts) == expected);
+    CHECK(chamfer_result_triangle_sources(result, (const chamfer_triangle_source **)(void *)at,
+                                          counts) == expected);
+    CHECK(memcmp(before, room, sizeof room) == 0 && counts[0] == 77);
+}
+
+static void null_structs(int32_t expected) {
+    chamfer_error error = {.struct_size = sizeof error};
+    chamfer_result *result = good_result();
+    const chamfer_edge_verdict *verdicts = NULL;
+    run(expected, NULL, &options);
+    split(expected, NULL, 30.0f);
+    CHECK(chamfer_run(&mesh, &options, NULL, NULL, NULL, &error) == expected);
+    CHECK(error.status == expected);
+    CHECK(chamfer_split_by_angle(&mesh, 30.0f, NULL, NULL) == expected);
+    CHECK(chamfer_options_init(NULL) == expected && chamfer_mesh_init(NULL) == expected);
+    getters(expected, NULL, 0, 1);
+    getters(expected, result, 0, 0);
+    CHECK(chamfer_result_verdicts(result, &verdicts, NULL) == expected && verdicts == NULL);
+    chamfer_result_destroy(result);
+}
+
+static void null_extras(int32_t expected) {
+    chamfer_result *result = NULL;
+    CHECK(chamfer_run(&mesh, NULL, NULL, NULL, &result, NULL) == expected);
+    chamfer_result_destroy(result);
+}
+
+static void null_arrays(int32_t expected) {
+    int channel;
+    mesh.positions = NULL;
+    both(expected);
+    reset();
+    mesh.indices = NULL;
+    both(expected);
+    reset();
+    mesh.submesh_index_counts = NULL;
+    both(expected);
+    for (channel = 0; channel < CHANNELS; ++channel) {
+        reset();
+        mesh.uvs[channel].values = NULL;
+        both(expected);
+    }
+}
+
+static void null_of_nothing(int32_t expected) {
+    chamfer_mesh empty = {.struct_size = sizeof empty};
+    CHECK(chamfer_mesh_init(&empty) == CHAMFER_STATUS_OK);
+    run(expected, &empty, &options);
+    split(expected, &empty, 30.0f);
+    mesh.tangents = mesh.colors = NULL;
+    both(expected);
+}
+
+static void no_normals(int32_t expected) {
+    mesh.normals = NULL;
+    run(expected, &mesh, &options);
+}
+
+static void no_normals_yet(int32_t expected) {
+    mesh.normals = NULL;
+    split(expected, &mesh, 30.0f);
+    mesh.normals = &model.normals[0][0];
+    model.normals[3][1] = (float)NAN;
+    split(expected, &mesh, 30.0f);
+}
+
+static void misaligned_arrays(int32_t expected) {
+    char *const by_one = (char *)&model + 1;
+    const float *const floats = (const float *)(void *)by_one;
+    const uint32_t *const numbers = (const uint32_t *)(void *)by_one;
+    int channel;
+    mesh.positions = floats;
+    both(expected);
+    reset();
+    mesh.normals = floats;
+    both(expected);
+    reset();
+    mesh.tangents = floats;
+    both(expected);
+    reset();
+    mesh.colors = floats;
+    both(expected);
+    reset();
+    mesh.indices = numbers;
+    both(expected);
+    reset();
+    mesh.submesh_index_counts = numbers;
+    both(expected);
+    for (channel = 0; channel < CHANNELS; ++channel) {
+        reset();
+        mesh.uvs[channel].values = floats;
+        both(expected);
+    }
+}
+
+static void misaligned_structs(int32_t expected) {
+    char *const mesh_by_four = (char *)&mesh + 4, *const options_by_two = (char *)&options + 2;
+    chamfer_result *result = good_result(), *out[2] = {garbage, garbage};
+    char *const out_by_one = (char *)out + 1;
+    run(expected, (const chamfer_mesh *)(void *)mesh_by_four, &options);
+    run(expected, &mesh, (const chamfer_options *)(void *)options_by_two);
+    CHECK(chamfer_run(&mesh, &options, NULL, NULL, (chamfer_result **)(void *)out_by_one, NULL) ==
+          expected);
+    CHECK(out[0] == garbage && out[1] == garbage);
+    CHECK(chamfer_options_init((chamfer_options *)(void *)options_by_two) == expected);
+    CHECK(chamfer_mesh_init((chamfer_mesh *)(void *)mesh_by_four) == expected);
+    getters(expected, result, 1, 1);
+    chamfer_result_destroy(result);
+}
+
+static void wrong_sizes(int32_t expected) {
+    static const uint32_t wrong[] = {0, 1, 4, sizeof(chamfer_options) - 1, 4097, 0xFFFFFFFF};
+    chamfer_result *result = good_result();
+    chamfer_totals totals = {.struct_size = 3};
+    size_t i;
+    for (i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
+        reset();
+        mesh.struct_size = wrong[i];
+        both(expected);
+        CHECK(chamfer_mesh_init(&mesh) == expected);
+        CHECK(chamfer_result_mesh(result, &mesh) == expected);
+        reset();
+        options.struct_size = wrong[i];
+        run(expected, &mesh, &options);
+        CHECK(chamfer_options_init(&options) == expected);
+    }
+    CHECK(chamfer_result_totals(result, &totals) == expected && totals.hard_edges == 0);
+    chamfer_result_destroy(result);
+}
+
+/* Structs of a header to come. */
+struct later_options {
+    chamfer_options today;
+    uint32_t added;
+};
+
+struct later_mesh {
+    chamfer_mesh today;
+    void *added;
+};
+
+static void later_structs(int32_t expected, int is_set) {
+    struct later_options how;
+    struct later_mesh on;
+    memset(&how, 0, sizeof how);
+    memset(&on, 0, sizeof on);
+    how.today = options;
+    how.today.struct_size = sizeof how;
+    how.added = (uint32_t)is_set;
+    run(expected, &mesh, &how.today);
+    on.today = mesh;
+    on.today.struct_size = sizeof on;
+    on.added = is_set ? &on : NULL;
+    run(expected, &on.today, &options);
+    split(expected, &on.today, 30.0f);
+}
+
+static void later_fields_set(int32_t expected) { later_structs(expected, 1); }
+
+static void later_fields_zero(int32_t expected) { later_structs(expected, 0); }
+
+static void error_struct(int32_t expected, uint32_t size, int shift) {
+    union {
+        chamfer_error error;
+        char bytes[sizeof(chamfer_error) + 8];
+    } room, before;
+    chamfer_result *result = garbage;
+    memset(&room, 0x5A, sizeof room);
+    room.error.struct_size = size;
+    memcpy(&before, &room, sizeof room);
+    CHECK(chamfer_run(&mesh, &options, NULL, NULL, &result,
+                      (chamfer_error *)(void *)(room.bytes + shift)) == expected);
+    CHECK(result == NULL && memcmp(&room, &before, sizeof room) == 0);
+}
+
+static void misaligned_error(int32_t expected) { error_struct(expected, sizeof(chamfer_error), 1); }
+
+static void wrong_error_size(int32_t expected) {
+    error_struct(expected, 0, 0);
+    error_struct(expected, sizeof(chamfer_error) - 1, 0);
+    error_struct(expected, 0xFFFFFFFF, 0);
+}
+
+static void past_the_address_space(int32_t expected) {
+    const float *const near_the_end = (const float *)(UINTPTR_MAX - 15);
+    mesh.positions = near_the_end;
+    both(expected);
+    reset();
+    mesh.uvs[3].values = near_the_end;
+    both(expected);
+    reset();
+    mesh.indices = (const uint32_t *)near_the_end;
+    both(expected);
+}
+
+static void unknown_choices(int32_t expected) {
+    options.width_unit = 2;
+    run(expected, &mesh, &options);
+    reset();
+    options.verify = 0xFFFFFFFF;
+    run(expected, &mesh, &options);
+    reset();
+    options.submesh_mode = 3;
+    run(expected, &mesh, &options);
+}
+
+static void wrong_widths(int32_t expected) {
+    const float wrong[] = {-1.0f, -1e-30f, (float)NAN, (float)INFINITY, (float)-INFINITY};
+    size_t i;
+    for (i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
+        options.width = wrong[i];
+        options.width_unit = i % 2 ? CHAMFER_WIDTH_PERCENT : CHAMFER_WIDTH_MESH_UNITS;
+        run(expected, &mesh, &options);
+    }
+}
+
+static void huge_widths(int32_t expected) {
+    const float huge[] = {1e9f, 3e38f};
+    size_t i;
+    for (i = 0; i < sizeof huge / sizeof *huge; ++i) {
+        options.width = huge[i];
+        options.width_unit = CHAMFER_WIDTH_MESH_UNITS;
+        run(expected, &mesh, &options);
+        options.width_unit = CHAMFER_WIDTH_PERCENT;
+        run(expected, &mesh, &options);
+    }
+}
+
+static void no_such_submesh(int32_t expected) {
+    options.submesh_mode = CHAMFER_SUBMESH_GIVEN;
+    options.submesh = 2;
+    run(expected, &mesh, &options);
+    options.submesh = 0xFFFFFFFF;
+    run(expected, &mesh, &options);
+}
+
+static void wrong_angles(int32_t expected) {
+    split(expected, &mesh, -0.5f);
+    split(expected, &mesh, 180.5f);
+    split(expected, &mesh, (float)NAN);
+    split(expected, &mesh, (float)INFINITY);
+}
+
+/* NaN and both infinities in the last place of each stream; smoothing does not read normals. */
+static void not_finite(int32_t expected) {
+    const float wrong[] = {(float)NAN, (float)INFINITY, (float)-INFINITY};
+    float *const places[] = {
+        &model.positions[23][2], &model.normals[23][2], &model.tangents[23][3],
+        &model.colors[23][3],    &model.uvs[0][23][1],  &model.uvs[7][23][1],
+    };
+    size_t i, place;
+    for (place = 0; place < sizeof places / sizeof *places; ++place) {
+        for (i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
+            reset();
+            *places[place] = wrong[i];
+            run(expected, &mesh, &options);
+            if (place != 1) {
+                split(expected, &mesh, 30.0f);
+            }
+        }
+    }
+}
+
+static void indices_past_the_end(int32_t expected) {
+    model.indices[35] = VERTICES;
+    both(expected);
+    model.indices[35] = 0xFFFFFFFF;
+    both(expected);
+    reset();
+    mesh.vertex_count = 23;
+    both(expected);
+}
+
+static void no_triangles(int32_t expected) {
+    model.counts[0] = 17;
+    model.counts[1] = 19;
+    both(expected);
+}
+
+static void wrong_totals(int32_t expected) {
+    model.counts[1] = 15;
+    both(expected);
+    model.counts[0] = model.counts[1] = 0xFFFFFFFF;
+    both(expected);
+    reset();
+    mesh.submesh_count = 0;
+    both(expected);
+    reset();
+    mesh.index_count = 33;
+    both(expected);
+}
+
+static void wrong_uv_widths(int32_t expected) {
+    mesh.uvs[5].components = 1;
+    both(expected);
+    mesh.uvs[5].components = 5;
+    both(expected);
+    mesh.uvs[5].components = 0xFFFFFFFF;
+    both(expected);
+}
+
+/* Read only, so nothing is lost. */
+static void shared_arrays(int32_t expected) {
+    int channel;
+    for (channel = 0; channel < CHANNELS; ++channel) {
+        mesh.uvs[channel].values = mesh.uvs[0].values + channel;
+        mesh.vertex_count = VERTICES;
+    }
+    mesh.colors = mesh.tangents;
+    run(expected, &mesh, &options);
+}
+
+/* Address space without memory: whoever looks there is ended by the system. */
+static void *out_of_bounds(size_t bytes) {
+    void *space = mmap(NULL, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    CHECK(space != MAP_FAILED);
+    return space;
+}
+
+static void past_32_bits(int32_t expected) {
+    const uint32_t counts[] = {0x20000001, 0xFFFFFFFF};
+    const size_t bytes = (size_t)0xFFFFFFFF * 4;
+    void *space = out_of_bounds(4 * bytes);
+    size_t i;
+    for (i = 0; i < sizeof counts / sizeof *counts; ++i) {
+        reset();
+        mesh.indices = space;
+        mesh.index_count = counts[i] / 3 * 3;
+        model.counts[0] = mesh.index_count;
+        model.counts[1] = 0;
+        both(expected);
+        reset();
+        mesh.vertex_count = counts[i];
+        mesh.positions = mesh.normals = mesh.tangents = mesh.colors = space;
+        memset(mesh.uvs, 0, sizeof mesh.uvs);
+        both(expected);
+    }
+    munmap(space, 4 * bytes);
+}
+
+struct stopper {
+    int calls, stop_at;
+};
+
+static int32_t stop(void *user, float done) {
+    struct stopper *stopper = user;
+    CHECK(done >= 0.0f && done <= 1.0f);
+    return ++stopper->calls == stopper->stop_at ? -1 : 0;
+}
+
+/* Stopped at the first call, at the second, and so on, until it comes to an end. */
+static void cancelled(int32_t expected) {
+    struct stopper stopper = {0, 0};
+    int32_t status = expected;
+    while (status == expected) {
+        chamfer_error error = {.struct_size = sizeof error};
+        chamfer_result *result = garbage;
+        ++stopper.stop_at;
+        stopper.calls = 0;
+        status = chamfer_run(&mesh, &options, stop, &stopper, &result, &error);
+        check_told(status, status, result, &error);
+        CHECK(status == expected ? stopper.calls == stopper.stop_at : status == CHAMFER_STATUS_OK);
+    }
+    CHECK(stopper.stop_at > 3);
+}
+
+static void *look(void *user) {
+    const chamfer_result *result = user;
+    const chamfer_edge_verdict *verdicts = NULL;
+    chamfer_mesh view = {.struct_size = sizeof view};
+    chamfer_result *again = NULL;
+    uint32_t count = 0;
+    int round;
+    for (round = 0; round < 20; ++round) {
+        CHECK(chamfer_result_mesh(result, &view) == CHAMFER_STATUS_OK);
+        CHECK(chamfer_result_verdicts(result, &verdicts, &count) == CHAMFER_STATUS_OK);
+        CHECK(count == 12 && view.vertex_count >= VERTICES);
+        CHECK(chamfer_run(&view, NULL, NULL, NULL, &again, NULL) == CHAMFER_STATUS_OK);
+        chamfer_result_destroy(again);
+    }
+    return NULL;
+}
+
+static void many_threads(int32_t expected) {
+    pthread_t threads[4];
+    chamfer_result *result = good_result();
+    size_t i;
+    for (i = 0; i < 4; ++i) {
+        CHECK(pthread_create(&threads[i], NULL, look, result) == 0);
+    }
+    for (i = 0; i < 4; ++i) {
+        CHECK(pthread_join(threads[i], NULL) == expected);
+    }
+    chamfer_result_destroy(result);
+}
+
+static void unknown_numbers(int32_t expected) {
+    CHECK(strcmp(chamfer_status_string(-5), "unknown status") == expected);
+    CHECK(strcmp(chamfer_status_string(0x7FFFFFFF), "unknown status") == expected);
+    CHECK(strcmp(chamfer_reason_string(0xFFFFFFFF), "unknown_reason") == expected);
+}
+
+static void destroyed_twice(int32_t expected) {
+    chamfer_result *result = good_result();
+    (void)expected;
+    chamfer_result_destroy(result);
+    result = NULL;
+    chamfer_result_destroy(result);
+    chamfer_result_destroy(result);
+}
+
+struct row {
+    const char *misuse, *name;
+    int32_t status;
+    void (*try_it)(int32_t expected);
+};
+
+#define ROW(misuse, name, try_it) {misuse, #name, CHAMFER_STATUS_##name, try_it}
+
+static const struct row rows[] = {
+    ROW("`mesh`, `out`, a getter's `result` or a place to write to is NULL", NULL_POINTER,
+        null_structs),
+    ROW("`options`, `progress`, `error` is NULL", OK, null_extras),
+    ROW("`positions`, `indices`, `submesh_index_counts`, or the values of a UV channel with "
+        "components, is NULL while its count is not 0",
+        NULL_POINTER, null_arrays),
+    ROW("a NULL array whose count is 0, or a stream that may be absent", OK, null_of_nothing),
+    ROW("`normals` is NULL", MISSING_NORMALS, no_normals),
+    ROW("`normals` is NULL or not finite in `chamfer_split_by_angle`", OK, no_normals_yet),
+    ROW("an array that is not aligned for its type", MISALIGNED, misaligned_arrays),
+    ROW("a struct or a place to write to that is not aligned for its type", MISALIGNED,
+        misaligned_structs),
+    ROW("`struct_size` is 0, garbage, or between two versions", STRUCT_SIZE, wrong_sizes),
+    ROW("a field of a newer header is set", STRUCT_SIZE, later_fields_set),
+    ROW("a struct of a newer header whose new fields are zero", OK, later_fields_zero),
+    ROW("the `error` struct itself is misaligned", MISALIGNED, misaligned_error),
+    ROW("the `error` struct itself is of unknown size", STRUCT_SIZE, wrong_error_size),
+    ROW("a count so large that the array would wrap around the address space", COUNT_OVERFLOW,
+        past_the_address_space),
+    ROW("`width_unit`, `verify` or `submesh_mode` is none of its constants", BAD_OPTION,
+        unknown_choices),
+    ROW("a negative, infinite or NaN width", BAD_WIDTH, wrong_widths),
+    ROW("a width larger than the mesh, however large", OK, huge_widths),
+    ROW("`CHAMFER_SUBMESH_GIVEN` with a submesh that the mesh lacks", SUBMESH_RANGE,
+        no_such_submesh),
+    ROW("an angle below 0, above 180 or NaN", BAD_ANGLE, wrong_angles),
+    ROW("NaN or infinity in any stream", NOT_FINITE, not_finite),
+    ROW("an index past the last vertex", INDEX_RANGE, indices_past_the_end),
+    ROW("a submesh whose index count is not a multiple of three", INDEX_COUNT, no_triangles),
+    ROW("submesh index counts that add up to something else than `index_count`", INDEX_TOTAL,
+        wrong_totals),
+    ROW("a UV channel of 1 or more than 4 components", UV_COMPONENTS, wrong_uv_widths),
+    ROW("arrays of the mesh that overlap each other", OK, shared_arrays),
+    ROW("more than 2^29 vertices or indices", TOO_LARGE, past_32_bits),
+    ROW("a progress callback that stops, at any of its calls", CANCELLED, cancelled),
+    ROW("one result looked at by several threads at once", OK, many_threads),
+    ROW("an unknown number for `chamfer_status_string`, `chamfer_reason_string`", OK,
+        unknown_numbers),
+    ROW("`chamfer_result_destroy(NULL)`, any number of times", OK, destroyed_twice),
+};
+
+int main(void) {
+    size_t i;
+    for (i = 0; i < sizeof rows / sizeof *rows; ++i) {
+        row_of_now = rows[i].misuse;
+        reset();
+        rows[i].try_it(rows[i].status);
+        printf("%s | `%s`\n", rows[i].misuse, rows[i].name);
+    }
+    return failures != 0;
+}
