@@ -70,12 +70,26 @@ pub fn totals(plan: &Plan, verdicts: &[EdgeVerdict]) -> Totals {
         }
         let [from, to] = [edge.sides[0], edge.sides[0].next()].map(|c| plan.view.position_at(c));
         let length = from.distance(to);
-        let share = |width: f32| (f64::from(width) / plan.view.width).min(1.0);
-        whole += length;
-        got += length * (share(verdict.widths[0]) + share(verdict.widths[1])) / 2.0;
+        for (width, counts) in verdict.widths.into_iter().zip(counting_ends(plan, verdict, edge)) {
+            if counts {
+                whole += length;
+                got += length * (f64::from(width) / plan.view.width).min(1.0);
+            }
+        }
     }
     totals.mean_width = if whole > 0.0 { (got / whole) as f32 } else { 0.0 };
     totals
+}
+
+/// The ends of an edge at which a width was asked for: not those at which its chamfer tapers to a
+/// point because it ends there.
+fn counting_ends(plan: &Plan, verdict: &EdgeVerdict, edge: &HardEdge) -> [bool; 2] {
+    let moves = strips::corners(edge).map(|corner| {
+        let sector = plan.sectors.sector_of[corner];
+        sector.is_some() && plan.offsets[sector].moves()
+    });
+    let is_skipped = verdict.outcome == Outcome::Skipped;
+    [moves[1] || moves[2], moves[0] || moves[3]].map(|moves| moves || is_skipped)
 }
 
 #[cfg(test)]
@@ -120,6 +134,14 @@ mod tests {
         assert!(verdicts.iter().all(|verdict| verdict.reason == Reason::TooFine));
         assert_eq!(totals.skipped[Reason::TooFine as usize], 12);
         assert_eq!(totals.mean_width, 0.0);
+    }
+
+    #[test]
+    fn where_a_chamfer_ends_in_a_point_no_width_is_missing() {
+        let (verdicts, totals) = judge(&shapes::wedge_end(), 0.01);
+        assert!(verdicts.iter().any(|verdict| verdict.widths.contains(&0.0)));
+        // The ridge's edge is long enough that half of it would show.
+        assert!(totals.mean_width > 0.998, "{}", totals.mean_width);
     }
 
     #[test]
