@@ -23,7 +23,7 @@ fn measured(percent: f32) -> Option<Vec<Measured>> {
     }
     assert_eq!(paths.len(), MODELS, "models in {FOLDER}");
     let meshes = |path: &std::path::PathBuf| {
-        measure(path, percent, Verify::Full)
+        measure(path, percent, Verify::Full, |_, _| ())
             .unwrap_or_else(|error| panic!("{}: {error}", path.display()))
     };
     Some(paths.iter().flat_map(meshes).collect())
@@ -50,8 +50,8 @@ fn at_a_fifth_of_a_percent_all_are_sound_and_nearly_all_edges_chamfered() {
     let Some(meshes) = measured(0.2) else { return };
     assert_all_sound(&meshes, 0.2);
     let mut sum = Sum::default();
-    meshes.iter().for_each(|mesh| sum.add(mesh));
-    assert!(sum.chamfered_share() >= 0.97, "{sum}");
+    sum.extend(&meshes);
+    assert!(sum.chamfered_share() >= 0.995, "{sum}");
 }
 
 #[test]

@@ -190,3 +190,99 @@ fn files_are_short() {
         assert!(lines <= MOST_LINES, "{} has {lines} lines", path.display());
     }
 }
+
+#[test]
+fn the_pictures_of_the_page_are_there() {
+    let page = read("Documentation~/index.md");
+    let pictures: Vec<&str> =
+        page.split("](").skip(1).filter_map(|rest| rest.split(')').next()).collect();
+    let pictures: Vec<&str> = pictures.into_iter().filter(|name| name.ends_with(".png")).collect();
+    assert!(pictures.len() >= 2, "{pictures:?}");
+    for picture in pictures {
+        let bytes = fs::read(package().join("Documentation~").join(picture)).unwrap();
+        assert!(bytes.starts_with(b"\x89PNG"), "{picture}");
+    }
+}
+
+#[test]
+fn every_sample_of_the_manifest_is_there_and_no_other() {
+    let manifest = read("package.json");
+    let listed: BTreeSet<&str> = manifest
+        .lines()
+        .filter_map(|line| line.trim().strip_prefix("\"path\": \"Samples~/")?.strip_suffix('"'))
+        .collect();
+    let folders = fs::read_dir(package().join("Samples~")).unwrap();
+    let found: Vec<_> = folders.map(|folder| folder.unwrap().file_name()).collect();
+    assert_eq!(listed, found.iter().map(|name| name.to_str().unwrap()).collect());
+}
+
+/// A tag can be moved to other code, a commit cannot.
+#[test]
+fn actions_of_the_workflows_are_pinned() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/.github/workflows");
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        for line in fs::read_to_string(&path).unwrap().lines() {
+            let Some((_, action)) = line.split_once("uses: ") else { continue };
+            let Some((_, pin)) = action.split_once('@') else { continue };
+            let hash = pin.split(' ').next().unwrap();
+            let is_commit = hash.len() == 40 && hash.chars().all(|c| c.is_ascii_hexdigit());
+            assert!(is_commit && pin.contains("# v"), "{}: {action}", path.display());
+        }
+    }
+}
+
+/// Packing needs GNU tar.
+#[cfg(target_os = "linux")]
+mod archive {
+    use std::process::Command;
+
+    use super::*;
+
+    /// The files of an archive of libraries that were built elsewhere: here, empty ones.
+    fn archived() -> Vec<String> {
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("archive");
+        let _ = fs::remove_dir_all(&folder);
+        fs::create_dir_all(&folder).unwrap();
+        for library in ["libchamfer.so", "chamfer.dll", "libchamfer.dylib"] {
+            fs::write(folder.join(library), "").unwrap();
+        }
+        let script = concat!(env!("CARGO_MANIFEST_DIR"), "/scripts/package-unity");
+        let mut pack = Command::new("bash");
+        pack.args([script, "--strict", "--libraries"]).arg(&folder).arg("--output").arg(&folder);
+        assert!(pack.output().unwrap().status.success());
+        let name = format!("com.chamfer.unity-{}.tgz", env!("CARGO_PKG_VERSION"));
+        let list = Command::new("tar").arg("-tzf").arg(folder.join(name)).output().unwrap();
+        let paths = String::from_utf8(list.stdout).unwrap();
+        paths.lines().map(|path| path.trim_end_matches('/').to_owned()).collect()
+    }
+
+    #[test]
+    fn nothing_is_missing_in_the_archive() {
+        let archived = archived();
+        let has = |path: &str| archived.iter().any(|known| known == &format!("package/{path}"));
+        for path in [
+            "package.json",
+            "README.md",
+            "CHANGELOG.md",
+            "LICENSE.md",
+            "LICENSE-MIT.md",
+            "LICENSE-APACHE.md",
+            "Documentation~/index.md",
+            "Samples~/Pipeline/ChamferChildren.cs",
+            "Runtime/Plugins/x86_64/libchamfer.so",
+            "Runtime/Plugins/x86_64/chamfer.dll",
+            "Runtime/Plugins/macOS/libchamfer.dylib",
+        ] {
+            assert!(has(path), "{path}");
+        }
+        for path in imported().iter().filter(|path| !path.ends_with(".gitignore")) {
+            let path = path.strip_prefix(package()).unwrap().to_string_lossy().replace('\\', "/");
+            assert!(has(&path), "{path}");
+        }
+        let is_imported = |path: &&String| !path.contains('~') && *path != "package";
+        for path in archived.iter().filter(is_imported).filter(|path| !path.ends_with(".meta")) {
+            assert!(archived.contains(&format!("{path}.meta")), "{path} has no meta");
+        }
+    }
+}

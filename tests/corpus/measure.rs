@@ -4,7 +4,7 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 
 use chamfer::check::{Findings, check};
-use chamfer::{Options, Reason, Totals, Verify, Width, chamfer};
+use chamfer::{Chamfered, EdgeVerdict, Mesh, Options, Reason, Totals, Verify, Width, chamfer};
 use chamfer_cli::document::ReadOptions;
 use chamfer_cli::format;
 
@@ -31,38 +31,62 @@ pub struct Measured {
     pub totals: Totals,
     /// Sum of the hard edges' lengths, as a share of the extent: the weight of the mean width.
     pub length: f64,
+    /// The mean width at the ends that open, as a share of what was asked; none if no end does.
+    pub open_width: Option<f64>,
     pub findings: Findings,
     pub seconds: f64,
 }
 
-/// Chamfers and checks every mesh of a file.
+fn length(before: &Mesh, verdict: &EdgeVerdict) -> f64 {
+    let [a, b] = verdict.vertices.map(|vertex| before.positions[vertex as usize]);
+    (0..3).map(|k| f64::from(a[k] - b[k]).powi(2)).sum::<f64>().sqrt()
+}
+
+/// Weighted by edge length.
+fn open_width(before: &Mesh, after: &Chamfered) -> Option<f64> {
+    let (mut whole, mut got) = (0.0, 0.0);
+    for verdict in &after.verdicts {
+        for width in verdict.widths.into_iter().filter(|&width| width > 0.0) {
+            let length = length(before, verdict);
+            whole += length;
+            got += length * f64::from((width / after.width).min(1.0));
+        }
+    }
+    (whole > 0.0).then(|| got / whole)
+}
+
+/// Chamfers and checks every mesh of a file; `inspect` sees each before and after.
 ///
 /// # Errors
 /// Where the file cannot be read or chamfered: the reason.
-pub fn measure(path: &Path, percent: f32, verify: Verify) -> Result<Vec<Measured>, String> {
+pub fn measure(
+    path: &Path,
+    percent: f32,
+    verify: Verify,
+    mut inspect: impl FnMut(&Mesh, &Chamfered),
+) -> Result<Vec<Measured>, String> {
     let options = Options { width: Width::PercentOfExtent(percent), verify, ..Options::default() };
     let read = ReadOptions { smoothing_angle: 30.0 };
     let document = format::read(path, &read).map_err(|error| format!("{error:#}"))?;
     let file = path.file_name().unwrap_or_default().to_string_lossy();
-    let measured = |source: &chamfer_cli::document::SourceMesh| {
+    let mut measured = |source: &chamfer_cli::document::SourceMesh| {
         let before = source.mesh.as_mesh();
         let start = std::time::Instant::now();
         let after = chamfer(&before, &options).map_err(|error| error.to_string())?;
         let seconds = start.elapsed().as_secs_f64();
         let extent = f64::from(before.extent()).max(f64::MIN_POSITIVE);
-        let length = |verdict: &chamfer::EdgeVerdict| {
-            let [a, b] = verdict.vertices.map(|vertex| before.positions[vertex as usize]);
-            (0..3).map(|k| f64::from(a[k] - b[k]).powi(2)).sum::<f64>().sqrt()
-        };
+        inspect(&before, &after);
+        let lengths = after.verdicts.iter().map(|verdict| length(&before, verdict));
         Ok(Measured {
             name: format!("{file}/{}", source.name),
             totals: after.totals,
-            length: after.verdicts.iter().map(length).sum::<f64>() / extent,
+            length: lengths.sum::<f64>() / extent,
+            open_width: open_width(&before, &after),
             findings: check(&before, &after, verify),
             seconds,
         })
     };
-    document.meshes().iter().map(measured).collect()
+    document.meshes().iter().map(&mut measured).collect()
 }
 
 /// Sums over meshes.
@@ -77,10 +101,16 @@ pub struct Sum {
     pub seconds: f64,
     length: f64,
     width: f64,
+    /// The sum of the open widths of the meshes that have any, and how many have.
+    open_widths: (f64, u32),
 }
 
 impl Sum {
-    pub fn add(&mut self, mesh: &Measured) {
+    pub fn extend(&mut self, meshes: &[Measured]) {
+        meshes.iter().for_each(|mesh| self.add(mesh));
+    }
+
+    fn add(&mut self, mesh: &Measured) {
         self.meshes += 1;
         self.hard_edges += mesh.totals.hard_edges;
         self.chamfered += mesh.totals.chamfered;
@@ -92,6 +122,9 @@ impl Sum {
         self.seconds += mesh.seconds;
         self.length += mesh.length;
         self.width += mesh.length * f64::from(mesh.totals.mean_width);
+        if let Some(open) = mesh.open_width {
+            self.open_widths = (self.open_widths.0 + open, self.open_widths.1 + 1);
+        }
     }
 
     /// The share of the hard edges that have a chamfer, by count.
@@ -99,7 +132,13 @@ impl Sum {
         f64::from(self.chamfered + self.narrowed) / f64::from(self.hard_edges.max(1))
     }
 
-    /// The mean width as a share of what was asked, weighted by edge length over mesh extent.
+    /// The mean over the meshes of the width at the ends that open.
+    pub fn mean_open_width(&self) -> f64 {
+        self.open_widths.0 / f64::from(self.open_widths.1.max(1))
+    }
+
+    /// The mean width as a share of what was asked, skipped edges counted, weighted by edge length
+    /// over mesh extent.
     pub fn mean_width(&self) -> f64 {
         if self.length > 0.0 { self.width / self.length } else { 0.0 }
     }
@@ -109,7 +148,7 @@ impl fmt::Display for Sum {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         write!(
             f,
-            "{} meshes, {} unsound; {} hard edges, {:.2} % chamfered ({} full, {} narrowed), mean width {:.2} %; {:.2} s; skipped:",
+            "{} meshes, {} unsound; {} hard edges, {:.2} % chamfered ({} full, {} narrowed), mean width {:.2} %, of open ends by mesh {:.2} %; {:.2} s; skipped:",
             self.meshes,
             self.unsound,
             self.hard_edges,
@@ -117,6 +156,7 @@ impl fmt::Display for Sum {
             self.chamfered,
             self.narrowed,
             self.mean_width() * 100.0,
+            self.mean_open_width() * 100.0,
             self.seconds,
         )?;
         for (reason, count) in Reason::ALL.iter().zip(self.skipped).filter(|(_, count)| *count > 0)

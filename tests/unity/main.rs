@@ -1,7 +1,11 @@
 //! The Unity package, compiled against stand-ins of Unity's API and run on Mono with the real library.
 
+mod carried;
+mod glb;
 mod layout;
 mod mono;
+#[path = "../support/raw_mesh.rs"]
+mod raw_mesh;
 
 #[test]
 fn the_package_passes_its_tests() {

@@ -10,15 +10,15 @@ use std::{env, fs};
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
 /// The newest C# that `mcs` compiles without fail; Unity compiles newer.
-const STRICT: [&str; 6] = [
+const STRICT: [&str; 5] = [
     "-nologo",
     "-langversion:7.2",
     "-unsafe+",
     "-warnaserror",
-    "-define:UNITY_EDITOR",
     // Fields that only native code or the inspector sets.
     "-nowarn:649",
 ];
+const EDITOR: &str = "UNITY_EDITOR";
 
 /// The compiled tests, beside the assemblies and the native library that they need.
 pub struct Program {
@@ -44,12 +44,15 @@ pub fn program() -> Option<&'static Program> {
         if is_there() || install() {
             return Some(compile_all());
         }
-        // Not by eprintln, which the test runner keeps to itself.
-        let line = "SKIPPED: no Mono (mcs and mono), so the Unity package is untested\n";
-        std::io::stderr().write_all(line.as_bytes()).unwrap();
+        skip("no Mono (mcs and mono), so the Unity package is untested");
         None
     });
     PROGRAM.as_ref()
+}
+
+/// Tells what is not tested, and not by eprintln, which the test runner keeps to itself.
+pub fn skip(why: &str) {
+    std::io::stderr().write_all(format!("SKIPPED: {why}\n").as_bytes()).unwrap();
 }
 
 fn is_there() -> bool {
@@ -70,13 +73,18 @@ fn install() -> bool {
 fn compile_all() -> Program {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("unity");
     fs::create_dir_all(&folder).unwrap();
-    compile(&folder, "UnityStandIns.dll", "tests/unity/standins", &[]);
     let unity = ["UnityStandIns.dll"];
-    compile(&folder, "Chamfer.Runtime.dll", "unity-package/Runtime", &unity);
     let runtime = ["UnityStandIns.dll", "Chamfer.Runtime.dll"];
-    compile(&folder, "Chamfer.Editor.dll", "unity-package/Editor", &runtime);
     let all = ["UnityStandIns.dll", "Chamfer.Runtime.dll", "Chamfer.Editor.dll", "System.Core.dll"];
-    compile(&folder, "Chamfer.Tests.exe", "tests/unity/tests", &all);
+    compile(&folder, "UnityStandIns.dll", "tests/unity/standins", EDITOR, &[]);
+    compile(&folder, "Chamfer.Runtime.dll", "unity-package/Runtime", EDITOR, &unity);
+    compile(&folder, "Chamfer.Editor.dll", "unity-package/Editor", EDITOR, &runtime);
+    compile(&folder, "Chamfer.Tests.exe", "tests/unity/tests", EDITOR, &all);
+    // Samples are copied into projects, where they see what is public only.
+    compile(&folder, "Samples.dll", "unity-package/Samples~", EDITOR, &runtime);
+    for player in ["UNITY_STANDALONE", "UNITY_IOS"] {
+        compile(&folder, "Player.dll", "unity-package/Runtime", player, &unity);
+    }
 
     let library = format!("{DLL_PREFIX}chamfer{DLL_SUFFIX}");
     let built = env::current_exe().unwrap().with_file_name(&library);
@@ -84,12 +92,13 @@ fn compile_all() -> Program {
     Program { folder }
 }
 
-/// Compiles all C# files below a folder of this repository.
-fn compile(folder: &Path, assembly: &str, sources: &str, references: &[&str]) {
+/// Compiles all C# files below a folder of this repository, with one symbol defined.
+fn compile(folder: &Path, assembly: &str, sources: &str, symbol: &str, references: &[&str]) {
     let kind = if assembly.ends_with(".exe") { "exe" } else { "library" };
     let mut mcs = Command::new("mcs");
-    mcs.current_dir(folder).args(STRICT).arg(format!("-target:{kind}"));
-    mcs.arg(format!("-out:{assembly}")).args(references.iter().map(|name| format!("-r:{name}")));
+    mcs.current_dir(folder).args(STRICT).arg(format!("-define:{symbol}"));
+    mcs.args([format!("-target:{kind}"), format!("-out:{assembly}")]);
+    mcs.args(references.iter().map(|name| format!("-r:{name}")));
     mcs.arg(format!("-recurse:{ROOT}/{sources}/*.cs"));
     let output = mcs.output().unwrap();
     assert!(output.status.success(), "{mcs:?}\n{}", String::from_utf8_lossy(&output.stderr));

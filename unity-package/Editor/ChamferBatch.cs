@@ -1,10 +1,8 @@
 using System;
-using System.Collections.Generic;
 using System.Globalization;
 using Chamfer;
 using UnityEditor;
 using UnityEngine;
-using Object = UnityEngine.Object;
 
 namespace ChamferEditor
 {
@@ -19,8 +17,8 @@ namespace ChamferEditor
         private const int BadArguments = 2;
 
         /// <summary>
-        /// Chamfers all prefabs of a folder and ends the editor: 0 if all went well, 1 if a mesh could not be
-        /// chamfered, 2 if the arguments make no sense.
+        /// Chamfers all models, prefabs and mesh files of a folder and ends the editor: 0 if all went well, 1 if a
+        /// mesh could not be chamfered, 2 if the arguments make no sense.
         /// </summary>
         public static void Run()
         {
@@ -29,11 +27,7 @@ namespace ChamferEditor
 
         internal static int Run(string[] arguments)
         {
-            try
-            {
-                var settings = Settings(arguments);
-                return ChamferFolder(Value(arguments, "-chamferFolder"), settings);
-            }
+            try { return ChamferFolder(Value(arguments, "-chamferFolder"), Settings(arguments)); }
             catch (ArgumentException exception)
             {
                 Debug.LogError(exception.Message);
@@ -47,20 +41,10 @@ namespace ChamferEditor
             {
                 throw new ArgumentException("Name a folder of the project with -chamferFolder, such as Assets/Props");
             }
-            var selection = new ChamferSelection(Prefabs(folder));
-            string summary = selection.Chamfer(settings);
+            var summary = new JobSummary();
+            bool isDone = FolderChamfer.Run(folder, settings, summary);
             Debug.Log("Chamfer: " + summary);
-            return selection.HasFailed || summary == null ? SomeFailed : Succeeded;
-        }
-
-        private static List<Object> Prefabs(string folder)
-        {
-            var prefabs = new List<Object>();
-            foreach (string guid in AssetDatabase.FindAssets("t:Prefab", new[] { folder }))
-            {
-                prefabs.Add(AssetDatabase.LoadAssetAtPath<GameObject>(AssetDatabase.GUIDToAssetPath(guid)));
-            }
-            return prefabs;
+            return isDone && !summary.HasFailed ? Succeeded : SomeFailed;
         }
 
         private static ChamferSettings Settings(string[] arguments)

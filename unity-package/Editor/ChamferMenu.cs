@@ -39,8 +39,10 @@ namespace ChamferEditor
 
         internal static void Run()
         {
-            string summary = new ChamferSelection(Selection.objects).Chamfer(ChamferProjectSettings.instance.settings);
-            Debug.Log("Chamfer: " + (summary ?? "cancelled, nothing was changed"));
+            var summary = new ChamferSelection(Selection.objects).Chamfer(ChamferProjectSettings.instance.settings);
+            string text = "Chamfer: " + (summary != null ? summary.ToString() : "cancelled, nothing was changed");
+            if (summary != null && summary.HasFailed) { Debug.LogWarning(text); }
+            else { Debug.Log(text); }
         }
     }
 }

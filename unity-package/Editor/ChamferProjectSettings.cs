@@ -29,5 +29,8 @@ namespace ChamferEditor
         [Tooltip("Such as Assets/Models.")]
         public string folder;
         public ChamferSettings settings;
+
+        /// <summary>Without a slash at its end, which users may write; never null.</summary>
+        internal string Folder => (folder ?? "").TrimEnd('/');
     }
 }

@@ -23,32 +23,36 @@ namespace ChamferEditor
             }
         }
 
-        /// <summary>Whether some mesh could not be chamfered.</summary>
-        internal bool HasFailed { get; private set; }
-
         internal bool IsEmpty => slots.Count == 0 && assets.Count == 0;
 
-        /// <summary>Chamfers all in one undo step; returns a summary, or null if the user cancelled.</summary>
-        internal string Chamfer(ChamferSettings settings)
+        /// <summary>Chamfers all in one undo step; null if the user cancelled.</summary>
+        internal JobSummary Chamfer(ChamferSettings settings)
+        {
+            var summary = new JobSummary();
+            return Chamfer(settings, summary) ? summary : null;
+        }
+
+        /// <summary>Chamfers all in one undo step, and adds to a summary; false if the user cancelled.</summary>
+        internal bool Chamfer(ChamferSettings settings, JobSummary summary)
         {
             var meshes = slots.ConvertAll(slot => slot.Mesh);
             meshes.AddRange(assets);
             var job = new ChamferJob();
-            if (!job.Run(meshes, settings)) { return null; }
-            HasFailed = job.Failures.Count > 0;
+            if (!job.Run(meshes, settings)) { return false; }
             int group = BeginUndo();
             ReplaceSlots(job);
             SaveAssets(job);
             Undo.CollapseUndoOperations(group);
             AssetDatabase.SaveAssets();
-            return job.Summary();
+            summary.Add(job);
+            return true;
         }
 
         private void AddHierarchy(GameObject root, HashSet<Component> holders)
         {
             foreach (var slot in MeshSlot.In(root, true))
             {
-                if (!SlotEditing.IsImported(slot.Holder) && holders.Add(slot.Holder)) { slots.Add(slot); }
+                if (!SlotEditing.IsLocked(slot.Holder) && holders.Add(slot.Holder)) { slots.Add(slot); }
             }
         }
 
@@ -61,12 +65,12 @@ namespace ChamferEditor
 
         private void ReplaceSlots(ChamferJob job)
         {
-            var kept = new HashSet<Mesh>();
             foreach (var slot in slots)
             {
-                ChamferResult result;
-                if (!job.Results.TryGetValue(slot.Mesh, out result)) { continue; }
-                if (kept.Add(result.Mesh)) { SlotEditing.Keep(result.Mesh, slot.Holder, Action); }
+                JobResult result;
+                if (!TryFind(job, slot.Mesh, out result)) { continue; }
+                if (result.Mesh == null) { SlotEditing.Write(result, slot.Holder, null, Action); }
+                MaterialSlots.Fill(slot, slot.Mesh, result.Mesh, Action);
                 SlotEditing.Set(slot, result.Mesh, Action);
             }
         }
@@ -76,14 +80,33 @@ namespace ChamferEditor
         {
             foreach (var mesh in assets)
             {
-                ChamferResult result;
-                bool isNew = job.Results.TryGetValue(mesh, out result) && !AssetDatabase.Contains(result.Mesh);
-                if (!isNew) { continue; }
+                JobResult result;
                 string path = AssetDatabase.GetAssetPath(mesh);
-                string folder = path.Substring(0, path.LastIndexOf('/') + 1);
-                path = AssetDatabase.GenerateUniqueAssetPath(folder + result.Mesh.name + ".asset");
-                AssetDatabase.CreateAsset(result.Mesh, path);
+                bool isNew = TryFind(job, mesh, out result) && (result.Mesh == null || !AssetDatabase.Contains(result.Mesh));
+                if (isNew && path.Length > 0) { SaveBeside(path, result); }
             }
+        }
+
+        /// <summary>The file of an earlier time is written anew, so that what uses it follows.</summary>
+        private static void SaveBeside(string path, JobResult result)
+        {
+            path = path.Substring(0, path.LastIndexOf('/') + 1) + result.Name + ".asset";
+            var earlier = AssetDatabase.LoadAssetAtPath<Mesh>(path);
+            if (earlier != null)
+            {
+                Undo.RegisterCompleteObjectUndo(earlier, Action);
+                result.Write(earlier);
+                EditorUtility.SetDirty(earlier);
+                return;
+            }
+            if (result.Mesh == null) { result.Write(); }
+            AssetDatabase.CreateAsset(result.Mesh, AssetDatabase.GenerateUniqueAssetPath(path));
+        }
+
+        /// <summary>Meshes without hard edges, chamfered ones too, are left alone.</summary>
+        private static bool TryFind(ChamferJob job, Mesh mesh, out JobResult result)
+        {
+            return job.Results.TryGetValue(mesh, out result) && result.Report.HardEdges > 0;
         }
     }
 }

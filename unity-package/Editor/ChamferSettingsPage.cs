@@ -23,8 +23,9 @@ namespace ChamferEditor
             var serialized = new SerializedObject(settings);
             EditorGUILayout.PropertyField(serialized.FindProperty("settings"), true);
             EditorGUILayout.PropertyField(serialized.FindProperty("folders"), true);
-            EditorGUILayout.HelpBox("Models that are imported already change when they are imported again.", MessageType.Info);
             if (serialized.ApplyModifiedProperties()) { settings.Write(); }
+            EditorGUILayout.HelpBox("Models that are imported already follow when you press this.", MessageType.Info);
+            if (GUILayout.Button("Import Models Again")) { ImportDependency.ImportAgain(); }
         }
     }
 }

@@ -29,12 +29,26 @@ namespace ChamferEditor
             return TryFolder(path, folders, out settings);
         }
 
+        /// <summary>Whether a label is about chamfering.</summary>
+        internal static bool IsLabel(string label)
+        {
+            return string.Equals(label, Label, StringComparison.OrdinalIgnoreCase)
+                || label.StartsWith(Label + "=", StringComparison.OrdinalIgnoreCase);
+        }
+
+        /// <summary>The label that asks for the width of the settings.</summary>
+        internal static string LabelOf(ChamferSettings settings)
+        {
+            string unit = settings.unit == WidthUnit.PercentOfExtent ? "%" : "";
+            return Label + "=" + settings.width.ToString("R", CultureInfo.InvariantCulture) + unit;
+        }
+
         /// <summary>Reads <c>Chamfer</c>, <c>Chamfer=0.02</c> (mesh units) or <c>Chamfer=2%</c>.</summary>
         private static bool TryParse(string label, ChamferSettings common, out ChamferSettings settings)
         {
             settings = common;
-            if (string.Equals(label, Label, StringComparison.OrdinalIgnoreCase)) { return true; }
-            if (!label.StartsWith(Label + "=", StringComparison.OrdinalIgnoreCase)) { return false; }
+            if (!IsLabel(label)) { return false; }
+            if (label.Length == Label.Length) { return true; }
             string width = label.Substring(Label.Length + 1).Trim();
             bool isPercent = width.EndsWith("%", StringComparison.Ordinal);
             settings.unit = isPercent ? WidthUnit.PercentOfExtent : WidthUnit.MeshUnits;
@@ -51,7 +65,7 @@ namespace ChamferEditor
             settings = default(ChamferSettings);
             foreach (var rule in folders)
             {
-                string folder = (rule.folder ?? "").TrimEnd('/');
+                string folder = rule.Folder;
                 bool isInside = path.StartsWith(folder + "/", StringComparison.Ordinal);
                 if (folder.Length <= longest || !isInside) { continue; }
                 longest = folder.Length;

@@ -29,6 +29,9 @@ namespace ChamferEditor
             }
         }
 
+        /// <summary>What draws the mesh, or null.</summary>
+        internal Renderer Renderer => Holder.GetComponent<Renderer>();
+
         internal static MeshSlot Of(Component holder)
         {
             return new MeshSlot(holder);

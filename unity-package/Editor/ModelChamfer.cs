@@ -24,27 +24,38 @@ namespace ChamferEditor
             try
             {
                 ChamferSettings settings;
-                if (TryFindSettings(out settings)) { Process(root, settings, context.LogImportWarning); }
+                if (!TryFindSettings(out settings)) { return; }
+                context.DependsOnCustomDependency(ImportDependency.Name);
+                Process(root, settings, (message, mesh) => context.LogImportWarning(message, mesh));
             }
             // An import must never break because of a chamfer.
             catch (Exception exception) { context.LogImportWarning("Not chamfered: " + exception.Message, root); }
         }
 
         /// <summary>Chamfers each mesh below the root in place; tells what could not be.</summary>
-        internal static void Process(GameObject root, ChamferSettings settings, Action<string, UnityEngine.Object> warn)
+        private static void Process(GameObject root, ChamferSettings settings, Action<string, Mesh> warn)
         {
-            var done = new HashSet<Mesh>();
+            var submeshes = new Dictionary<Mesh, int>();
             foreach (var slot in MeshSlot.In(root, true))
             {
                 var mesh = slot.Mesh;
-                if (!done.Add(mesh)) { continue; }
-                try
+                if (!submeshes.ContainsKey(mesh))
                 {
-                    var result = ArrayChamfer.Run(MeshReader.Read(mesh), settings, null, CancellationToken.None);
-                    MeshWriter.Overwrite(mesh, result.Mesh);
+                    submeshes.Add(mesh, mesh.subMeshCount);
+                    ChamferInPlace(mesh, settings, warn);
                 }
-                catch (ChamferException exception) { warn("Not chamfered: " + exception.Message, mesh); }
+                MaterialSlots.FillImported(slot, submeshes[mesh], mesh.subMeshCount - submeshes[mesh]);
             }
+        }
+
+        private static void ChamferInPlace(Mesh mesh, ChamferSettings settings, Action<string, Mesh> warn)
+        {
+            try
+            {
+                var result = ArrayChamfer.Run(MeshReader.Read(mesh), settings, null, CancellationToken.None);
+                MeshWriter.Overwrite(mesh, result.Mesh);
+            }
+            catch (ChamferException exception) { warn("Not chamfered: " + exception.Message, mesh); }
         }
 
         private bool TryFindSettings(out ChamferSettings settings)

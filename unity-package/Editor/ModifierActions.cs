@@ -1,4 +1,6 @@
 using System.Collections.Generic;
+using System.IO;
+using System.Linq;
 using Chamfer;
 using UnityEditor;
 using UnityEngine;
@@ -18,21 +20,25 @@ namespace ChamferEditor
         internal static IReadOnlyList<string> Chamfer(ChamferModifier modifier)
         {
             var slots = MeshSlot.In(modifier.gameObject, modifier.includeChildren);
-            slots.RemoveAll(slot => SlotEditing.IsImported(slot.Holder));
+            slots.RemoveAll(slot => SlotEditing.IsLocked(slot.Holder));
             var originals = slots.ConvertAll(slot => Original(modifier, slot));
             var job = new ChamferJob(Patience);
             if (!job.Run(originals, modifier.settings)) { return new string[0]; }
             // Results of the last time are no originals of the next, also where children are left out now.
+            var former = modifier.meshes.ToArray();
             Restore(modifier, ChamferName);
-            Apply(modifier, slots, originals, job);
+            Apply(modifier, slots, originals, job, former);
+            DropUnused(modifier, former);
             return job.Failures;
         }
 
         /// <summary>Puts the original meshes back.</summary>
         internal static void Revert(ChamferModifier modifier)
         {
+            var former = modifier.meshes.ToArray();
             Restore(modifier, RevertName);
             SlotEditing.Changed(modifier);
+            DropUnused(modifier, former);
         }
 
         /// <summary>Saves the chamfered meshes as files in a folder of the project; returns their paths.</summary>
@@ -51,7 +57,7 @@ namespace ChamferEditor
         }
 
         /// <summary>The mesh that a slot held before this modifier.</summary>
-        internal static Mesh Original(ChamferModifier modifier, MeshSlot slot)
+        private static Mesh Original(ChamferModifier modifier, MeshSlot slot)
         {
             var current = slot.Mesh;
             int known = modifier.meshes.FindIndex(entry => entry.holder == slot.Holder);
@@ -67,34 +73,57 @@ namespace ChamferEditor
                 if (entry.holder == null || entry.original == null) { continue; }
                 var slot = MeshSlot.Of(entry.holder);
                 // A mesh that someone else has put there since is theirs.
-                if (slot.Mesh == entry.chamfered) { SlotEditing.Set(slot, entry.original, action); }
+                if (slot.Mesh != entry.chamfered) { continue; }
+                SlotEditing.Set(slot, entry.original, action);
+                MaterialSlots.Drop(slot, entry.addedMaterials, action);
             }
             modifier.meshes.Clear();
         }
 
-        private static void Apply(ChamferModifier modifier, List<MeshSlot> slots, List<Mesh> originals, ChamferJob job)
+        private static void Apply(
+            ChamferModifier modifier,
+            List<MeshSlot> slots,
+            List<Mesh> originals,
+            ChamferJob job,
+            ChamferedMesh[] former)
         {
-            var kept = new HashSet<Mesh>();
             for (int i = 0; i < slots.Count; i++)
             {
-                ChamferResult result;
+                JobResult result;
                 if (!job.Results.TryGetValue(originals[i], out result)) { continue; }
-                if (kept.Add(result.Mesh)) { SlotEditing.Keep(result.Mesh, slots[i].Holder, ChamferName); }
+                if (result.Mesh == null) { Write(result, slots[i], originals[i], former); }
                 SlotEditing.Set(slots[i], result.Mesh, ChamferName);
                 modifier.meshes.Add(new ChamferedMesh
                 {
                     holder = slots[i].Holder,
                     original = originals[i],
                     chamfered = result.Mesh,
-                    report = result.Report
+                    settings = modifier.settings,
+                    addedMaterials = MaterialSlots.Fill(slots[i], originals[i], result.Mesh, ChamferName)
                 });
             }
             SlotEditing.Changed(modifier);
         }
 
+        private static void Write(JobResult result, MeshSlot slot, Mesh original, ChamferedMesh[] former)
+        {
+            var ours = former.FirstOrDefault(entry => entry.original == original).chamfered;
+            SlotEditing.Write(result, slot.Holder, ours, ChamferName);
+        }
+
+        private static void DropUnused(ChamferModifier modifier, ChamferedMesh[] former)
+        {
+            var used = new HashSet<Mesh>(modifier.meshes.ConvertAll(entry => entry.chamfered));
+            foreach (var entry in former)
+            {
+                if (entry.chamfered == null || entry.holder == null || !used.Add(entry.chamfered)) { continue; }
+                SlotEditing.DropFromPrefab(entry.chamfered, entry.holder);
+            }
+        }
+
         private static string FileName(Mesh mesh)
         {
-            return string.Join("_", mesh.name.Split(System.IO.Path.GetInvalidFileNameChars()));
+            return string.Join("_", mesh.name.Split(Path.GetInvalidFileNameChars()));
         }
     }
 }

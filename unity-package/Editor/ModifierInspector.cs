@@ -1,4 +1,6 @@
+using System;
 using System.Collections.Generic;
+using System.Linq;
 using Chamfer;
 using UnityEditor;
 using UnityEngine;
@@ -11,13 +13,15 @@ namespace ChamferEditor
     {
         private readonly List<string> failures = new List<string>();
 
+        private IEnumerable<ChamferModifier> Modifiers => targets.Cast<ChamferModifier>();
+
         public override void OnInspectorGUI()
         {
             bool changed = DrawSettings();
             DrawButtons();
             DrawReport();
             // Settings that nobody has applied yet are no preview: the first click is the user's.
-            if (changed) { ForEach(modifier => { if (modifier.livePreview && modifier.IsApplied) { Chamfer(modifier); } }); }
+            if (changed) { Chamfer(Modifiers.Where(modifier => modifier.livePreview && modifier.IsApplied)); }
         }
 
         private bool DrawSettings()
@@ -41,19 +45,22 @@ namespace ChamferEditor
         private void DrawButtons()
         {
             EditorGUILayout.BeginHorizontal();
-            if (GUILayout.Button("Chamfer")) { ForEach(Chamfer); }
-            if (GUILayout.Button("Revert")) { ForEach(ModifierActions.Revert); }
-            if (GUILayout.Button("Save as Asset")) { Save(); }
+            if (GUILayout.Button("Chamfer")) { Chamfer(Modifiers); }
+            using (new EditorGUI.DisabledScope(!Modifiers.Any(modifier => modifier.IsApplied)))
+            {
+                if (GUILayout.Button("Revert")) { ForEach(ModifierActions.Revert); }
+                if (GUILayout.Button("Save as Asset")) { Save(); }
+            }
             EditorGUILayout.EndHorizontal();
         }
 
         private void DrawReport()
         {
             foreach (string failure in failures) { EditorGUILayout.HelpBox(failure, MessageType.Warning); }
-            ForEach(modifier =>
+            foreach (var modifier in Modifiers.Where(modifier => modifier.IsApplied))
             {
-                if (modifier.IsApplied) { EditorGUILayout.HelpBox(ReportText.Of(modifier), MessageType.None); }
-            });
+                EditorGUILayout.HelpBox(ReportText.Of(modifier), MessageType.None);
+            }
         }
 
         private void OnSceneGUI()
@@ -62,23 +69,22 @@ namespace ChamferEditor
             if (modifier.showEdges) { VerdictOverlay.Draw(modifier); }
         }
 
-        private void Chamfer(ChamferModifier modifier)
+        private void Chamfer(IEnumerable<ChamferModifier> modifiers)
         {
             failures.Clear();
-            failures.AddRange(ModifierActions.Chamfer(modifier));
+            foreach (var modifier in modifiers) { failures.AddRange(ModifierActions.Chamfer(modifier)); }
         }
 
         private void Save()
         {
             string folder = EditorUtility.SaveFolderPanel("Save chamfered meshes", "Assets", "");
             string relative = FileUtil.GetProjectRelativePath(folder);
-            if (string.IsNullOrEmpty(relative)) { return; }
-            ForEach(modifier => ModifierActions.Save(modifier, relative));
+            if (!string.IsNullOrEmpty(relative)) { ForEach(modifier => ModifierActions.Save(modifier, relative)); }
         }
 
-        private void ForEach(System.Action<ChamferModifier> action)
+        private void ForEach(Action<ChamferModifier> action)
         {
-            foreach (var item in targets) { action((ChamferModifier)item); }
+            foreach (var modifier in Modifiers) { action(modifier); }
         }
     }
 }

@@ -14,8 +14,9 @@ namespace ChamferEditor
                 if (entry.original == null) { continue; }
                 if (text.Length > 0) { text.Append('\n'); }
                 text.Append(entry.original.name).Append(": ");
-                if (entry.report == null) { text.Append("chamfered earlier"); }
-                else { Append(text, entry.report); }
+                var verdicts = VerdictCache.Of(entry);
+                if (verdicts == null) { text.Append("chamfered earlier"); }
+                else { Append(text, verdicts.Report); }
             }
             return text.ToString();
         }

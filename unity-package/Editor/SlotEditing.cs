@@ -1,6 +1,8 @@
+using System;
 using UnityEditor;
 using UnityEditor.SceneManagement;
 using UnityEngine;
+using Object = UnityEngine.Object;
 
 namespace ChamferEditor
 {
@@ -25,20 +27,36 @@ namespace ChamferEditor
         }
 
         /// <summary>
-        /// Gives a new mesh a place to live: the scene of its holder keeps it by itself, but a prefab only what
-        /// is in its own file.
+        /// Writes a result for a holder, into a mesh of ours if that may be reused. A new one gets a place to
+        /// live: the scene of its holder keeps it by itself, but a prefab only what is in its own file.
         /// </summary>
-        internal static void Keep(Mesh mesh, Component holder, string action)
+        internal static void Write(JobResult result, Component holder, Mesh ours, string action)
         {
             string prefab = PrefabPath(holder);
-            if (!string.IsNullOrEmpty(prefab)) { AssetDatabase.AddObjectToAsset(mesh, prefab); }
-            Undo.RegisterCreatedObjectUndo(mesh, action);
+            bool isInPrefab = ours != null && !string.IsNullOrEmpty(prefab) && AssetDatabase.GetAssetPath(ours) == prefab;
+            if (isInPrefab) { Undo.RegisterCompleteObjectUndo(ours, action); }
+            bool isReused = isInPrefab || ours != null && FreshMeshes.Contains(ours);
+            result.Write(isReused ? ours : null);
+            if (isReused) { return; }
+            if (!string.IsNullOrEmpty(prefab)) { AssetDatabase.AddObjectToAsset(result.Mesh, prefab); }
+            Undo.RegisterCreatedObjectUndo(result.Mesh, action);
+            FreshMeshes.Add(result.Mesh);
         }
 
-        /// <summary>Whether the holder is in the file of an imported model, which nobody can change.</summary>
-        internal static bool IsImported(Component holder)
+        /// <summary>Takes a mesh of ours out of the file of its holder's prefab, which would keep it for ever.</summary>
+        internal static void DropFromPrefab(Mesh ours, Component holder)
         {
-            return EditorUtility.IsPersistent(holder) && PrefabUtility.IsPartOfModelPrefab(holder);
+            string prefab = PrefabPath(holder);
+            bool isInPrefab = !string.IsNullOrEmpty(prefab) && AssetDatabase.GetAssetPath(ours) == prefab;
+            if (isInPrefab) { Undo.DestroyObjectImmediate(ours); }
+        }
+
+        /// <summary>Whether nobody can change the holder, because it was imported or is in an installed package.</summary>
+        internal static bool IsLocked(Component holder)
+        {
+            if (!EditorUtility.IsPersistent(holder)) { return false; }
+            bool isPrefab = AssetDatabase.GetAssetPath(holder).EndsWith(".prefab", StringComparison.OrdinalIgnoreCase);
+            return !isPrefab || !AssetDatabase.CanOpenForEdit(holder);
         }
 
         private static string PrefabPath(Component holder)

@@ -1,4 +1,3 @@
-using System.Collections.Generic;
 using Chamfer;
 using UnityEditor;
 using UnityEngine;
@@ -8,19 +7,25 @@ namespace ChamferEditor
     /// <summary>Hard edges in the scene view, in the colour of what became of them.</summary>
     internal static class VerdictOverlay
     {
+        private static readonly EdgeOutcome[] outcomes = { EdgeOutcome.Full, EdgeOutcome.Narrowed, EdgeOutcome.Skipped };
+
         internal static void Draw(ChamferModifier modifier)
         {
             foreach (var entry in modifier.meshes)
             {
-                if (entry.report == null || entry.holder == null || entry.original == null) { continue; }
-                if (!entry.original.isReadable) { continue; }
-                Handles.matrix = entry.holder.transform.localToWorldMatrix;
-                DrawEdges(entry.original.vertices, entry.report.Verdicts);
+                var verdicts = VerdictCache.Of(entry);
+                if (verdicts == null || entry.holder == null) { continue; }
+                foreach (var outcome in outcomes)
+                {
+                    using (new Handles.DrawingScope(ColorOf(outcome), entry.holder.transform.localToWorldMatrix))
+                    {
+                        Handles.DrawLines(verdicts.Segments(outcome));
+                    }
+                }
             }
-            Handles.matrix = Matrix4x4.identity;
         }
 
-        internal static Color ColorOf(EdgeOutcome outcome)
+        private static Color ColorOf(EdgeOutcome outcome)
         {
             switch (outcome)
             {
@@ -28,27 +33,6 @@ namespace ChamferEditor
                 case EdgeOutcome.Narrowed: return Color.yellow;
                 default: return Color.red;
             }
-        }
-
-        private static void DrawEdges(Vector3[] positions, IReadOnlyList<EdgeVerdict> verdicts)
-        {
-            foreach (var outcome in new[] { EdgeOutcome.Full, EdgeOutcome.Narrowed, EdgeOutcome.Skipped })
-            {
-                Handles.color = ColorOf(outcome);
-                Handles.DrawLines(Segments(positions, verdicts, outcome));
-            }
-        }
-
-        internal static Vector3[] Segments(Vector3[] positions, IReadOnlyList<EdgeVerdict> verdicts, EdgeOutcome outcome)
-        {
-            var ends = new List<Vector3>();
-            foreach (var verdict in verdicts)
-            {
-                if (verdict.Outcome != outcome) { continue; }
-                ends.Add(positions[verdict.FirstVertex]);
-                ends.Add(positions[verdict.SecondVertex]);
-            }
-            return ends.ToArray();
         }
     }
 }

@@ -41,7 +41,10 @@ namespace Chamfer
         public Mesh original;
         public Mesh chamfered;
 
-        /// <summary>What became of the edges; known until scripts are loaded again.</summary>
-        [NonSerialized] public ChamferReport report;
+        /// <summary>What <see cref="chamfered"/> was made with.</summary>
+        public ChamferSettings settings;
+
+        /// <summary>How many materials the renderer got because the chamfers have a submesh of their own.</summary>
+        public int addedMaterials;
     }
 }

@@ -10,7 +10,7 @@ namespace Chamfer
     public static class MeshChamfer
     {
         /// <summary>Chamfers a mesh into a new one; the source is not changed. Call it on the main thread.</summary>
-        /// <param name="source">Readable, or any mesh without skin and blend shapes in the editor.</param>
+        /// <param name="source">Readable; in the editor, any mesh.</param>
         /// <param name="settings">How; begin with <see cref="ChamferSettings.Default"/>.</param>
         /// <param name="progress">Told the share done, 0 to 1, on the calling thread.</param>
         /// <param name="cancellation">Asked whenever progress is told.</param>

@@ -1,6 +1,7 @@
 // The editor, as far as the package uses it. What it is asked to do is recorded for tests to look at.
 using System;
 using System.Collections.Generic;
+using System.Linq;
 using UnityEngine;
 using Object = UnityEngine.Object;
 
@@ -9,20 +10,6 @@ namespace UnityEditor
     public static class MeshUtility
     {
         public static Mesh.MeshDataArray AcquireReadOnlyMeshData(Mesh mesh) { return Mesh.Snapshot(mesh); }
-    }
-
-    public static class Undo
-    {
-        public static readonly List<Object> recorded = new List<Object>();
-        public static readonly List<Object> created = new List<Object>();
-        public static int group, collapsed = -1;
-        public static string groupName;
-        public static void RecordObject(Object target, string name) { recorded.Add(target); }
-        public static void RegisterCreatedObjectUndo(Object target, string name) { created.Add(target); }
-        public static void IncrementCurrentGroup() { group++; }
-        public static int GetCurrentGroup() { return group; }
-        public static void SetCurrentGroupName(string name) { groupName = name; }
-        public static void CollapseUndoOperations(int group) { collapsed = group; }
     }
 
     public static class EditorUtility
@@ -34,7 +21,9 @@ namespace UnityEditor
         public static bool IsPersistent(Object target) { return persistent.Contains(target); }
         public static void SetDirty(Object target) { dirty.Add(target); }
         public static void ClearProgressBar() { barShown = false; }
-        public static string SaveFolderPanel(string title, string folder, string name) { return ""; }
+        /// The folder that the user chooses; none if the dialogue is cancelled.
+        public static string chosen = "";
+        public static string SaveFolderPanel(string title, string folder, string name) { return chosen; }
 
         public static bool DisplayCancelableProgressBar(string title, string info, float progress)
         {
@@ -46,10 +35,8 @@ namespace UnityEditor
     public static class PrefabUtility
     {
         public static readonly HashSet<Object> instances = new HashSet<Object>();
-        public static readonly HashSet<Object> models = new HashSet<Object>();
         public static readonly List<Object> modified = new List<Object>();
         public static bool IsPartOfPrefabInstance(Object target) { return instances.Contains(target); }
-        public static bool IsPartOfModelPrefab(Object target) { return models.Contains(target); }
         public static void RecordPrefabInstancePropertyModifications(Object target) { modified.Add(target); }
     }
 
@@ -59,33 +46,56 @@ namespace UnityEditor
     {
         public static readonly Dictionary<Object, string> paths = new Dictionary<Object, string>();
         public static readonly Dictionary<string, string[]> labels = new Dictionary<string, string[]>();
+        public static readonly Dictionary<string, Hash128> dependencies = new Dictionary<string, Hash128>();
+        public static readonly List<string> imported = new List<string>();
         public static bool Contains(Object target) { return paths.ContainsKey(target); }
         public static string GetAssetPath(Object target) { return Contains(target) ? paths[target] : ""; }
         public static void AddObjectToAsset(Object target, string path) { paths[target] = path; }
         public static void CreateAsset(Object target, string path) { paths[target] = path; }
         public static string GenerateUniqueAssetPath(string path) { return path; }
         public static void SaveAssets() { }
+        public static bool CanOpenForEdit(Object target) { return !paths[target].StartsWith("Packages/"); }
         public static bool IsValidFolder(string path) { return path.StartsWith("Assets"); }
         public static GUID GUIDFromAssetPath(string path) { return new GUID { path = path }; }
         public static string GUIDToAssetPath(string guid) { return guid; }
         public static string[] GetLabels(GUID guid) { return labels.ContainsKey(guid.path) ? labels[guid.path] : new string[0]; }
 
+        public static string[] GetLabels(Object target) { return GetLabels(GUIDFromAssetPath(paths[target])); }
+        public static void SetLabels(Object target, string[] values) { labels[paths[target]] = values; }
+        public static void ImportAsset(string path, ImportAssetOptions options) { imported.Add(path); }
+        public static bool IsAssetImportWorkerProcess() { return false; }
+        public static void RegisterCustomDependency(string name, Hash128 hash) { dependencies[name] = hash; }
+        public static void Refresh() { imported.Add("(what depends on changes)"); }
+        public static Object LoadMainAssetAtPath(string path) { return LoadAssetAtPath<GameObject>(path); }
+
+        /// The kinds that are used: t:Model, t:Prefab, t:Mesh.
         public static string[] FindAssets(string filter, string[] folders)
         {
-            var found = new List<string>();
-            foreach (var entry in paths)
-            {
-                if (entry.Key is GameObject && entry.Value.StartsWith(folders[0] + "/")) { found.Add(entry.Value); }
-            }
-            return found.ToArray();
+            return paths.Where(entry => IsOfKind(entry.Key, entry.Value, filter) && entry.Value.StartsWith(folders[0] + "/"))
+                .Select(entry => entry.Value).ToArray();
+        }
+
+        private static bool IsOfKind(Object asset, string path, string filter)
+        {
+            if (filter == "t:Mesh") { return asset is Mesh; }
+            return asset is GameObject && path.EndsWith(".prefab") == (filter == "t:Prefab");
+        }
+
+        public static Object[] LoadAllAssetsAtPath(string path)
+        {
+            return paths.Where(entry => entry.Value == path).Select(entry => entry.Key).ToArray();
         }
 
         public static T LoadAssetAtPath<T>(string path) where T : Object
         {
-            foreach (var entry in paths) { if (entry.Key is T && entry.Value == path) { return (T)entry.Key; } }
-            return null;
+            return LoadAllAssetsAtPath(path).OfType<T>().FirstOrDefault();
         }
     }
+
+    public enum ImportAssetOptions { Default = 0, ForceUpdate = 1 }
+
+    [AttributeUsage(AttributeTargets.Method)]
+    public class InitializeOnLoadMethodAttribute : Attribute { }
 
     public static class FileUtil { public static string GetProjectRelativePath(string path) { return path; } }
     public static class Selection { public static Object[] objects = new Object[0]; }
@@ -128,6 +138,8 @@ namespace UnityEditor.AssetImporters
     public class AssetImportContext
     {
         public readonly List<string> warnings = new List<string>();
+        public readonly List<string> dependencies = new List<string>();
+        public void DependsOnCustomDependency(string dependency) { dependencies.Add(dependency); }
         public void LogImportWarning(string message, Object target = null) { warnings.Add(message); }
     }
 }

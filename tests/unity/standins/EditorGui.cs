@@ -1,4 +1,4 @@
-// The editor's drawing, which does nothing here: it only has to compile.
+// The editor's drawing: what it shows is recorded, and tests say what the user clicks on.
 using System;
 using System.Collections.Generic;
 using UnityEngine;
@@ -16,14 +16,33 @@ namespace UnityEditor
     public class CustomEditor : Attribute { public CustomEditor(Type type) { } }
     public class CanEditMultipleObjects : Attribute { }
 
-    public class SerializedProperty { public int intValue { get; set; } }
-
-    public class SerializedObject
+    public class SerializedProperty
     {
-        public SerializedObject(UnityEngine.Object target) { }
-        public SerializedProperty FindProperty(string path) { return new SerializedProperty(); }
+        public int intValue { get; set; }
+        public bool boolValue { get; set; }
+    }
+
+    public class SerializedObject : IDisposable
+    {
+        private readonly UnityEngine.Object target;
+        private readonly SerializedProperty readable = new SerializedProperty();
+
+        public SerializedObject(UnityEngine.Object target) { this.target = target; }
+
+        public SerializedProperty FindProperty(string path)
+        {
+            return path == "m_IsReadable" ? readable : new SerializedProperty();
+        }
+
+        /// For the one property that the package changes by its name.
+        public bool ApplyModifiedPropertiesWithoutUndo() { ((Mesh)target).readable = readable.boolValue; return true; }
+
+        public void Dispose() { }
         public void Update() { }
-        public bool ApplyModifiedProperties() { return false; }
+
+        /// Whether the user has changed a property.
+        public static bool changed;
+        public bool ApplyModifiedProperties() { return changed; }
     }
 
     public enum MessageType { None, Info, Warning, Error }
@@ -32,18 +51,43 @@ namespace UnityEditor
     {
         public static bool PropertyField(SerializedProperty property, params GUILayoutOption[] options) { return false; }
         public static bool PropertyField(SerializedProperty property, bool children, params GUILayoutOption[] options) { return false; }
-        public static void HelpBox(string text, MessageType type) { }
+        public static readonly List<string> boxes = new List<string>();
+        public static void HelpBox(string text, MessageType type) { boxes.Add(text); }
         public static Rect BeginHorizontal(params GUILayoutOption[] options) { return new Rect(); }
         public static void EndHorizontal() { }
     }
 
-    public struct Rect { }
+    public static class EditorGUI
+    {
+        public static bool disabled;
+
+        public struct DisabledScope : IDisposable
+        {
+            private readonly bool before;
+            public DisabledScope(bool disabled) { before = EditorGUI.disabled; EditorGUI.disabled |= disabled; }
+            public void Dispose() { disabled = before; }
+        }
+    }
 
     public static class Handles
     {
-        public static Matrix4x4 matrix { get; set; }
-        public static Color color { get; set; }
-        public static void DrawLines(Vector3[] ends) { }
+        /// How many points were drawn in each colour.
+        public static readonly Dictionary<Color, int> drawn = new Dictionary<Color, int>();
+        private static Color color;
+
+        public static void DrawLines(Vector3[] ends)
+        {
+            int before;
+            drawn.TryGetValue(color, out before);
+            drawn[color] = before + ends.Length;
+        }
+
+        public struct DrawingScope : IDisposable
+        {
+            private readonly Color before;
+            public DrawingScope(Color color, Matrix4x4 matrix) { before = Handles.color; Handles.color = color; }
+            public void Dispose() { Handles.color = before; }
+        }
     }
 
     public enum SettingsScope { User, Project }

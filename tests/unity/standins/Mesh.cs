@@ -20,9 +20,9 @@ namespace UnityEngine
         private BoneWeight1[] boneWeightValues = new BoneWeight1[0];
         private readonly List<Frame> frames = new List<Frame>();
 
-        public bool readable = true;
+        public bool readable = true, canBeMadeReadable = true;
 
-        public bool isReadable { get { return readable; } }
+        public bool isReadable { get { return readable && canBeMadeReadable; } }
         public Bounds bounds { get; set; }
         public IndexFormat indexFormat { get; set; }
         public Matrix4x4[] bindposes { get; set; }

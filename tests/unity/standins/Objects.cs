@@ -9,6 +9,8 @@ namespace UnityEngine
         public string name { get; set; }
         public bool destroyed;
         public static void DestroyImmediate(Object target) { target.destroyed = true; }
+        public static void Destroy(Object target) { target.destroyed = true; }
+        public static T Instantiate<T>(T original) where T : Object { return (T)original.MemberwiseClone(); }
         public static bool operator ==(Object a, Object b)
         {
             bool noA = ReferenceEquals(a, null) || a.destroyed, noB = ReferenceEquals(b, null) || b.destroyed;
@@ -22,10 +24,7 @@ namespace UnityEngine
 
     [AttributeUsage(AttributeTargets.Field)]
     public class TooltipAttribute : Attribute { public TooltipAttribute(string text) { } }
-}
 
-namespace UnityEngine
-{
     [AttributeUsage(AttributeTargets.Field)]
     public class SerializeField : Attribute { }
 
@@ -44,11 +43,27 @@ namespace UnityEngine
     {
         public GameObject gameObject { get; internal set; }
         public Transform transform { get { return gameObject.transform; } }
+
+        public T GetComponent<T>()
+        {
+            var found = gameObject.GetComponents<T>();
+            return found.Length > 0 ? found[0] : default(T);
+        }
+
+        public T[] GetComponentsInChildren<T>() { return gameObject.GetComponentsInChildren<T>(false); }
     }
 
     public class MonoBehaviour : Component { }
+    public class Material : Object { }
     public class MeshFilter : Component { public Mesh sharedMesh { get; set; } }
-    public class SkinnedMeshRenderer : Component { public Mesh sharedMesh { get; set; } }
+    public class MeshRenderer : Renderer { }
+    public class SkinnedMeshRenderer : Renderer { public Mesh sharedMesh { get; set; } }
+
+    public class Renderer : Component
+    {
+        private Material[] materials = new Material[0];
+        public Material[] sharedMaterials { get { return (Material[])materials.Clone(); } set { materials = (Material[])value.Clone(); } }
+    }
 
     public class GameObject : Object
     {
@@ -84,6 +99,9 @@ namespace UnityEngine
     {
         public static readonly List<string> logged = new List<string>();
         public static void Log(object message) { logged.Add("" + message); }
+        public static void Log(object message, Object context) { Log(message); }
+        public static void LogWarning(object message) { logged.Add("warning: " + message); }
+        public static void LogWarning(object message, Object context) { LogWarning(message); }
         public static void LogError(object message) { logged.Add("error: " + message); }
     }
 
@@ -91,6 +109,14 @@ namespace UnityEngine
 
     public static class GUILayout
     {
-        public static bool Button(string text, params GUILayoutOption[] options) { return false; }
+        /// The button that the mouse is on; only one reacts to a click.
+        public static string clicked;
+
+        public static bool Button(string text, params GUILayoutOption[] options)
+        {
+            if (text != clicked || UnityEditor.EditorGUI.disabled) { return false; }
+            clicked = null;
+            return true;
+        }
     }
 }

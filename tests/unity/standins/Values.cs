@@ -52,11 +52,19 @@ namespace UnityEngine
         public static implicit operator Color(Color32 c) { return new Color(c.r / 255f, c.g / 255f, c.b / 255f, c.a / 255f); }
     }
 
+    public struct Hash128
+    {
+        public string text;
+        public static Hash128 Compute(string text) { return new Hash128 { text = text }; }
+    }
+
     public struct Matrix4x4
     {
         public float m00, m11, m22, m33;
         public static Matrix4x4 identity { get { return new Matrix4x4 { m00 = 1, m11 = 1, m22 = 1, m33 = 1 }; } }
     }
+
+    public struct Rect { }
 
     public struct Bounds
     {

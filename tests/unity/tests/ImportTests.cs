@@ -39,8 +39,11 @@ namespace Chamfer.Tests
 
         private static AssetImportContext Import(Mesh mesh, params string[] labels)
         {
-            var root = new GameObject("Model");
-            root.AddComponent<MeshFilter>().sharedMesh = mesh;
+            return Import(Scene.Holding(mesh, "Model"), labels);
+        }
+
+        private static AssetImportContext Import(GameObject root, params string[] labels)
+        {
             AssetDatabase.labels["Assets/model.fbx"] = labels;
             var context = new AssetImportContext();
             var importer = new ModelChamfer { assetPath = "Assets/model.fbx", context = context };
@@ -58,6 +61,19 @@ namespace Chamfer.Tests
             Check.Equal(2, mesh.bindposes.Length);
         }
 
+        public static void A_submesh_of_their_own_is_imported_with_a_material()
+        {
+            var mesh = Shapes.Cube();
+            GameObject first = Scene.Holding(mesh, "First"), second = Scene.Holding(mesh, "Second");
+            first.children.Add(second);
+            var project = ChamferProjectSettings.instance;
+            project.settings.submeshMode = ChamferSubmesh.Own;
+            try { Import(first, "Chamfer"); }
+            finally { project.settings.submeshMode = ChamferSubmesh.Owner; }
+            Check.Equal(2, mesh.subMeshCount);
+            foreach (var renderer in first.GetComponentsInChildren<Renderer>(true)) { Check.Equal(2, renderer.sharedMaterials.Length); }
+        }
+
         public static void Importing_without_a_label_changes_nothing()
         {
             var mesh = Shapes.Cube();
@@ -73,24 +89,37 @@ namespace Chamfer.Tests
             Check.That(Import(Shapes.Cube(), "Chamfer=wide").warnings.Single().Contains("Chamfer=0.02"), "bad label");
         }
 
-        public static void The_batch_chamfers_the_prefabs_of_a_folder()
+        public static void Chamfered_models_depend_on_the_project_settings()
         {
-            var prefab = new GameObject("Crate");
-            prefab.AddComponent<MeshFilter>().sharedMesh = Shapes.Cube();
-            AssetDatabase.paths[prefab] = "Assets/Batch/Crate.prefab";
-            Check.Equal(0, ChamferBatch.Run(new[] { "Unity", "-chamferFolder", "Assets/Batch", "-chamferWidth", "0.1" }));
-            Check.Equal(44 * 3, prefab.GetComponents<MeshFilter>()[0].sharedMesh.GetTriangles(0).Length);
-            var broken = Shapes.Cube();
-            broken.normals = new Vector3[0];
-            prefab.GetComponents<MeshFilter>()[0].sharedMesh = broken;
-            Check.Equal(1, ChamferBatch.Run(new[] { "-chamferFolder", "Assets/Batch" }));
+            Check.Equal(ImportDependency.Name, Import(Shapes.Cube(), "Chamfer").dependencies.Single());
+            Check.Equal(0, Import(Shapes.Cube()).dependencies.Count);
         }
 
-        public static void The_batch_refuses_bad_arguments()
+        public static void Another_setting_is_another_dependency()
         {
-            Check.Equal(2, ChamferBatch.Run(new string[0]));
-            Check.Equal(2, ChamferBatch.Run(new[] { "-chamferFolder", "Elsewhere" }));
-            Check.Equal(2, ChamferBatch.Run(new[] { "-chamferFolder", "Assets/Batch", "-chamferWidth", "wide" }));
+            var project = ChamferProjectSettings.instance;
+            var folder = new FolderRule { folder = "Assets/Rule/", settings = ChamferSettings.Default };
+            AssetDatabase.paths[new GameObject("Barrel")] = "Assets/Rule/barrel.fbx";
+            ImportDependency.Register();
+            var before = AssetDatabase.dependencies[ImportDependency.Name];
+            ImportDependency.Register();
+            Check.Equal(before, AssetDatabase.dependencies[ImportDependency.Name]);
+            project.folders.Add(folder);
+            try { ImportDependency.ImportAgain(); }
+            finally { project.folders.Clear(); }
+            Check.That(!before.Equals(AssetDatabase.dependencies[ImportDependency.Name]), "another hash");
+            Check.Equal("Assets/Rule/barrel.fbx", AssetDatabase.imported.Last());
+        }
+
+        public static void Labels_are_written_as_they_are_read()
+        {
+            var settings = ChamferSettings.Default;
+            settings.width = 0.1f;
+            Check.Equal("Chamfer=0.1%", ImportRule.LabelOf(settings));
+            settings.unit = WidthUnit.MeshUnits;
+            ChamferSettings read;
+            Check.That(Find("Assets/a.fbx", ImportRule.LabelOf(settings), out read), "label");
+            Check.That(read.width == settings.width && read.unit == settings.unit, "the same width");
         }
     }
 }

@@ -180,10 +180,21 @@ namespace Chamfer.Tests
             Check.Equal(3, result.GetVertexAttributeDimension(VertexAttribute.TexCoord1));
         }
 
-        public static void Skins_without_read_write_are_refused()
+        public static void The_editor_reads_skins_and_blend_shapes_without_read_write()
         {
             var mesh = Shapes.FullCube();
             mesh.readable = false;
+            var result = Run(mesh).Mesh;
+            Check.Equal(2, result.blendShapeCount);
+            Check.Equal(result.vertexCount, result.GetBonesPerVertex().Length);
+            Check.That(!mesh.readable && mesh != null, "the source is as it was");
+        }
+
+        public static void What_even_a_copy_does_not_show_is_refused()
+        {
+            var mesh = Shapes.FullCube();
+            mesh.readable = false;
+            mesh.canBeMadeReadable = false;
             var exception = Check.Throws<MeshNotReadableException>(() => Run(mesh));
             Check.That(exception.Message.Contains("Read/Write"), exception.Message);
         }

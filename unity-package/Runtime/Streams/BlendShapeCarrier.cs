@@ -20,16 +20,23 @@ namespace Chamfer.Streams
             });
         }
 
+        /// <summary>In double precision, and by the sum of the weights: the command line does the same.</summary>
         private static unsafe Vector3 Blend(Vector3[] deltas, NativeBlend blend)
         {
             int vertex;
             if (blend.IsOne(out vertex)) { return deltas[vertex]; }
-            var sum = new Vector3();
+            double x = 0, y = 0, z = 0, total = 0;
             for (int i = 0; i < NativeBlend.Count; i++)
             {
-                if (blend.Weights[i] != 0) { sum += deltas[blend.Vertices[i]] * blend.Weights[i]; }
+                double weight = blend.Weights[i];
+                if (weight == 0) { continue; }
+                var delta = deltas[blend.Vertices[i]];
+                x += weight * delta.x;
+                y += weight * delta.y;
+                z += weight * delta.z;
+                total += weight;
             }
-            return sum;
+            return new Vector3((float)(x / total), (float)(y / total), (float)(z / total));
         }
     }
 }

@@ -16,7 +16,7 @@ namespace Chamfer.Streams
         private readonly int mostBones;
         private readonly List<byte> bonesPerVertex = new List<byte>();
         private readonly List<BoneWeight1> weights = new List<BoneWeight1>();
-        private readonly List<BoneWeight1> blended = new List<BoneWeight1>();
+        private readonly List<Pull> blended = new List<Pull>();
 
         private SkinCarrier(Skin source)
         {
@@ -48,55 +48,65 @@ namespace Chamfer.Streams
         private void Append(NativeBlend blend)
         {
             int vertex;
-            blended.Clear();
-            if (blend.IsOne(out vertex)) { Gather(vertex, 1); }
-            else { GatherAll(blend); }
-            bonesPerVertex.Add((byte)blended.Count);
-            weights.AddRange(blended);
+            int before = weights.Count;
+            if (blend.IsOne(out vertex)) { Keep(vertex); }
+            else { Blend(blend); }
+            bonesPerVertex.Add((byte)(weights.Count - before));
         }
 
-        private unsafe void GatherAll(NativeBlend blend)
+        private void Keep(int vertex)
         {
+            for (int i = 0; i < source.BonesPerVertex[vertex]; i++) { weights.Add(source.Weights[firstWeight[vertex] + i]); }
+        }
+
+        private unsafe void Blend(NativeBlend blend)
+        {
+            blended.Clear();
             for (int i = 0; i < NativeBlend.Count; i++)
             {
                 if (blend.Weights[i] != 0) { Gather((int)blend.Vertices[i], blend.Weights[i]); }
             }
-            Normalize();
+            AddStrongest();
         }
 
-        private void Gather(int vertex, float share)
+        private void Gather(int vertex, double share)
         {
             for (int i = 0; i < source.BonesPerVertex[vertex]; i++)
             {
-                var weight = source.Weights[firstWeight[vertex] + i];
-                int known = share == 1 ? -1 : blended.FindIndex(other => other.boneIndex == weight.boneIndex);
-                weight.weight *= share;
-                if (known < 0) { blended.Add(weight); continue; }
-                weight.weight += blended[known].weight;
-                blended[known] = weight;
+                var bone = source.Weights[firstWeight[vertex] + i];
+                var pull = new Pull { Bone = bone.boneIndex, Weight = share * bone.weight };
+                int known = blended.FindIndex(other => other.Bone == pull.Bone);
+                if (known < 0) { blended.Add(pull); continue; }
+                pull.Weight += blended[known].Weight;
+                blended[known] = pull;
             }
         }
 
         /// <summary>The strongest bones first, as Unity wants them, and of sum 1.</summary>
-        private void Normalize()
+        private void AddStrongest()
         {
-            blended.RemoveAll(bone => bone.weight <= 0);
+            blended.RemoveAll(pull => pull.Weight <= 0);
             blended.Sort(StrongestFirst);
             if (blended.Count > mostBones) { blended.RemoveRange(mostBones, blended.Count - mostBones); }
-            float sum = 0;
-            foreach (var bone in blended) { sum += bone.weight; }
-            for (int i = 0; i < blended.Count; i++)
+            double sum = 0;
+            foreach (var pull in blended) { sum += pull.Weight; }
+            foreach (var pull in blended)
             {
-                var bone = blended[i];
-                bone.weight /= sum;
-                blended[i] = bone;
+                weights.Add(new BoneWeight1 { boneIndex = pull.Bone, weight = (float)(pull.Weight / sum) });
             }
         }
 
-        private static int StrongestFirst(BoneWeight1 a, BoneWeight1 b)
+        private static int StrongestFirst(Pull a, Pull b)
         {
-            int byWeight = b.weight.CompareTo(a.weight);
-            return byWeight != 0 ? byWeight : a.boneIndex.CompareTo(b.boneIndex);
+            int byWeight = b.Weight.CompareTo(a.Weight);
+            return byWeight != 0 ? byWeight : a.Bone.CompareTo(b.Bone);
+        }
+
+        /// <summary>A bone's weight on its way through a blend, in double precision as on the command line.</summary>
+        private struct Pull
+        {
+            public int Bone;
+            public double Weight;
         }
     }
 }

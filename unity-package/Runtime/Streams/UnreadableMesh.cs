@@ -8,7 +8,7 @@ using UnityEngine.Rendering;
 
 namespace Chamfer.Streams
 {
-    /// <summary>Reads meshes without Read/Write, which the editor allows.</summary>
+    /// <summary>Reads meshes without Read/Write, as far as the editor allows.</summary>
     internal static class UnreadableMesh
     {
 #if !UNITY_EDITOR
@@ -19,10 +19,8 @@ namespace Chamfer.Streams
 #else
         internal static MeshArrays Read(Mesh mesh)
         {
-            if (SkinReader.IsDeformed(mesh))
-            {
-                throw new MeshNotReadableException(mesh.name, ", because it has a skin or blend shapes");
-            }
+            // A snapshot lacks what deforms a mesh.
+            if (SkinReader.IsDeformed(mesh)) { return ReadCopy(mesh); }
             using (var snapshot = MeshUtility.AcquireReadOnlyMeshData(mesh))
             {
                 var arrays = Streams(snapshot[0]);
@@ -30,6 +28,35 @@ namespace Chamfer.Streams
                 arrays.Bounds = mesh.bounds;
                 arrays.HasByteColors = MeshReader.HasByteColors(mesh);
                 return arrays;
+            }
+        }
+
+        /// <summary>Unity has the data in memory: a copy of the mesh that is marked as readable can be read.</summary>
+        private static MeshArrays ReadCopy(Mesh mesh)
+        {
+            var copy = UnityEngine.Object.Instantiate(mesh);
+            try
+            {
+                MarkReadable(copy);
+                if (!copy.isReadable || copy.vertexCount != mesh.vertexCount)
+                {
+                    throw new MeshNotReadableException(mesh.name, ", because it has a skin or blend shapes");
+                }
+                var arrays = MeshReader.Read(copy);
+                arrays.Name = mesh.name;
+                return arrays;
+            }
+            finally { UnityEngine.Object.DestroyImmediate(copy); }
+        }
+
+        private static void MarkReadable(Mesh mesh)
+        {
+            using (var serialized = new SerializedObject(mesh))
+            {
+                var flag = serialized.FindProperty("m_IsReadable");
+                if (flag == null) { return; }
+                flag.boolValue = true;
+                serialized.ApplyModifiedPropertiesWithoutUndo();
             }
         }
 

@@ -1,0 +1,55 @@
+// Objects for the tests of the editor.
+using System.Collections.Generic;
+using UnityEditor;
+using UnityEngine;
+
+namespace Chamfer.Tests
+{
+    internal static class Scene
+    {
+        /// Two objects that share a cube, and below them a skinned one.
+        internal static GameObject Hierarchy(out Mesh shared)
+        {
+            shared = Shapes.Cube();
+            var root = Holding(shared, "Root");
+            var child = Holding(shared, "Child");
+            var skinned = new GameObject("Skinned");
+            skinned.AddComponent<SkinnedMeshRenderer>().sharedMesh = Shapes.FullCube();
+            root.children.Add(child);
+            child.children.Add(skinned);
+            Undo.Click();
+            return root;
+        }
+
+        internal static GameObject Holding(Mesh mesh, string name)
+        {
+            var item = new GameObject(name);
+            item.AddComponent<MeshFilter>().sharedMesh = mesh;
+            item.AddComponent<MeshRenderer>().sharedMaterials = new[] { new Material { name = "Wood" } };
+            return item;
+        }
+
+        internal static Mesh MeshOf(GameObject item) { return ChamferEditor.MeshSlot.In(item, false)[0].Mesh; }
+
+        /// Puts an object and all below it into a file of the project.
+        internal static void MakeAsset(GameObject item, string path)
+        {
+            AssetDatabase.paths[item] = path;
+            foreach (var component in item.GetComponentsInChildren<Component>(true))
+            {
+                EditorUtility.persistent.Add(component);
+                AssetDatabase.paths[component] = path;
+            }
+        }
+
+        internal static List<Mesh> MeshesIn(string path)
+        {
+            var meshes = new List<Mesh>();
+            foreach (var asset in AssetDatabase.LoadAllAssetsAtPath(path))
+            {
+                if (asset is Mesh && asset != null) { meshes.Add((Mesh)asset); }
+            }
+            return meshes;
+        }
+    }
+}

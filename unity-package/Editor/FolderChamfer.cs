@@ -1,0 +1,60 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using Chamfer;
+using UnityEditor;
+using UnityEngine;
+using Object = UnityEngine.Object;
+
+namespace ChamferEditor
+{
+    /// <summary>Chamfers all models, prefabs and mesh files of a folder.</summary>
+    internal static class FolderChamfer
+    {
+        /// <summary>False if the user cancelled.</summary>
+        internal static bool Run(string folder, ChamferSettings settings, JobSummary summary)
+        {
+            // Models first: prefabs made of them then have nothing left to chamfer.
+            foreach (string path in Paths("t:Model", folder))
+            {
+                if (!RunModel(path, settings, summary)) { return false; }
+            }
+            var selected = new List<Object>();
+            selected.AddRange(Paths("t:Prefab", folder).Select(path => AssetDatabase.LoadAssetAtPath<GameObject>(path)));
+            var meshes = Paths("t:Mesh", folder).Where(IsSource);
+            selected.AddRange(meshes.Select(path => AssetDatabase.LoadAssetAtPath<Mesh>(path)));
+            return new ChamferSelection(selected.Where(item => item != null)).Chamfer(settings, summary);
+        }
+
+        /// <summary>
+        /// A model's file cannot be changed, but its import can: a label asks for it. Its meshes are tried here,
+        /// because what an import could not do is only told in the console.
+        /// </summary>
+        private static bool RunModel(string path, ChamferSettings settings, JobSummary summary)
+        {
+            var job = new ChamferJob();
+            if (!job.Run(AssetDatabase.LoadAllAssetsAtPath(path).OfType<Mesh>(), settings)) { return false; }
+            summary.Add(job);
+            if (job.Results.Values.All(result => result.Report.HardEdges == 0)) { return true; }
+            var model = AssetDatabase.LoadMainAssetAtPath(path);
+            var others = AssetDatabase.GetLabels(model).Where(label => !ImportRule.IsLabel(label));
+            AssetDatabase.SetLabels(model, others.Concat(new[] { ImportRule.LabelOf(settings) }).ToArray());
+            AssetDatabase.ImportAsset(path, ImportAssetOptions.ForceUpdate);
+            return true;
+        }
+
+        /// <summary>Whether a file holds a mesh of its own that is no result of an earlier time.</summary>
+        private static bool IsSource(string path)
+        {
+            return path.EndsWith(".asset", StringComparison.Ordinal)
+                && !path.EndsWith(JobResult.Suffix + ".asset", StringComparison.Ordinal);
+        }
+
+        /// <summary>Sorted, so that each run does the same in the same order.</summary>
+        private static IEnumerable<string> Paths(string filter, string folder)
+        {
+            var paths = AssetDatabase.FindAssets(filter, new[] { folder }).Select(guid => AssetDatabase.GUIDToAssetPath(guid));
+            return paths.Distinct().OrderBy(path => path, StringComparer.Ordinal);
+        }
+    }
+}

@@ -1,0 +1,40 @@
+using System.Collections.Generic;
+
+namespace ChamferEditor
+{
+    /// <summary>What jobs did, in words.</summary>
+    internal sealed class JobSummary
+    {
+        private int meshes, without, chamfered, narrowed, skipped;
+        private readonly List<string> failures = new List<string>();
+
+        /// <summary>Whether some mesh could not be chamfered.</summary>
+        internal bool HasFailed => failures.Count > 0;
+
+        internal void Add(ChamferJob job)
+        {
+            failures.AddRange(job.Failures);
+            foreach (var result in job.Results.Values)
+            {
+                if (result.Report.HardEdges == 0) { without++; continue; }
+                meshes++;
+                chamfered += result.Report.Chamfered;
+                narrowed += result.Report.Narrowed;
+                skipped += result.Report.Skipped;
+            }
+        }
+
+        public override string ToString()
+        {
+            string text = Meshes(meshes) + ": " + chamfered + " edges chamfered, " + narrowed + " narrowed, " + skipped
+                + " skipped";
+            if (without > 0) { text += "; " + Meshes(without) + " without hard edges left alone"; }
+            return failures.Count == 0 ? text : text + "\n" + string.Join("\n", failures);
+        }
+
+        private static string Meshes(int count)
+        {
+            return count == 1 ? "1 mesh" : count + " meshes";
+        }
+    }
+}
