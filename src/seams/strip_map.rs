@@ -151,8 +151,7 @@ impl<'a> StripMap<'a> {
     /// The feet of the first way that fits, or else of the one that fits best, among those that
     /// agree with what other channels have taken.
     fn lay(&self, streams: &Streams, channel: usize, owner: usize, taken: &Feet) -> Feet {
-        let seams = self.edge.seams;
-        let own = (seams >> channel & 1 == 0).then_some(Way::Own);
+        let own = (self.edge.seams >> channel & 1 == 0).then_some(Way::Own);
         let ways = own.into_iter().chain(bands(owner)).chain(bands(1 - owner));
         let sides = [owner, 1 - owner];
         let inside = sides.map(Way::Inside).into_iter().chain(sides.map(Way::Flat));
