@@ -15,6 +15,24 @@ fn the_readme_shows_the_c_example_that_is_tested() {
     );
 }
 
+/// The sections of a page up to a heading: their titles and their texts.
+fn sections<'a>(page: &'a str, until: &str) -> Vec<(&'a str, &'a str)> {
+    let part = page.split_once(until).map_or(page, |(before, _)| before);
+    part.split("\n## ").skip(1).filter_map(|section| section.split_once('\n')).collect()
+}
+
+#[test]
+fn each_stage_shows_its_figure() {
+    let page = include_str!("../docs/pipeline.md");
+    let stages = sections(page, "\n# Helpers\n");
+    for (title, text) in &stages {
+        let link = format!("](figures/{}.svg)", title.to_lowercase());
+        assert!(text.contains(&link), "the section {title} of docs/pipeline.md lacks its figure");
+    }
+    let figures = fs::read_dir(Path::new(ROOT).join("docs/figures")).unwrap();
+    assert_eq!(figures.count(), stages.len(), "each figure is shown, and each one shown is there");
+}
+
 /// A stage or helper is a file in src whose header begins with its name and a colon.
 #[test]
 fn the_pipeline_page_has_a_section_for_each_stage() {
