@@ -6,7 +6,7 @@
 
 mod streams;
 
-use crate::ids::{Corner, IdVec, Sector, Vertex};
+use crate::ids::{Corner, Few, IdVec, Sector, Vertex};
 use crate::placement::Placement;
 use crate::plan::Plan;
 use crate::report::{Blend, VertexSource};
@@ -24,8 +24,10 @@ pub struct Attributes {
 
 pub fn attributes(plan: &Plan, placement: &Placement) -> Attributes {
     let vertex_at = plan.view.mesh.indices.to_vec();
-    let mut attributes =
-        Attributes { streams: Streams::of_source(plan), vertex_at: IdVec::from_vec(vertex_at) };
+    let mut attributes = Attributes {
+        streams: Streams::of_source(&plan.view),
+        vertex_at: IdVec::from_vec(vertex_at),
+    };
     let mut taken = staying(plan, placement);
     for sector in plan.sectors.fans.ids().filter(|&sector| placement.has_moved(plan, sector)) {
         move_sector(plan, placement, sector, &mut taken, &mut attributes);
@@ -55,7 +57,7 @@ fn move_sector(
     taken: &mut IdVec<Vertex, bool>,
     attributes: &mut Attributes,
 ) {
-    let mut seen: Vec<(Vertex, u32)> = Vec::new();
+    let mut seen: Few<(Vertex, u32)> = Few::new();
     for corner in plan.sectors.corners(&plan.topology, sector) {
         let vertex = plan.view.vertex_at(corner);
         let known = seen.iter().find(|(other, _)| *other == vertex).map(|(_, output)| *output);

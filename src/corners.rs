@@ -8,7 +8,9 @@
 use std::cmp::Ordering;
 
 use glam::DVec3;
+use smallvec::{SmallVec, smallvec};
 
+use crate::ids::Few;
 use crate::math::unit;
 use crate::validity::facing;
 
@@ -18,13 +20,16 @@ const MIDDLE_FROM: usize = 5;
 /// The triangulation takes cubic time; a longer loop must do with a vertex in its middle.
 const LONGEST_TRIANGULATED: usize = 24;
 
+/// So few points are compared with each other faster than sorted.
+const FEW_POINTS: usize = 8;
+
 /// The triangles that close the hole at one ring.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Fill {
     /// Places in the ring; a place past the ring's length is one of the middles.
-    pub triangles: Vec<[usize; 3]>,
+    pub triangles: Few<[usize; 3]>,
     /// New vertices: each is the mean of the points at these places of the ring.
-    pub middles: Vec<Vec<usize>>,
+    pub middles: Vec<Few<usize>>,
 }
 
 /// Fills the hole between the points of a ring, or says that every way of doing so folds.
@@ -55,15 +60,15 @@ pub fn middle(points: &[DVec3], places: &[usize]) -> DVec3 {
 
 /// The loops of distinct points in a ring. Sectors that do not move stand at one point: there the
 /// ring touches itself, and each part of it is a hole of its own.
-fn holes(points: &[DVec3]) -> Vec<Vec<usize>> {
+fn holes(points: &[DVec3]) -> SmallVec<[Few<usize>; 1]> {
     if are_distinct(points) {
-        return vec![(0..points.len()).collect()];
+        return smallvec![(0..points.len()).collect()];
     }
-    let mut holes = Vec::new();
-    let mut path: Vec<usize> = Vec::new();
+    let mut holes = SmallVec::new();
+    let mut path: Few<usize> = Few::new();
     for place in 0..points.len() {
         if let Some(met) = path.iter().position(|&other| points[other] == points[place]) {
-            let hole = path.split_off(met);
+            let hole: Few<usize> = path.drain(met..).collect();
             path.push(place);
             if hole.len() >= 3 {
                 holes.push(hole);
@@ -79,6 +84,10 @@ fn holes(points: &[DVec3]) -> Vec<Vec<usize>> {
 }
 
 fn are_distinct(points: &[DVec3]) -> bool {
+    if points.len() <= FEW_POINTS {
+        let mut pairs = (1..points.len()).flat_map(|k| points[..k].iter().map(move |p| (p, k)));
+        return pairs.all(|(point, k)| *point != points[k]);
+    }
     let mut sorted: Vec<[u64; 3]> =
         points.iter().map(|point| point.to_array().map(|along| (along + 0.0).to_bits())).collect();
     sorted.sort_unstable();
@@ -87,7 +96,7 @@ fn are_distinct(points: &[DVec3]) -> bool {
 
 /// One hole: places in a ring of points, counter-clockwise seen from outside.
 struct Loop<'a> {
-    places: Vec<usize>,
+    places: Few<usize>,
     points: &'a [DVec3],
     normals: &'a [DVec3],
     resolution: f64,
@@ -127,19 +136,24 @@ impl Loop<'_> {
     }
 
     /// The triangulation that folds least; none if every one has a triangle that may not be.
-    fn triangulated(&self) -> Option<Vec<[usize; 3]>> {
+    fn triangulated(&self) -> Option<Few<[usize; 3]>> {
         let count = self.places.len();
+        if count == 3 {
+            let [a, b, c] = [0, 1, 2].map(|corner| self.places[corner]);
+            return self.fold([0, 1, 2]).map(|_| smallvec![[a, b, c]]);
+        }
         if count > LONGEST_TRIANGULATED {
             return None;
         }
-        let mut best = vec![Some((Fold { worst: 0.0, sum: 0.0 }, 0)); count * count];
+        let flat = Some((Fold { worst: 0.0, sum: 0.0 }, 0));
+        let mut best: SmallVec<[_; 16]> = smallvec![flat; count * count];
         for length in 2..count {
             for from in 0..count - length {
                 best[from * count + from + length] = self.best_apex(&best, from, from + length);
             }
         }
         best[count - 1]?;
-        let mut triangles = Vec::with_capacity(count - 2);
+        let mut triangles = Few::new();
         self.collect(&best, 0, count - 1, &mut triangles);
         Some(triangles)
     }
@@ -169,7 +183,7 @@ impl Loop<'_> {
         best: &[Option<(Fold, usize)>],
         from: usize,
         to: usize,
-        triangles: &mut Vec<[usize; 3]>,
+        triangles: &mut Few<[usize; 3]>,
     ) {
         if to - from < 2 {
             return;
@@ -198,7 +212,7 @@ mod tests {
     fn two_points_need_nothing_and_three_a_triangle() {
         assert_eq!(flat(&[[0.0, 0.0], [1.0, 0.0]]), Some(Fill::default()));
         let triangle = flat(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]).unwrap();
-        assert_eq!(triangle.triangles, [[0, 1, 2]]);
+        assert_eq!(triangle.triangles[..], [[0, 1, 2]]);
         assert_eq!(flat(&[[0.0, 0.0], [0.0, 1.0], [1.0, 0.0]]), None, "it would face inwards");
     }
 
@@ -219,7 +233,7 @@ mod tests {
         let pentagon = [[1.0, 0.0], [0.3, 0.95], [-0.8, 0.6], [-0.8, -0.6], [0.3, -0.95]];
         let filled = flat(&pentagon).unwrap();
         assert_eq!(filled.triangles.len(), 5);
-        assert_eq!(filled.middles, [[0, 1, 2, 3, 4]]);
+        assert_eq!(filled.middles[0][..], [0, 1, 2, 3, 4]);
     }
 
     #[test]

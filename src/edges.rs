@@ -3,17 +3,25 @@
 use glam::DVec3;
 
 use crate::faces::Faces;
-use crate::ids::{Corner, Edge, IdVec};
+use crate::ids::{Corner, Edge, Id, IdVec, Vertex};
 use crate::report::Reason;
+use crate::resample::uv_at;
 use crate::topology::Topology;
 use crate::view::View;
+use crate::weld::Weld;
 
 /// Normals that differ by less than a degree are one normal: importers quantize them.
 pub const HARD_COSINE: f64 = 0.999_847_695_156_391_2;
 
+/// Two normals that both differ from a third one by less than 0.4 degrees differ by less than one.
+const ALIKE_COSINE: f64 = 0.999_975_630_705_4;
+
 /// Two faces back to back: their normals are opposite to within a tenth of a degree. Between them
 /// there is nothing to cut off.
 const BACK_TO_BACK_COSINE: f64 = -0.999_998_476_913_288;
+
+/// UV values that differ by less than this share of their size are one: exporters round.
+const EQUAL_UV: f32 = 1e-6;
 
 /// A hard edge with two sides.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,6 +31,8 @@ pub struct HardEdge {
     /// Why it is not chamfered. Such an edge does not separate sectors: both its sides move
     /// together.
     pub skipped: Option<Reason>,
+    /// The UV channels that differ across it, as bits.
+    pub seams: u8,
 }
 
 pub struct Edges {
@@ -30,6 +40,18 @@ pub struct Edges {
     pub hard: IdVec<Edge, HardEdge>,
     /// `#corners`: the edge that the half-edge is a side of, where it is to be chamfered.
     pub chamfered_at: IdVec<Corner, Edge>,
+}
+
+/// Whether any edge can be hard: at one position at least, normals differ.
+pub fn may_be_hard(view: &View, weld: &Weld) -> bool {
+    let differs = |vertex: Vertex| {
+        let first = weld.first_vertex[weld.cluster_of[vertex]];
+        let [one, other] = [vertex, first].map(|vertex| view.normal(vertex));
+        let lengths = (one.length_squared() * other.length_squared()).sqrt();
+        // A normal without length is like none.
+        first != vertex && one.dot(other) <= ALIKE_COSINE * lengths
+    };
+    weld.cluster_of.ids().any(differs)
 }
 
 pub fn edges(view: &View, topology: &Topology, faces: &Faces) -> Edges {
@@ -41,7 +63,11 @@ pub fn edges(view: &View, topology: &Topology, faces: &Faces) -> Edges {
             continue;
         }
         let skipped = obstacle(topology, faces, corner, twin);
-        let edge = hard.push(HardEdge { sides: [corner, twin], skipped });
+        let edge = hard.push(HardEdge {
+            sides: [corner, twin],
+            skipped,
+            seams: seam_channels(view, corner, twin),
+        });
         if skipped.is_none() {
             chamfered_at[corner] = edge;
             chamfered_at[twin] = edge;
@@ -72,12 +98,31 @@ fn obstacle(topology: &Topology, faces: &Faces, side: Corner, other: Corner) -> 
     (is_doubled || one.dot(two) < BACK_TO_BACK_COSINE).then_some(Reason::ZeroThickness)
 }
 
+/// The UV channels that differ between two half-edges that are twins, as bits.
+fn seam_channels(view: &View, side: Corner, other: Corner) -> u8 {
+    let ends = [(side, other.next()), (side.next(), other)];
+    let vertices = ends.map(|(one, other)| [one, other].map(|c| view.vertex_at(c).index()));
+    let mut channels = 0;
+    for (channel, uv) in view.mesh.uvs.iter().enumerate().filter(|(_, uv)| uv.components > 0) {
+        let differs = |[one, other]: [usize; 2]| {
+            let values = uv_at(uv, one).iter().zip(uv_at(uv, other));
+            values.into_iter().any(|(&a, &b)| (a - b).abs() > EQUAL_UV * a.abs().max(1.0))
+        };
+        if vertices.into_iter().any(differs) {
+            channels |= 1 << channel;
+        }
+    }
+    channels
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::faces::faces;
     use crate::mesh::Mesh;
     use crate::options::Options;
+    use crate::plan::tests::plan_of;
+    use crate::shapes;
     use crate::topology::topology;
     use crate::view::view;
     use crate::weld::weld;
@@ -131,5 +176,16 @@ mod tests {
     #[test]
     fn a_triangle_without_area_is_left_alone() {
         assert_eq!(roof([UP, [0.0, -0.6, 0.8]], [0.5, 0.0, 0.0]), [Some(Reason::NoArea)]);
+    }
+
+    #[test]
+    fn a_channel_that_differs_across_an_edge_is_a_seam_there() {
+        let (seamed, plain) = (shapes::cube(1.0), shapes::plain_cube(1.0));
+        let channels = |mesh| {
+            let plan = plan_of(mesh, 0.1);
+            plan.edges.hard.iter().map(|edge| edge.seams).collect::<Vec<_>>()
+        };
+        assert_eq!(channels(&seamed), [1; 12]);
+        assert_eq!(channels(&plain), [0; 12]);
     }
 }

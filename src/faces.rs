@@ -35,10 +35,10 @@ impl Faces {
 }
 
 pub fn faces(view: &View, topology: &Topology) -> Faces {
-    let normal = view.triangles().map(|triangle| own_normal(view, triangle)).collect();
+    let triangles = view.corner_count() / 3;
     let mut faces = Faces {
-        normal: IdVec::from_vec(normal),
-        lender: IdVec::filled(Corner::NONE, view.corner_count() / 3),
+        normal: view.threads.map(triangles, |triangle| own_normal(view, triangle)),
+        lender: IdVec::filled(Corner::NONE, triangles),
     };
     let is_unknown = |&triangle: &Triangle| faces.normal[triangle] == DVec3::ZERO;
     let mut lines: Vec<Triangle> = view.triangles().filter(is_unknown).collect();

@@ -3,6 +3,11 @@
 use std::marker::PhantomData;
 use std::ops::{Index, IndexMut};
 
+use smallvec::SmallVec;
+
+/// A list that is hardly ever longer than eight, and then needs no memory of its own.
+pub type Few<T> = SmallVec<[T; 8]>;
+
 /// What every id has: it is the number of a place in an array.
 pub trait Id: Copy + Eq {
     fn new(index: usize) -> Self;
@@ -134,6 +139,15 @@ impl<I: Id, T> IdVec<I, T> {
 
     pub fn iter(&self) -> std::slice::Iter<'_, T> {
         self.items.iter()
+    }
+
+    /// The values of the ids from one number to another.
+    pub fn slice(&self, range: std::ops::Range<u32>) -> &[T] {
+        &self.items[range.start as usize..range.end as usize]
+    }
+
+    pub fn iter_mut(&mut self) -> std::slice::IterMut<'_, T> {
+        self.items.iter_mut()
     }
 }
 

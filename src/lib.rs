@@ -53,6 +53,7 @@ mod seams;
 mod sectors;
 mod smoothing;
 mod strips;
+mod threads;
 mod topology;
 mod validity;
 mod verdicts;
@@ -63,12 +64,16 @@ pub use error::{Error, Stream};
 pub use memory::most_memory;
 pub use mesh::{Mesh, MeshBuffers, UV_CHANNELS, Uv, UvBuffer};
 pub use options::{ChamferSubmesh, Options, Verify, Width};
-pub use pipeline::{chamfer, chamfer_with_progress};
+pub use pipeline::{Prepared, chamfer, chamfer_with_progress};
 pub use report::{
     Blend, Chamfered, EdgeVerdict, Outcome, Reason, Totals, TriangleKind, TriangleSource,
     VertexSource,
 };
 pub use smoothing::{Smoothed, split_by_angle};
+
+/// For benchmarks, which time each stage.
+#[doc(hidden)]
+pub use pipeline::{Stage, chamfer_by_stages};
 
 /// The examples of the README, compiled as tests.
 #[cfg(doctest)]

@@ -13,7 +13,7 @@ use std::cmp::Ordering;
 use glam::DVec3;
 
 use crate::corners;
-use crate::ids::{Corner, Edge, IdVec, Ring, Sector, Triangle};
+use crate::ids::{Corner, Edge, Few, IdVec, Ring, Sector, Triangle};
 use crate::math::{area_vector, unit};
 use crate::options::Verify;
 use crate::placement::Placement;
@@ -49,7 +49,8 @@ pub struct Limits {
 pub fn limits(plan: &Plan, verify: Verify) -> Limits {
     let room = room::room(plan);
     let mut limits = bounded(plan, &room);
-    shrink(plan, &mut limits, all_elements(plan));
+    let bad = bad_elements(plan, &limits.placement);
+    shrink(plan, &mut limits, bad);
     for _ in 0..GROW_PASSES {
         grow(plan, &room, &mut limits);
     }
@@ -61,15 +62,14 @@ pub fn limits(plan: &Plan, verify: Verify) -> Limits {
 
 /// Every sector at the width that its own triangles leave room for.
 fn bounded(plan: &Plan, shares: &IdVec<Sector, f64>) -> Limits {
-    let mut placement = Placement::unmoved(plan);
-    let mut reason = IdVec::filled(Reason::None, shares.len());
-    for sector in shares.ids().filter(|&sector| plan.offsets[sector].moves()) {
-        placement.set(plan, sector, shares[sector]);
-        if shares[sector] < 1.0 {
-            reason[sector] = Reason::NoRoom;
-        }
+    let reason = |sector: Sector| {
+        let is_narrow = plan.offsets[sector].moves() && shares[sector] < 1.0;
+        if is_narrow { Reason::NoRoom } else { Reason::None }
+    };
+    Limits {
+        placement: Placement::at(plan, shares),
+        reason: plan.view.threads.map(shares.len(), reason),
     }
-    Limits { placement, reason }
 }
 
 /// Anything that can go bad.
@@ -80,27 +80,29 @@ enum Element {
     Fill(Ring),
 }
 
-/// Shrinks whatever is bad among the suspects, and then around what has shrunk.
-fn shrink(plan: &Plan, limits: &mut Limits, mut suspects: Vec<Element>) {
-    let mut round = 0;
-    loop {
+/// Shrinks what is bad, and then what is bad around what has shrunk.
+fn shrink(plan: &Plan, limits: &mut Limits, mut bad: Vec<Element>) {
+    for round in 0.. {
         let mut shrunk = Vec::new();
-        for element in suspects {
-            if !is_valid(plan, &limits.placement, element) {
-                let reason = match element {
-                    Element::Surface(_) => Reason::NoRoom,
-                    Element::Strip(_) | Element::Fill(_) => Reason::Folds,
-                };
-                blame(plan, limits, element, reason, &mut shrunk);
-            }
+        for element in bad {
+            let reason = match element {
+                Element::Surface(_) => Reason::NoRoom,
+                Element::Strip(_) | Element::Fill(_) => Reason::Folds,
+            };
+            blame(plan, limits, element, reason, &mut shrunk);
         }
         if shrunk.is_empty() {
             return;
         }
         apply(plan, limits, round, &mut shrunk);
-        suspects = around(plan, &shrunk);
-        round += 1;
+        bad = bad_around(plan, &limits.placement, &shrunk);
     }
+}
+
+/// All that depends on the sectors and is bad.
+fn bad_around(plan: &Plan, placement: &Placement, sectors: &[Sector]) -> Vec<Element> {
+    let suspects = around(plan, sectors).into_iter();
+    suspects.filter(|&element| !is_valid(plan, placement, element)).collect()
 }
 
 /// Shrinks sectors, each once; after some rounds together with their whole rings: to one share for
@@ -148,14 +150,20 @@ fn spread_over_rings(plan: &Plan, limits: &mut Limits, shrunk: &mut Vec<Sector>)
     }
 }
 
-fn all_elements(plan: &Plan) -> Vec<Element> {
-    let triangles = plan.view.triangles().filter(|&triangle| is_touched(plan, triangle));
-    let edges = plan.edges.hard.ids().filter(|&edge| plan.edges.hard[edge].skipped.is_none());
-    triangles
-        .map(Element::Surface)
-        .chain(edges.map(Element::Strip))
-        .chain(plan.sectors.rings.ids().map(Element::Fill))
-        .collect()
+/// Everything that is bad where the sectors stand now.
+fn bad_elements(plan: &Plan, placement: &Placement) -> Vec<Element> {
+    let threads = &plan.view.threads;
+    let is_bad = |element| !is_valid(plan, placement, element);
+    let triangles = threads.filter(plan.faces.normal.len(), |triangle| {
+        is_touched(plan, triangle) && is_bad(Element::Surface(triangle))
+    });
+    let edges = threads.filter(plan.edges.hard.len(), |edge| {
+        plan.edges.hard[edge].skipped.is_none() && is_bad(Element::Strip(edge))
+    });
+    let rings = threads.filter(plan.sectors.rings.len(), |ring| is_bad(Element::Fill(ring)));
+    let surface = triangles.into_iter().map(Element::Surface);
+    let strips = edges.into_iter().map(Element::Strip);
+    surface.chain(strips).chain(rings.into_iter().map(Element::Fill)).collect()
 }
 
 fn is_touched(plan: &Plan, triangle: Triangle) -> bool {
@@ -179,7 +187,7 @@ fn blame(
 }
 
 /// The sectors that an element's corners stand on.
-fn sectors_of(plan: &Plan, element: Element) -> Vec<Sector> {
+fn sectors_of(plan: &Plan, element: Element) -> Few<Sector> {
     let sector_of = |corner: Corner| plan.sectors.sector_of[corner];
     match element {
         Element::Surface(triangle) => {
@@ -188,7 +196,7 @@ fn sectors_of(plan: &Plan, element: Element) -> Vec<Sector> {
         Element::Strip(edge) => {
             strips::corners(&plan.edges.hard[edge]).into_iter().map(sector_of).collect()
         }
-        Element::Fill(ring) => plan.sectors.ring(ring).to_vec(),
+        Element::Fill(ring) => Few::from_slice(plan.sectors.ring(ring)),
     }
 }
 
@@ -261,8 +269,8 @@ pub fn fill(plan: &Plan, placement: &Placement, ring: Ring) -> Option<corners::F
     if sectors.len() < 3 {
         return Some(corners::Fill::default());
     }
-    let points: Vec<_> = sectors.iter().map(|&sector| placement.point[sector]).collect();
-    let normals: Vec<_> = sectors.iter().map(|&sector| placement.normals[sector][0]).collect();
+    let points: Few<_> = sectors.iter().map(|&sector| placement.point[sector]).collect();
+    let normals: Few<_> = sectors.iter().map(|&sector| placement.normals[sector][0]).collect();
     corners::fill(&points, &normals, plan.view.resolution)
 }
 
@@ -311,7 +319,7 @@ mod tests {
     fn shares(mesh: &MeshBuffers, width: f32) -> Vec<f64> {
         let plan = plan_of(mesh, width);
         let limits = limits(&plan, Verify::Fast);
-        assert!(all_elements(&plan).into_iter().all(|e| is_valid(&plan, &limits.placement, e)));
+        assert!(bad_elements(&plan, &limits.placement).is_empty());
         let movable = plan.sectors.fans.ids().filter(|&sector| plan.offsets[sector].moves());
         movable.map(|sector| limits.placement.share[sector]).collect()
     }

@@ -65,20 +65,18 @@ pub fn offsets(
     faces: &Faces,
     sectors: &Sectors,
 ) -> IdVec<Sector, Offset> {
-    let mut spread = Vec::new();
-    let offset = |sector| {
-        unfold(view, topology, sectors, sector, &mut spread);
+    view.threads.map_with(sectors.fans.len(), Vec::new, |spread, sector| {
+        unfold(view, topology, sectors, sector, spread);
         let fan = &sectors.fans[sector];
-        let chosen = course(view, topology, faces, fan, &spread)
-            .and_then(|course| place(view, faces, &spread, &course));
+        let chosen = course(view, topology, faces, fan, spread)
+            .and_then(|course| place(view, faces, spread, &course));
         chosen.unwrap_or(Offset {
             vector: DVec3::ZERO,
             within: fan.first,
             foot: Foot::at(fan.first),
             is_capped: false,
         })
-    };
-    IdVec::from_vec(sectors.fans.ids().map(offset).collect())
+    })
 }
 
 /// A corner of a fan, unfolded into the plane.

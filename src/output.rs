@@ -4,71 +4,79 @@
 //! per submesh: strips in the order of their edges, then fills in the order of their rings.
 
 mod collapsed;
-mod duplicates;
+mod copies;
 mod middles;
+mod submeshes;
 
-use crate::attributes::Attributes;
-use crate::ids::{Corner, Edge, Ring, Triangle};
+use crate::attributes::{Attributes, Streams};
+use crate::ids::{Edge, IdVec, Ring};
 use crate::limits::{self, Limits};
 use crate::mesh::MeshBuffers;
 use crate::options::ChamferSubmesh;
 use crate::plan::Plan;
 use crate::report::{Chamfered, TriangleKind, TriangleSource};
-use crate::seams::{self, Copies, FillMap, Owners};
-use crate::strips;
+use crate::seams::{self, FillMap, Owners};
+use crate::strips::Cut;
 use crate::verdicts::{totals, verdicts};
+use crate::view::View;
+
+use submeshes::{Submeshes, Triangles};
+
+pub use copies::Copies;
+
+/// The source as it is, for want of hard edges.
+pub fn unchanged(view: &View, target: ChamferSubmesh) -> Chamfered {
+    let Streams { vertices, sources, .. } = Streams::of_source(view);
+    let kind = TriangleKind::Source;
+    let mut submesh_index_counts = view.mesh.submesh_index_counts.to_vec();
+    if target == ChamferSubmesh::Own {
+        submesh_index_counts.push(0);
+    }
+    Chamfered {
+        mesh: MeshBuffers { indices: view.mesh.indices.to_vec(), submesh_index_counts, ..vertices },
+        vertex_sources: sources,
+        triangle_sources: view.triangles().map(|t| TriangleSource { kind, index: t.0 }).collect(),
+        width: view.width as f32,
+        ..Chamfered::default()
+    }
+}
 
 /// The result of all stages.
 pub fn output(
     plan: &Plan,
     limits: &Limits,
-    attributes: Attributes,
+    cuts: &IdVec<Edge, Cut>,
+    mut attributes: Attributes,
     target: ChamferSubmesh,
 ) -> Chamfered {
-    let owners = seams::owners(plan, &limits.placement, &attributes);
-    let mut surface = Surface {
-        plan,
-        limits,
-        owners,
-        attributes,
-        copies: Copies::default(),
-        submeshes: Submeshes::new(plan, target),
-        new: Vec::new(),
-    };
+    let owners = seams::owners(plan, &limits.placement, cuts, &attributes);
+    let copies = Copies::new(plan, &mut attributes);
     if plan.sectors.fans.ids().any(|sector| limits.placement.has_moved(plan, sector)) {
-        collapsed::close(plan, &mut surface.attributes.vertex_at);
+        collapsed::close(plan, &mut attributes.vertex_at);
     }
+    let submeshes = Submeshes::of_source(plan, target, &attributes);
+    let mut surface = Surface { plan, limits, cuts, owners, attributes, copies, submeshes };
     plan.edges.hard.ids().for_each(|edge| surface.add_strip(edge));
     plan.sectors.rings.ids().for_each(|ring| surface.add_fill(ring));
     surface.finish()
 }
 
-/// A new triangle and the submesh that it goes to.
-struct NewTriangle {
-    submesh: u32,
-    vertices: [u32; 3],
-    source: TriangleSource,
-}
-
 struct Surface<'a> {
     plan: &'a Plan<'a>,
     limits: &'a Limits,
+    cuts: &'a IdVec<Edge, Cut>,
     owners: Owners,
     attributes: Attributes,
     copies: Copies,
     submeshes: Submeshes,
-    new: Vec<NewTriangle>,
 }
 
 impl Surface<'_> {
     fn add_strip(&mut self, edge: Edge) {
         let (plan, placement) = (self.plan, &self.limits.placement);
         let hard = &plan.edges.hard[edge];
-        if hard.skipped.is_some() {
-            return;
-        }
-        let cut = strips::cut(&strips::quad(plan, placement, hard));
-        if cut.is_empty() {
+        let cut = self.cuts[edge];
+        if cut == Cut::Closed {
             return;
         }
         let owner = self.owners.side[edge];
@@ -77,16 +85,15 @@ impl Surface<'_> {
             placement,
             owner,
             hard,
+            cut,
             &mut self.attributes,
             &mut self.copies,
         );
         let source = TriangleSource { kind: TriangleKind::Edge, index: edge.0 };
-        let submesh = self.submeshes.for_new(hard.sides[owner].triangle());
-        self.new.extend(cut.iter().map(|triangle| NewTriangle {
-            submesh,
-            vertices: triangle.map(|place| vertices[place]),
-            source,
-        }));
+        for triangle in cut.triangles() {
+            let vertices = triangle.map(|place| vertices[place]);
+            self.submeshes.add(hard.sides[owner].triangle(), vertices, source);
+        }
     }
 
     fn add_fill(&mut self, ring: Ring) {
@@ -97,116 +104,44 @@ impl Surface<'_> {
             return;
         }
         let sectors = plan.sectors.ring(ring);
+        let cluster = plan.topology.cluster_at[plan.sectors.fans[sectors[0]].first];
         let map = FillMap::new(plan, placement, &self.attributes, ring, &fill);
         let streams = &mut self.attributes.streams;
         let choice = map.owner(streams, &self.owners);
         let channels = map.channels(streams, choice);
         let kite = map.kite(choice);
         let mut vertices = map.vertices.clone();
+        let copies = &mut self.copies;
         if channels != 0 {
             for (place, foot) in &kite.feet {
-                let copies = &mut self.copies;
                 vertices[*place] = copies.get(plan, streams, vertices[*place], foot, channels);
             }
         }
         for places in &fill.middles {
-            vertices.push(middles::add(plan, placement, streams, sectors, places));
-            streams.rechart(plan, vertices[vertices.len() - 1], &kite.middle, channels);
+            let middle = middles::add(plan, placement, streams, sectors, places);
+            streams.rechart(plan, middle, &kite.middle, channels);
+            vertices.push(copies.settle(streams, cluster));
         }
         let first = plan.sectors.fans[sectors[choice.0]].first;
-        let submesh = self.submeshes.for_new(first.triangle());
         let at = plan.view.vertex_at(plan.sectors.fans[sectors[0]].first);
         let source = TriangleSource { kind: TriangleKind::Corner, index: at.0 };
-        self.new.extend(fill.triangles.iter().map(|triangle| NewTriangle {
-            submesh,
-            vertices: triangle.map(|place| vertices[place]),
-            source,
-        }));
+        for triangle in &fill.triangles {
+            let vertices = triangle.map(|place| vertices[place]);
+            self.submeshes.add(first.triangle(), vertices, source);
+        }
     }
 
     fn finish(self) -> Chamfered {
-        let verdicts = verdicts(self.plan, self.limits);
-        let (mut indices, triangle_sources, submesh_index_counts) = self.triangles();
-        let mut streams = self.attributes.streams;
-        duplicates::join(&mut streams, self.plan.view.mesh.positions.len(), &mut indices);
+        let verdicts = verdicts(self.plan, self.limits, self.cuts);
+        let Triangles { indices, sources, index_counts } = self.submeshes.joined();
+        let streams = self.attributes.streams;
         Chamfered {
-            mesh: MeshBuffers { indices, submesh_index_counts, ..streams.vertices },
+            mesh: MeshBuffers { indices, submesh_index_counts: index_counts, ..streams.vertices },
             vertex_sources: streams.sources,
-            triangle_sources,
+            triangle_sources: sources,
             totals: totals(self.plan, &verdicts),
             verdicts,
             width: self.plan.view.width as f32,
-        }
-    }
-
-    fn triangles(&self) -> (Vec<u32>, Vec<TriangleSource>, Vec<u32>) {
-        let mut indices = Vec::with_capacity(self.plan.view.corner_count() + self.new.len() * 3);
-        let mut sources = Vec::with_capacity(indices.capacity() / 3);
-        let mut counts = Vec::with_capacity(self.submeshes.count());
-        let new_of = by_submesh(&self.new, self.submeshes.count());
-        for (submesh, new) in new_of.iter().enumerate() {
-            let before = indices.len();
-            for triangle in self.submeshes.source_triangles(submesh) {
-                indices.extend(triangle.corners().map(|c: Corner| self.attributes.vertex_at[c]));
-                sources.push(TriangleSource { kind: TriangleKind::Source, index: triangle.0 });
-            }
-            for &place in new {
-                indices.extend(self.new[place].vertices);
-                sources.push(self.new[place].source);
-            }
-            counts.push((indices.len() - before) as u32);
-        }
-        (indices, sources, counts)
-    }
-}
-
-/// The places of new triangles, for each submesh.
-fn by_submesh(new: &[NewTriangle], submeshes: usize) -> Vec<Vec<usize>> {
-    let mut places = vec![Vec::new(); submeshes];
-    for (place, triangle) in new.iter().enumerate() {
-        places[triangle.submesh as usize].push(place);
-    }
-    places
-}
-
-/// Which triangles belong to which submesh.
-struct Submeshes {
-    /// `#source submeshes + 1`: the first triangle of each, and the end.
-    starts: Vec<u32>,
-    target: ChamferSubmesh,
-}
-
-impl Submeshes {
-    fn new(plan: &Plan, target: ChamferSubmesh) -> Submeshes {
-        let mut starts = vec![0];
-        for count in plan.view.mesh.submesh_index_counts {
-            starts.push(starts[starts.len() - 1] + count / 3);
-        }
-        Submeshes { starts, target }
-    }
-
-    fn sources(&self) -> usize {
-        self.starts.len() - 1
-    }
-
-    fn count(&self) -> usize {
-        self.sources() + usize::from(self.target == ChamferSubmesh::Own)
-    }
-
-    fn source_triangles(&self, submesh: usize) -> impl Iterator<Item = Triangle> + use<> {
-        let bounds = self.starts.get(submesh).zip(self.starts.get(submesh + 1));
-        let (from, to) = bounds.map_or((0, 0), |(&from, &to)| (from, to));
-        (from..to).map(Triangle)
-    }
-
-    /// Where a new triangle goes whose owner's face is the given one.
-    fn for_new(&self, owner: Triangle) -> u32 {
-        match self.target {
-            ChamferSubmesh::Given(submesh) => submesh,
-            ChamferSubmesh::Own => self.sources() as u32,
-            ChamferSubmesh::Owner => {
-                self.starts.partition_point(|&start| start <= owner.0) as u32 - 1
-            }
         }
     }
 }
@@ -214,32 +149,7 @@ impl Submeshes {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plan::tests::plan_of;
     use crate::shapes;
-
-    #[test]
-    fn new_triangles_go_where_they_are_asked_to() {
-        let bolt = shapes::bolt();
-        let plan = plan_of(&bolt, 0.02);
-        let head = bolt.submesh_index_counts[0] / 3;
-        let submesh_of = |target: ChamferSubmesh| {
-            let submeshes = Submeshes::new(&plan, target);
-            [0, head - 1, head].map(|triangle| submeshes.for_new(Triangle(triangle)))
-        };
-        assert_eq!(submesh_of(ChamferSubmesh::Owner), [0, 0, 1]);
-        assert_eq!(submesh_of(ChamferSubmesh::Own), [2; 3]);
-        assert_eq!(submesh_of(ChamferSubmesh::Given(1)), [1; 3]);
-    }
-
-    #[test]
-    fn each_submesh_has_its_own_triangles_and_a_new_one_has_none() {
-        let bolt = shapes::bolt();
-        let plan = plan_of(&bolt, 0.02);
-        let submeshes = Submeshes::new(&plan, ChamferSubmesh::Own);
-        let counts = [0, 1, 2].map(|submesh| submeshes.source_triangles(submesh).count() as u32);
-        let [head, shank] = [0, 1].map(|submesh| bolt.submesh_index_counts[submesh] / 3);
-        assert_eq!((submeshes.count(), counts), (3, [head, shank, 0]));
-    }
 
     #[test]
     fn strips_stand_before_fills_in_the_order_of_their_edges() {

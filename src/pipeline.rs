@@ -3,20 +3,21 @@
 use std::ops::ControlFlow;
 
 use crate::attributes::attributes;
-use crate::edges::edges;
+use crate::edges::{edges, may_be_hard};
 use crate::error::Error;
 use crate::faces::faces;
 use crate::limits::limits;
 use crate::mesh::Mesh;
 use crate::offsets::offsets;
-use crate::options::Options;
-use crate::output::output;
-use crate::plan::Plan;
+use crate::options::{Options, Width};
+use crate::output::{output, unchanged};
+use crate::plan::{Plan, Shape};
 use crate::report::Chamfered;
 use crate::sectors::sectors;
+use crate::strips::strips;
 use crate::topology::topology;
-use crate::view::view;
-use crate::weld::weld;
+use crate::view::{View, view, view_of_checked};
+use crate::weld::{Weld, weld};
 
 /// Chamfers all hard edges of a mesh.
 ///
@@ -35,34 +36,182 @@ pub fn chamfer_with_progress(
     options: &Options,
     progress: &mut dyn FnMut(f32) -> ControlFlow<()>,
 ) -> Result<Chamfered, Error> {
-    let mut done = |share: f32| match progress(share) {
-        ControlFlow::Continue(()) => Ok(()),
-        ControlFlow::Break(()) => Err(Error::Cancelled),
-    };
-    let plan = plan(mesh, options, &mut done)?;
-    let limits = limits(&plan, options.verify);
-    done(0.8)?;
-    let attributes = attributes(&plan, &limits.placement);
-    let chamfered = output(&plan, &limits, attributes, options.chamfer_submesh);
-    done(1.0)?;
-    Ok(chamfered)
+    chamfer_by_stages(mesh, options, &mut |stage| progress(stage.share_done()))
 }
 
-/// The stages up to the offsets.
-pub(crate) fn plan<'a>(
-    mesh: &Mesh<'a>,
+/// A stage of the pipeline that can be timed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)] // Each is explained under its name in docs/pipeline.md.
+pub enum Stage {
+    View,
+    Weld,
+    Topology,
+    Faces,
+    Edges,
+    Sectors,
+    Offsets,
+    Limits,
+    Strips,
+    Attributes,
+    Output,
+}
+
+impl Stage {
+    /// How much of a typical call is done when the stage ends.
+    fn share_done(self) -> f32 {
+        match self {
+            Stage::View => 0.02,
+            Stage::Weld => 0.05,
+            Stage::Topology => 0.12,
+            Stage::Faces => 0.14,
+            Stage::Edges => 0.16,
+            Stage::Sectors => 0.2,
+            Stage::Offsets => 0.25,
+            Stage::Limits => 0.5,
+            Stage::Strips => 0.52,
+            Stage::Attributes => 0.6,
+            Stage::Output => 1.0,
+        }
+    }
+}
+
+/// As [`chamfer`], calling `after` whenever a stage ends.
+///
+/// # Errors
+/// As [`chamfer`]; [`Error::Cancelled`] where `after` breaks.
+pub fn chamfer_by_stages(
+    mesh: &Mesh,
     options: &Options,
-    done: &mut dyn FnMut(f32) -> Result<(), Error>,
-) -> Result<Plan<'a>, Error> {
+    after: &mut dyn FnMut(Stage) -> ControlFlow<()>,
+) -> Result<Chamfered, Error> {
+    let mut done = or_cancelled(after);
     let view = view(mesh, options)?;
+    done(Stage::View)?;
     let weld = weld(mesh);
-    done(0.1)?;
-    let topology = topology(&view, &weld);
-    let faces = faces(&view, &topology);
-    let edges = edges(&view, &topology, &faces);
-    done(0.3)?;
+    done(Stage::Weld)?;
+    let shape = if may_be_hard(&view, &weld) { Some(shape(&view, weld, &mut done)?) } else { None };
+    chamfer_shape(view, shape.as_ref(), options, &mut done)
+}
+
+/// A mesh with all that is known of it before anybody asks for a width: dragging one only takes
+/// the rest.
+///
+/// ```
+/// use chamfer::{Options, Prepared, Width, shapes};
+///
+/// let cube = shapes::cube(2.0);
+/// let prepared = Prepared::new(&cube.as_mesh())?;
+/// for step in 1..5 {
+///     let width = Width::Units(step as f32 / 10.0);
+///     let result = prepared.chamfer(&Options { width, ..Options::default() })?;
+///     assert_eq!(result.width, step as f32 / 10.0);
+/// }
+/// # Ok::<(), chamfer::Error>(())
+/// ```
+#[derive(Clone)]
+pub struct Prepared<'a> {
+    mesh: Mesh<'a>,
+    /// None where nothing can be hard.
+    shape: Option<Shape>,
+}
+
+impl<'a> Prepared<'a> {
+    /// Finds the hard edges of a mesh, and what moves together around them. The mesh stays
+    /// borrowed, so it cannot change in the meantime.
+    ///
+    /// # Errors
+    /// Whatever is wrong with the mesh: see [`Error`].
+    pub fn new(mesh: &Mesh<'a>) -> Result<Prepared<'a>, Error> {
+        let none = Options { width: Width::Units(0.0), threads: 1, ..Options::default() };
+        let view = view(mesh, &none)?;
+        let weld = weld(mesh);
+        let may_be_hard = may_be_hard(&view, &weld);
+        let shape = if may_be_hard { Some(shape(&view, weld, &mut |_| Ok(()))?) } else { None };
+        Ok(Prepared { mesh: *mesh, shape })
+    }
+
+    /// The same as [`chamfer`](crate::chamfer()) of the mesh, sooner.
+    ///
+    /// # Errors
+    /// Whatever is wrong with the options: see [`Error`].
+    pub fn chamfer(&self, options: &Options) -> Result<Chamfered, Error> {
+        self.chamfer_with_progress(options, &mut |_| ControlFlow::Continue(()))
+    }
+
+    /// As [`Prepared::chamfer`], calling `progress` between stages with the share done (0 to 1).
+    ///
+    /// # Errors
+    /// As [`Prepared::chamfer`]; [`Error::Cancelled`] where `progress` breaks.
+    pub fn chamfer_with_progress(
+        &self,
+        options: &Options,
+        progress: &mut dyn FnMut(f32) -> ControlFlow<()>,
+    ) -> Result<Chamfered, Error> {
+        let view = view_of_checked(&self.mesh, options)?;
+        let mut after = |stage: Stage| progress(stage.share_done());
+        chamfer_shape(view, self.shape.as_ref(), options, &mut or_cancelled(&mut after))
+    }
+}
+
+fn or_cancelled(
+    after: &mut dyn FnMut(Stage) -> ControlFlow<()>,
+) -> impl FnMut(Stage) -> Result<(), Error> {
+    |stage| match after(stage) {
+        ControlFlow::Continue(()) => Ok(()),
+        ControlFlow::Break(()) => Err(Error::Cancelled),
+    }
+}
+
+/// Told whenever a stage ends; an error ends the call.
+type Done<'a> = dyn FnMut(Stage) -> Result<(), Error> + 'a;
+
+/// The stages that no width has a say in.
+pub(crate) fn shape(view: &View, weld: Weld, done: &mut Done) -> Result<Shape, Error> {
+    let topology = topology(view, &weld);
+    done(Stage::Topology)?;
+    let faces = faces(view, &topology);
+    done(Stage::Faces)?;
+    let edges = edges(view, &topology, &faces);
+    done(Stage::Edges)?;
     let sectors = sectors(&topology, &edges);
+    done(Stage::Sectors)?;
+    Ok(Shape {
+        weld: weld.into(),
+        topology: topology.into(),
+        faces: faces.into(),
+        edges: edges.into(),
+        sectors: sectors.into(),
+    })
+}
+
+/// All that is known before the limits.
+pub(crate) fn plan<'a>(view: View<'a>, shape: &Shape) -> Plan<'a> {
+    let Shape { weld, topology, faces, edges, sectors } = shape.clone();
     let offsets = offsets(&view, &topology, &faces, &sectors);
-    done(0.4)?;
-    Ok(Plan { view, topology, faces, edges, sectors, offsets })
+    Plan { view, weld, topology, faces, edges, sectors, offsets }
+}
+
+/// The stages that depend on the width.
+fn chamfer_shape(
+    view: View,
+    shape: Option<&Shape>,
+    options: &Options,
+    done: &mut Done,
+) -> Result<Chamfered, Error> {
+    let Some(shape) = shape else {
+        let chamfered = unchanged(&view, options.chamfer_submesh);
+        done(Stage::Output)?;
+        return Ok(chamfered);
+    };
+    let plan = plan(view, shape);
+    done(Stage::Offsets)?;
+    let limits = limits(&plan, options.verify);
+    done(Stage::Limits)?;
+    let cuts = strips(&plan, &limits.placement);
+    done(Stage::Strips)?;
+    let attributes = attributes(&plan, &limits.placement);
+    done(Stage::Attributes)?;
+    let chamfered = output(&plan, &limits, &cuts, attributes, options.chamfer_submesh);
+    done(Stage::Output)?;
+    Ok(chamfered)
 }

@@ -19,31 +19,27 @@ pub struct Placement {
 
 impl Placement {
     /// Every sector where it was.
+    #[cfg(test)]
     pub fn unmoved(plan: &Plan) -> Placement {
-        let fans = || plan.sectors.fans.iter();
-        let view = &plan.view;
-        let normals = fans().map(|fan| [fan.first, fan.last].map(|corner| view.normal_at(corner)));
-        Placement {
-            share: IdVec::filled(0.0, plan.sectors.fans.len()),
-            point: IdVec::from_vec(fans().map(|fan| view.position_at(fan.first)).collect()),
-            normals: IdVec::from_vec(normals.collect()),
-        }
+        Placement::at(plan, &IdVec::filled(0.0, plan.sectors.fans.len()))
+    }
+
+    /// Every sector at a share of its offset; `share: #sectors`.
+    pub fn at(plan: &Plan, share: &IdVec<Sector, f64>) -> Placement {
+        let (threads, count) = (&plan.view.threads, share.len());
+        let point = threads.map(count, |sector| point_at(plan, sector, share[sector]));
+        let normals = threads.map(count, |sector| {
+            let has_moved = point[sector] != base(plan, sector);
+            normals_at(plan, sector, share[sector], has_moved)
+        });
+        Placement { share: share.clone(), point, normals }
     }
 
     /// Moves a sector's vertex to a share of its offset.
     pub fn set(&mut self, plan: &Plan, sector: Sector, share: f64) {
-        let fan = &plan.sectors.fans[sector];
-        let target = base(plan, sector) + plan.offsets[sector].vector * share;
         self.share[sector] = share;
-        self.point[sector] = narrow(target);
-        self.normals[sector] = [fan.first, fan.last].map(|corner| {
-            // A move that rounding swallows leaves the vertex, and so its normal, as it was.
-            if !self.has_moved(plan, sector) {
-                plan.view.normal_at(corner)
-            } else {
-                blended_normal(plan, &surface_foot(plan, sector, corner).blend(plan, share))
-            }
-        });
+        self.point[sector] = point_at(plan, sector, share);
+        self.normals[sector] = normals_at(plan, sector, share, self.has_moved(plan, sector));
     }
 
     /// Whether the sector's vertices stand elsewhere than in the source.
@@ -69,6 +65,27 @@ impl Placement {
         let is_first = plan.sectors.fans[sector].first == corner;
         self.normals[sector][usize::from(!is_first)]
     }
+}
+
+/// Where a sector's vertices stand at a share of its offset.
+fn point_at(plan: &Plan, sector: Sector, share: f64) -> DVec3 {
+    narrow(base(plan, sector) + plan.offsets[sector].vector * share)
+}
+
+/// The normals there, at the sector's first and at its last corner.
+fn normals_at(plan: &Plan, sector: Sector, share: f64, has_moved: bool) -> [DVec3; 2] {
+    let fan = &plan.sectors.fans[sector];
+    let at = |corner: Corner| {
+        // A move that rounding swallows leaves the vertex, and so its normal, as it was.
+        if !has_moved {
+            plan.view.normal_at(corner)
+        } else {
+            blended_normal(plan, &surface_foot(plan, sector, corner).blend(plan, share))
+        }
+    };
+    let first = at(fan.first);
+    let is_one = plan.view.vertex_at(fan.first) == plan.view.vertex_at(fan.last);
+    [first, if is_one { first } else { at(fan.last) }]
 }
 
 /// Where the sector's vertices stand in the source.

@@ -1,5 +1,7 @@
 //! Plan: all that is known of a mesh before the limits decide how much of it is done.
 
+use std::sync::Arc;
+
 use crate::edges::Edges;
 use crate::faces::Faces;
 use crate::ids::{IdVec, Sector};
@@ -7,14 +9,26 @@ use crate::offsets::Offset;
 use crate::sectors::Sectors;
 use crate::topology::Topology;
 use crate::view::View;
+use crate::weld::Weld;
+
+/// The values of the stages that no width has a say in.
+#[derive(Clone)]
+pub struct Shape {
+    pub weld: Arc<Weld>,
+    pub topology: Arc<Topology>,
+    pub faces: Arc<Faces>,
+    pub edges: Arc<Edges>,
+    pub sectors: Arc<Sectors>,
+}
 
 /// The values of the stages up to the offsets.
 pub struct Plan<'a> {
     pub view: View<'a>,
-    pub topology: Topology,
-    pub faces: Faces,
-    pub edges: Edges,
-    pub sectors: Sectors,
+    pub weld: Arc<Weld>,
+    pub topology: Arc<Topology>,
+    pub faces: Arc<Faces>,
+    pub edges: Arc<Edges>,
+    pub sectors: Arc<Sectors>,
     /// `#sectors`: the move at full width.
     pub offsets: IdVec<Sector, Offset>,
 }
@@ -24,11 +38,16 @@ pub mod tests {
     use super::*;
     use crate::mesh::MeshBuffers;
     use crate::options::{Options, Width};
-    use crate::pipeline::plan;
+    use crate::pipeline::{plan, shape};
+    use crate::view::view;
+    use crate::weld::weld;
 
     /// The plan of a sound mesh for a width in mesh units.
     pub fn plan_of(mesh: &MeshBuffers, width: f32) -> Plan<'_> {
         let options = Options { width: Width::Units(width), ..Options::default() };
-        plan(&mesh.as_mesh(), &options, &mut |_| Ok(())).unwrap()
+        let view = view(&mesh.as_mesh(), &options).unwrap();
+        let weld = weld(&view.mesh);
+        let shape = shape(&view, weld, &mut |_| Ok(())).unwrap();
+        plan(view, &shape)
     }
 }

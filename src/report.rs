@@ -199,6 +199,7 @@ pub struct Totals {
     /// Those left as they were, by reason (indexed by [`Reason`] as a number).
     pub skipped: [u32; Reason::ALL.len()],
     /// Mean width of the hard edges, as a share (0 to 1) of the width asked for, weighted by edge
-    /// length; 0 without hard edges.
+    /// length; 0 without hard edges. Skipped edges have none; ends at which a chamfer tapers to a
+    /// point, because its edge ends there, do not count.
     pub mean_width: f32,
 }

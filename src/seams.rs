@@ -9,19 +9,17 @@ mod density;
 mod feet;
 mod owners;
 
-use std::collections::HashMap;
-
 use glam::{DVec2, DVec3};
 
 use crate::attributes::{Attributes, Streams};
 use crate::corners::{Fill, middle};
 use crate::edges::HardEdge;
-use crate::ids::{Corner, Edge, Id, Ring, Sector, Vertex};
+use crate::ids::{Corner, Edge, Few, Ring, Sector};
 use crate::mesh::UV_CHANNELS;
+use crate::output::Copies;
 use crate::placement::{Placement, base};
 use crate::plan::Plan;
 use crate::report::Blend;
-use crate::resample::uv_at;
 use crate::strips::{self, Cut};
 
 use density::{MOST_STRETCH, density, stretch, uv_point};
@@ -29,29 +27,6 @@ use feet::{REACHES, is_broken, kite, strip_feet};
 
 pub use feet::Kite;
 pub use owners::{Owners, owners};
-
-/// UV values that differ by less than this share of their size are one: exporters round.
-const EQUAL_UV: f32 = 1e-6;
-
-/// The channels that differ across an edge, as bits.
-pub fn seam_channels(plan: &Plan, edge: &HardEdge) -> u8 {
-    let [one, two] = edge.sides;
-    let pairs = [(one, two.next()), (one.next(), two)];
-    let mut channels = 0;
-    for (channel, uv) in plan.view.mesh.uvs.iter().enumerate().filter(|(_, uv)| uv.components > 0) {
-        let value = |corner: Corner| uv_at(uv, plan.view.vertex_at(corner).index());
-        let differs = |(one, other): (Corner, Corner)| {
-            value(one)
-                .iter()
-                .zip(value(other))
-                .any(|(&a, &b)| (a - b).abs() > EQUAL_UV * a.abs().max(1.0))
-        };
-        if pairs.into_iter().any(differs) {
-            channels |= 1 << channel;
-        }
-    }
-    channels
-}
 
 /// The UV channels that a mesh has.
 fn channels_of(plan: &Plan) -> impl Iterator<Item = usize> + use<> {
@@ -64,40 +39,6 @@ fn place_of(plan: &Plan, channel: usize, blend: &Blend) -> DVec2 {
     let uv = &plan.view.mesh.uvs[channel];
     let terms = blend.vertices.iter().zip(blend.weights);
     terms.map(|(&vertex, weight)| uv_point(uv, vertex) * f64::from(weight)).sum()
-}
-
-/// Copies of vertices in other charts; each is made once.
-#[derive(Default)]
-pub struct Copies {
-    /// Copies in the order of their making: of which output vertex, and which one it is.
-    made: HashMap<u32, Vec<u32>>,
-}
-
-impl Copies {
-    /// An output vertex with the given channels taken from a place in another chart.
-    pub fn get(
-        &mut self,
-        plan: &Plan,
-        streams: &mut Streams,
-        vertex: u32,
-        chart: &Blend,
-        channels: u8,
-    ) -> u32 {
-        let copy = streams.append(Vertex(vertex));
-        streams.rechart(plan, copy, chart, channels);
-        let known = self.made.entry(vertex).or_default();
-        let equal = std::iter::once(vertex).chain(known.iter().copied());
-        match equal.into_iter().find(|&other| streams.are_equal(other, copy)) {
-            Some(other) => {
-                streams.pop();
-                other
-            }
-            None => {
-                known.push(copy);
-                copy
-            }
-        }
-    }
 }
 
 /// How a strip lies on the texture of a channel.
@@ -115,10 +56,11 @@ impl<'a> StripMap<'a> {
         placement: &Placement,
         attributes: &Attributes,
         edge: &HardEdge,
+        cut: Cut,
     ) -> Self {
-        let quad = strips::quad(plan, placement, edge);
-        let vertices = strips::corners(edge).map(|corner| attributes.vertex_at[corner]);
-        StripMap { plan, points: quad.points, cut: strips::cut(&quad), vertices }
+        let corners = strips::corners(edge);
+        let points = corners.map(|corner| placement.position_at(plan, corner));
+        StripMap { plan, points, cut, vertices: corners.map(|c| attributes.vertex_at[c]) }
     }
 
     /// How much the strip stretches the texture of a face, with some corners moved to their feet.
@@ -133,7 +75,8 @@ impl<'a> StripMap<'a> {
         for (place, foot) in feet {
             uvs[*place] = place_of(self.plan, channel, foot);
         }
-        let triangles = self.cut.iter().map(|t| (t.map(|k| self.points[k]), t.map(|k| uvs[k])));
+        let triangles = self.cut.triangles().iter();
+        let triangles = triangles.map(|t| (t.map(|k| self.points[k]), t.map(|k| uvs[k])));
         stretch(density(self.plan, face.triangle(), channel), self.plan.view.resolution, triangles)
     }
 
@@ -159,13 +102,14 @@ pub fn strip_vertices(
     placement: &Placement,
     owner: usize,
     edge: &HardEdge,
+    cut: Cut,
     attributes: &mut Attributes,
     copies: &mut Copies,
 ) -> [u32; 4] {
-    let map = StripMap::new(plan, placement, attributes, edge);
+    let map = StripMap::new(plan, placement, attributes, edge, cut);
     let feet = strip_feet(plan, placement, edge, owner);
     let face = edge.sides[owner];
-    let mut channels = seam_channels(plan, edge);
+    let mut channels = edge.seams;
     let streams = &mut attributes.streams;
     let seams = channels;
     for channel in channels_of(plan).filter(|&channel| seams >> channel & 1 == 0) {
@@ -191,9 +135,9 @@ pub struct FillMap<'a> {
     placement: &'a Placement,
     sectors: &'a [Sector],
     fill: &'a Fill,
-    points: Vec<DVec3>,
+    points: Few<DVec3>,
     /// `#sectors`: their output vertices.
-    pub vertices: Vec<u32>,
+    pub vertices: Few<u32>,
 }
 
 impl<'a> FillMap<'a> {
@@ -206,8 +150,8 @@ impl<'a> FillMap<'a> {
     ) -> Self {
         let sectors = plan.sectors.ring(ring);
         let own = |sector: &Sector| attributes.vertex_at[plan.sectors.fans[*sector].first];
-        let mut points: Vec<DVec3> = sectors.iter().map(|&s| placement.point[s]).collect();
-        let middles: Vec<DVec3> = fill.middles.iter().map(|at| middle(&points, at)).collect();
+        let mut points: Few<DVec3> = sectors.iter().map(|&s| placement.point[s]).collect();
+        let middles: Few<DVec3> = fill.middles.iter().map(|at| middle(&points, at)).collect();
         points.extend(middles);
         let vertices = sectors.iter().map(own).collect();
         FillMap { plan, placement, sectors, fill, points, vertices }
@@ -229,7 +173,7 @@ impl<'a> FillMap<'a> {
         if !self.fill.middles.is_empty() {
             return 1.0;
         }
-        let uvs: Vec<DVec2> = self.vertices.iter().map(|&v| streams.uv(v, channel)).collect();
+        let uvs: Few<DVec2> = self.vertices.iter().map(|&v| streams.uv(v, channel)).collect();
         self.stretch(channel, owner, &uvs)
     }
 
@@ -239,7 +183,7 @@ impl<'a> FillMap<'a> {
         }
         let kite = self.kite((owner, reach));
         let middle = place_of(self.plan, channel, &kite.middle);
-        let mut uvs = vec![middle; self.points.len()];
+        let mut uvs: Few<DVec2> = self.points.iter().map(|_| middle).collect();
         uvs[owner] = streams.uv(self.vertices[owner], channel);
         for (place, foot) in &kite.feet {
             uvs[*place] = place_of(self.plan, channel, foot);
@@ -255,8 +199,10 @@ impl<'a> FillMap<'a> {
     /// Which sector's chart the fill continues, and with what reach: the first in rank whose kite
     /// fits, or else the one that fits best.
     pub fn owner(&self, streams: &Streams, owners: &Owners) -> (usize, f64) {
-        let mut places: Vec<usize> = (0..self.sectors.len()).collect();
-        places.sort_by_key(|&place| std::cmp::Reverse(self.rank(place, owners)));
+        let mut ranked: Few<_> =
+            (0..self.sectors.len()).map(|place| (self.rank(place, owners), place)).collect();
+        ranked.sort_unstable_by(|one, other| other.cmp(one));
+        let places: Few<usize> = ranked.iter().map(|&(_, place)| place).collect();
         let broken = channels_of(self.plan).find(|&channel| self.seams(channel) > 0);
         let mut best = (f64::INFINITY, (places[0], REACHES[0]));
         let Some(channel) = broken else { return best.1 };
@@ -296,8 +242,7 @@ impl<'a> FillMap<'a> {
         let plan = self.plan;
         let breaks = |&sector: &Sector| {
             let edge = plan.edges.chamfered_at[plan.sectors.fans[sector].last.prev()];
-            let at_edge =
-                edge.is_some() && seam_channels(plan, &plan.edges.hard[edge]) >> channel & 1 == 1;
+            let at_edge = edge.is_some() && plan.edges.hard[edge].seams >> channel & 1 == 1;
             usize::from(at_edge) + usize::from(is_broken(plan, sector, channel))
         };
         self.sectors.iter().map(breaks).sum()
@@ -332,24 +277,15 @@ mod tests {
     use crate::options::Verify;
     use crate::plan::tests::plan_of;
     use crate::shapes;
-
-    #[test]
-    fn a_channel_that_differs_across_an_edge_is_a_seam_there() {
-        let (seamed, plain) = (shapes::cube(1.0), shapes::plain_cube(1.0));
-        let channels = |mesh| {
-            let plan = plan_of(mesh, 0.1);
-            plan.edges.hard.iter().map(|edge| seam_channels(&plan, edge)).collect::<Vec<_>>()
-        };
-        assert_eq!(channels(&seamed), [1; 12]);
-        assert_eq!(channels(&plain), [0; 12]);
-    }
+    use crate::strips::strips;
 
     #[test]
     fn a_chain_of_edges_between_two_regions_has_one_owner() {
         let cylinder = shapes::cylinder(12);
         let plan = plan_of(&cylinder, 0.05);
         let placement = limits(&plan, Verify::Fast).placement;
-        let owners = owners(&plan, &placement, &attributes(&plan, &placement));
+        let cuts = strips(&plan, &placement);
+        let owners = owners(&plan, &placement, &cuts, &attributes(&plan, &placement));
         for edge in plan.edges.hard.ids() {
             let owner = plan.edges.hard[edge].sides[owners.side[edge]].triangle();
             assert!(owner < Triangle(24), "the side of the cylinder comes first");

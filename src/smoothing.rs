@@ -10,6 +10,7 @@ use crate::faces::faces;
 use crate::ids::{Corner, Id, IdVec, Triangle, Vertex};
 use crate::math::unit;
 use crate::mesh::Mesh;
+use crate::threads::Threads;
 use crate::topology::{Topology, topology};
 use crate::view::{View, resolution, wide};
 use crate::weld::weld;
@@ -47,7 +48,8 @@ pub fn split_by_angle(positions: &[[f32; 3]], indices: &[u32], angle_degrees: f3
         submesh_index_counts: &counts,
         ..Mesh::default()
     };
-    let view = View { mesh, width: 0.0, resolution: resolution(&mesh) };
+    let threads = Threads::default();
+    let view = View { mesh, width: 0.0, resolution: resolution(&mesh), threads };
     let topology = topology(&view, &weld(&mesh));
     let faces = faces(&view, &topology).normal;
     let cosine = libm::cos(f64::from(angle_degrees).to_radians());

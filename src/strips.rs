@@ -9,7 +9,7 @@
 use glam::DVec3;
 
 use crate::edges::HardEdge;
-use crate::ids::Corner;
+use crate::ids::{Corner, Edge, IdVec};
 use crate::math::{area_vector, unit};
 use crate::placement::Placement;
 use crate::plan::Plan;
@@ -33,14 +33,44 @@ pub struct Quad {
     pub normals: [DVec3; 4],
 }
 
-/// The triangles of a strip, as places in its four corners.
-pub type Cut = &'static [[usize; 3]];
+/// How a strip is cut into triangles.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cut {
+    /// Neither end opens.
+    Closed,
+    /// Only end b opens.
+    OpenAtB,
+    /// Only end a opens.
+    OpenAtA,
+    /// By the diagonal from b1.
+    FromB1,
+    /// By the diagonal from a1.
+    FromA1,
+}
 
-const CLOSED: Cut = &[];
-const OPEN_AT_B: Cut = &[[0, 1, 3]];
-const OPEN_AT_A: Cut = &[[0, 1, 2]];
-const FROM_B1: Cut = &[[0, 1, 2], [0, 2, 3]];
-const FROM_A1: Cut = &[[0, 1, 3], [1, 2, 3]];
+impl Cut {
+    /// The triangles, as places in the strip's four corners.
+    pub fn triangles(self) -> &'static [[usize; 3]] {
+        match self {
+            Cut::Closed => &[],
+            Cut::OpenAtB => &[[0, 1, 3]],
+            Cut::OpenAtA => &[[0, 1, 2]],
+            Cut::FromB1 => &[[0, 1, 2], [0, 2, 3]],
+            Cut::FromA1 => &[[0, 1, 3], [1, 2, 3]],
+        }
+    }
+}
+
+/// `#hard edges`: how each strip is cut where the sectors stand now.
+pub fn strips(plan: &Plan, placement: &Placement) -> IdVec<Edge, Cut> {
+    plan.view.threads.map(plan.edges.hard.len(), |edge| {
+        let edge = &plan.edges.hard[edge];
+        match edge.skipped {
+            Some(_) => Cut::Closed,
+            None => cut(&quad(plan, placement, edge)),
+        }
+    })
+}
 
 pub fn quad(plan: &Plan, placement: &Placement, edge: &HardEdge) -> Quad {
     let corners = corners(edge);
@@ -54,15 +84,15 @@ pub fn quad(plan: &Plan, placement: &Placement, edge: &HardEdge) -> Quad {
 pub fn cut(quad: &Quad) -> Cut {
     let [b1, a1, a2, b2] = quad.points;
     match (a1 == a2, b1 == b2) {
-        (true, true) => CLOSED,
-        (true, false) => OPEN_AT_B,
-        (false, true) => OPEN_AT_A,
+        (true, true) => Cut::Closed,
+        (true, false) => Cut::OpenAtB,
+        (false, true) => Cut::OpenAtA,
         (false, false) => {
-            let (from_b1, from_a1) = (fold(quad, FROM_B1), fold(quad, FROM_A1));
+            let (from_b1, from_a1) = (fold(quad, Cut::FromB1), fold(quad, Cut::FromA1));
             let is_longer = b1.distance_squared(a2) > a1.distance_squared(b2);
             let folds_more = from_b1 < from_a1 - EQUAL_FOLD;
             let folds_alike = (from_b1 - from_a1).abs() <= EQUAL_FOLD;
-            if folds_more || (folds_alike && is_longer) { FROM_A1 } else { FROM_B1 }
+            if folds_more || (folds_alike && is_longer) { Cut::FromA1 } else { Cut::FromB1 }
         }
     }
 }
@@ -74,13 +104,14 @@ pub fn is_valid(quad: &Quad, cut: Cut, edge: DVec3, resolution: f64) -> bool {
     let faces = |triangle: &[usize; 3]| {
         faces_out(triangle.map(|k| quad.points[k]), triangle.map(|k| quad.normals[k]), resolution)
     };
-    runs_along(a1, b1) && runs_along(a2, b2) && cut.iter().all(faces)
+    runs_along(a1, b1) && runs_along(a2, b2) && cut.triangles().iter().all(faces)
 }
 
 /// The cosine between the two triangles' normals.
 fn fold(quad: &Quad, cut: Cut) -> f64 {
     let normal = |triangle: [usize; 3]| unit(area_vector(triangle.map(|k| quad.points[k])));
-    normal(cut[0]).dot(normal(cut[1]))
+    let triangles = cut.triangles();
+    normal(triangles[0]).dot(normal(triangles[1]))
 }
 
 #[cfg(test)]
@@ -101,7 +132,7 @@ mod tests {
     #[test]
     fn an_open_strip_is_two_triangles_that_face_out() {
         let quad = quad(FLAT);
-        assert_eq!(cut(&quad).len(), 2);
+        assert_eq!(cut(&quad).triangles().len(), 2);
         assert!(is_valid(&quad, cut(&quad), DVec3::X, 1e-6));
         assert!(!is_valid(&quad, cut(&quad), DVec3::NEG_X, 1e-6), "the pulled edges are reversed");
     }
@@ -109,20 +140,20 @@ mod tests {
     #[test]
     fn an_end_that_does_not_open_leaves_one_triangle() {
         let [b1, a1, a2, b2] = FLAT;
-        assert_eq!(cut(&quad([b1, a1, a1, b2])), OPEN_AT_B);
-        assert_eq!(cut(&quad([b1, a1, a2, b1])), OPEN_AT_A);
-        assert_eq!(cut(&quad([b1, a1, a1, b1])), CLOSED);
+        assert_eq!(cut(&quad([b1, a1, a1, b2])), Cut::OpenAtB);
+        assert_eq!(cut(&quad([b1, a1, a2, b1])), Cut::OpenAtA);
+        assert_eq!(cut(&quad([b1, a1, a1, b1])), Cut::Closed);
     }
 
     #[test]
     fn the_diagonal_that_folds_less_is_taken() {
         let [b1, a1, a2, b2] = FLAT;
         let shifted = quad([b1, [1.0, 1.0, 0.0], a2, b2]);
-        assert_eq!(cut(&shifted), FROM_A1, "flat: the shorter diagonal");
+        assert_eq!(cut(&shifted), Cut::FromA1, "flat: the shorter diagonal");
         let [mut low_b1, a1_again] = [b1, a1];
         low_b1[2] = -0.5;
         let twisted = quad([low_b1, a1_again, a2, b2]);
-        let folds = [fold(&twisted, FROM_B1), fold(&twisted, FROM_A1)];
-        assert_eq!(cut(&twisted) == FROM_A1, folds[1] >= folds[0]);
+        let folds = [fold(&twisted, Cut::FromB1), fold(&twisted, Cut::FromA1)];
+        assert_eq!(cut(&twisted) == Cut::FromA1, folds[1] >= folds[0]);
     }
 }

@@ -1,20 +1,20 @@
 //! Verdicts: what became of each hard edge, measured on the result.
 
 use crate::edges::HardEdge;
-use crate::ids::{Edge, Sector};
+use crate::ids::{Edge, IdVec, Sector};
 use crate::limits::Limits;
 use crate::math::unit;
 use crate::plan::Plan;
 use crate::report::{EdgeVerdict, Outcome, Reason, Totals};
-use crate::strips;
+use crate::strips::{self, Cut};
 
 /// `#hard edges`.
-pub fn verdicts(plan: &Plan, limits: &Limits) -> Vec<EdgeVerdict> {
-    plan.edges.hard.ids().map(|edge| verdict(plan, limits, edge)).collect()
+pub fn verdicts(plan: &Plan, limits: &Limits, cuts: &IdVec<Edge, Cut>) -> Vec<EdgeVerdict> {
+    let of_edge = |edge| verdict(plan, limits, &plan.edges.hard[edge], cuts[edge]);
+    plan.edges.hard.ids().map(of_edge).collect()
 }
 
-fn verdict(plan: &Plan, limits: &Limits, edge: Edge) -> EdgeVerdict {
-    let edge = &plan.edges.hard[edge];
+fn verdict(plan: &Plan, limits: &Limits, edge: &HardEdge, cut: Cut) -> EdgeVerdict {
     let ends = [edge.sides[0], edge.sides[0].next()];
     let left = |reason| (Outcome::Skipped, reason, [0.0; 2]);
     let (outcome, reason, widths) = match edge.skipped {
@@ -22,7 +22,7 @@ fn verdict(plan: &Plan, limits: &Limits, edge: Edge) -> EdgeVerdict {
         None => {
             let sectors = strips::corners(edge).map(|corner| plan.sectors.sector_of[corner]);
             let reason = worst_reason(plan, limits, sectors);
-            if !is_open(plan, limits, edge) {
+            if cut == Cut::Closed {
                 left(reason.unwrap_or(unopened(plan)))
             } else {
                 let outcome = if reason.is_some() { Outcome::Narrowed } else { Outcome::Full };
@@ -31,10 +31,6 @@ fn verdict(plan: &Plan, limits: &Limits, edge: Edge) -> EdgeVerdict {
         }
     };
     EdgeVerdict { vertices: ends.map(|end| plan.view.vertex_at(end).0), outcome, reason, widths }
-}
-
-fn is_open(plan: &Plan, limits: &Limits, edge: &HardEdge) -> bool {
-    !strips::cut(&strips::quad(plan, &limits.placement, edge)).is_empty()
 }
 
 /// Why an edge did not open though nothing limited it.
@@ -57,7 +53,8 @@ fn worst_reason(plan: &Plan, limits: &Limits, sectors: [Sector; 4]) -> Option<Re
 fn widths(plan: &Plan, limits: &Limits, edge: &HardEdge) -> [f32; 2] {
     let [from, to] = [edge.sides[0], edge.sides[0].next()].map(|c| plan.view.position_at(c));
     let along = unit(to - from);
-    let [b1, a1, a2, b2] = strips::quad(plan, &limits.placement, edge).points;
+    let corners = strips::corners(edge);
+    let [b1, a1, a2, b2] = corners.map(|corner| limits.placement.position_at(plan, corner));
     let distance = |point: glam::DVec3| (point - from).cross(along).length();
     [(a1, a2), (b1, b2)].map(|(one, two)| ((distance(one) + distance(two)) / 2.0) as f32)
 }
@@ -73,12 +70,26 @@ pub fn totals(plan: &Plan, verdicts: &[EdgeVerdict]) -> Totals {
         }
         let [from, to] = [edge.sides[0], edge.sides[0].next()].map(|c| plan.view.position_at(c));
         let length = from.distance(to);
-        let share = |width: f32| (f64::from(width) / plan.view.width).min(1.0);
-        whole += length;
-        got += length * (share(verdict.widths[0]) + share(verdict.widths[1])) / 2.0;
+        for (width, counts) in verdict.widths.into_iter().zip(counting_ends(plan, verdict, edge)) {
+            if counts {
+                whole += length;
+                got += length * (f64::from(width) / plan.view.width).min(1.0);
+            }
+        }
     }
     totals.mean_width = if whole > 0.0 { (got / whole) as f32 } else { 0.0 };
     totals
+}
+
+/// The ends of an edge at which a width was asked for: not those at which its chamfer tapers to a
+/// point because it ends there.
+fn counting_ends(plan: &Plan, verdict: &EdgeVerdict, edge: &HardEdge) -> [bool; 2] {
+    let moves = strips::corners(edge).map(|corner| {
+        let sector = plan.sectors.sector_of[corner];
+        sector.is_some() && plan.offsets[sector].moves()
+    });
+    let is_skipped = verdict.outcome == Outcome::Skipped;
+    [moves[1] || moves[2], moves[0] || moves[3]].map(|moves| moves || is_skipped)
 }
 
 #[cfg(test)]
@@ -92,7 +103,8 @@ mod tests {
 
     fn judge(mesh: &MeshBuffers, width: f32) -> (Vec<EdgeVerdict>, Totals) {
         let plan = plan_of(mesh, width);
-        let verdicts = verdicts(&plan, &limits(&plan, Verify::Fast));
+        let limits = limits(&plan, Verify::Fast);
+        let verdicts = verdicts(&plan, &limits, &strips::strips(&plan, &limits.placement));
         let totals = totals(&plan, &verdicts);
         (verdicts, totals)
     }
@@ -122,6 +134,14 @@ mod tests {
         assert!(verdicts.iter().all(|verdict| verdict.reason == Reason::TooFine));
         assert_eq!(totals.skipped[Reason::TooFine as usize], 12);
         assert_eq!(totals.mean_width, 0.0);
+    }
+
+    #[test]
+    fn where_a_chamfer_ends_in_a_point_no_width_is_missing() {
+        let (verdicts, totals) = judge(&shapes::wedge_end(), 0.01);
+        assert!(verdicts.iter().any(|verdict| verdict.widths.contains(&0.0)));
+        // The ridge's edge is long enough that half of it would show.
+        assert!(totals.mean_width > 0.998, "{}", totals.mean_width);
     }
 
     #[test]

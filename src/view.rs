@@ -9,6 +9,7 @@ use crate::ids::{Corner, Id, Triangle, Vertex};
 use crate::memory;
 use crate::mesh::{Mesh, UV_CHANNELS, Uv};
 use crate::options::{ChamferSubmesh, Options, Width};
+use crate::threads::Threads;
 
 /// New elements are fewer than eight for each source corner, so ids stay within 32 bits.
 const MAX_CORNERS: usize = u32::MAX as usize / 8;
@@ -27,6 +28,8 @@ pub struct View<'a> {
     pub width: f64,
     /// The shortest length that single precision can tell from zero on this mesh.
     pub resolution: f64,
+    /// Who does the work.
+    pub threads: Threads,
 }
 
 /// Validates a mesh and the options that go with it.
@@ -34,6 +37,11 @@ pub fn view<'a>(mesh: &Mesh<'a>, options: &Options) -> Result<View<'a>, Error> {
     check_lengths(mesh)?;
     check_indices(mesh)?;
     check_finite(mesh)?;
+    view_of_checked(mesh, options)
+}
+
+/// As [`view`], of a mesh that keeps all rules for sure.
+pub fn view_of_checked<'a>(mesh: &Mesh<'a>, options: &Options) -> Result<View<'a>, Error> {
     if let ChamferSubmesh::Given(submesh) = options.chamfer_submesh {
         let submeshes = mesh.submesh_index_counts.len() as u32;
         if submesh >= submeshes {
@@ -42,7 +50,8 @@ pub fn view<'a>(mesh: &Mesh<'a>, options: &Options) -> Result<View<'a>, Error> {
     }
     let width = width_in_units(mesh, options.width)?;
     memory::check(mesh, options.verify)?;
-    Ok(View { mesh: *mesh, width, resolution: resolution(mesh) })
+    let threads = Threads::new(options.threads, mesh.indices.len());
+    Ok(View { mesh: *mesh, width, resolution: resolution(mesh), threads })
 }
 
 impl View<'_> {

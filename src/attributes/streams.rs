@@ -8,7 +8,7 @@ use crate::mesh::{MeshBuffers, UV_CHANNELS};
 use crate::plan::Plan;
 use crate::report::{Blend, VertexSource};
 use crate::resample::{blended_normal, weighted_sum};
-use crate::view::wide;
+use crate::view::{View, wide};
 
 /// UV channels as bits.
 pub type Channels = u8;
@@ -25,8 +25,8 @@ pub struct Streams {
 
 impl Streams {
     /// The streams of the source as they are.
-    pub fn of_source(plan: &Plan) -> Streams {
-        let mesh = crate::mesh::Mesh { indices: &[], submesh_index_counts: &[], ..plan.view.mesh };
+    pub fn of_source(view: &View) -> Streams {
+        let mesh = crate::mesh::Mesh { indices: &[], submesh_index_counts: &[], ..view.mesh };
         let count = mesh.positions.len() as u32;
         let untouched = |v| VertexSource::new(Blend::one(v), Blend::one(v));
         Streams {

@@ -5,13 +5,13 @@
 
 use crate::corners;
 use crate::groups::Groups;
-use crate::ids::{Corner, Id, IdVec, Sector, Triangle};
+use crate::ids::{Corner, Few, Id, IdVec, Sector, Triangle};
 use crate::intersect::self_intersections;
 use crate::plan::Plan;
 use crate::report::Reason;
 use crate::strips;
 
-use super::{Element, Limits, apply, around, blame, fill, is_valid, sectors_of, shrink};
+use super::{Element, Limits, apply, bad_around, blame, fill, sectors_of, shrink};
 
 /// Rounds in which width is given back: the rest is within an eighth of what would fit.
 const GIVE_BACK_ROUNDS: usize = 3;
@@ -30,8 +30,8 @@ pub fn resolve(plan: &Plan, limits: &mut Limits) {
             break;
         }
         apply(plan, limits, round, &mut shrunk);
-        let changed = around(plan, &shrunk);
-        shrink(plan, limits, changed);
+        let bad = bad_around(plan, &limits.placement, &shrunk);
+        shrink(plan, limits, bad);
     }
     give_back(&mut search, limits, &free);
 }
@@ -52,8 +52,7 @@ fn give_back(search: &mut Search, limits: &mut Limits, free: &IdVec<Sector, f64>
         }
         loop {
             let mut bad = search.new_cuts(limits);
-            let suspects = around(plan, &shrunk);
-            bad.extend(suspects.into_iter().filter(|&e| !is_valid(plan, &limits.placement, e)));
+            bad.extend(bad_around(plan, &limits.placement, &shrunk));
             let mut back: Vec<Sector> = bad.iter().flat_map(|&e| sectors_of(plan, e)).collect();
             back.retain(|&sector| limits.placement.share[sector] > safe[sector]);
             if back.is_empty() {
@@ -141,7 +140,7 @@ fn soup(plan: &Plan, limits: &Limits, part_of: &[u32]) -> Soup {
         let hard = &plan.edges.hard[edge];
         let quad = strips::quad(plan, placement, hard);
         let part = part_of[hard.sides[0].triangle().index()];
-        for corners in strips::cut(&quad) {
+        for corners in strips::cut(&quad).triangles() {
             soup.push(corners.map(|place| quad.points[place]), part, Element::Strip(edge));
         }
     }
@@ -149,8 +148,8 @@ fn soup(plan: &Plan, limits: &Limits, part_of: &[u32]) -> Soup {
         let sectors = plan.sectors.ring(ring);
         let part = part_of[plan.sectors.fans[sectors[0]].first.triangle().index()];
         let fill = fill(plan, placement, ring).unwrap_or_default();
-        let mut points: Vec<_> = sectors.iter().map(|&sector| placement.point[sector]).collect();
-        let middles: Vec<_> =
+        let mut points: Few<_> = sectors.iter().map(|&sector| placement.point[sector]).collect();
+        let middles: Few<_> =
             fill.middles.iter().map(|places| corners::middle(&points, places)).collect();
         points.extend(middles);
         for corners in &fill.triangles {

@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use crate::attributes::Streams;
 use crate::corners;
-use crate::ids::{Sector, Vertex};
+use crate::ids::{Few, Sector, Vertex};
 use crate::math::unit;
 use crate::placement::{Placement, base};
 use crate::plan::Plan;
@@ -25,7 +25,7 @@ pub fn add(
     sectors: &[Sector],
     places: &[usize],
 ) -> u32 {
-    let points: Vec<DVec3> = sectors.iter().map(|&s| placement.point[s]).collect();
+    let points: Few<DVec3> = sectors.iter().map(|&s| placement.point[s]).collect();
     let normal = unit(places.iter().map(|&place| placement.normals[sectors[place]][0]).sum());
     let position = corners::middle(&points, places);
     let blend = nearest(plan, sectors, position);
@@ -40,7 +40,7 @@ fn nearest(plan: &Plan, sectors: &[Sector], point: DVec3) -> Blend {
     let firsts = || sectors.iter().map(|&sector| plan.sectors.fans[sector].first);
     let corner = plan.view.vertex_at(plan.sectors.fans[sectors[0]].first);
     let at = base(plan, sectors[0]);
-    let neighbours: Vec<Vertex> = firsts().map(|first| plan.view.vertex_at(first.next())).collect();
+    let neighbours: Few<Vertex> = firsts().map(|first| plan.view.vertex_at(first.next())).collect();
     let mut best = (at.distance(point), Blend::one(corner.0));
     for (k, &one) in neighbours.iter().enumerate() {
         for &other in &neighbours[k + 1..] {

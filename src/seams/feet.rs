@@ -1,7 +1,7 @@
 //! Feet: where in its owner's chart the far vertices of a chamfer come to lie.
 
 use crate::edges::HardEdge;
-use crate::ids::{Corner, Id, Sector};
+use crate::ids::{Corner, Few, Id, Sector};
 use crate::mesh::UV_CHANNELS;
 use crate::placement::Placement;
 use crate::plan::Plan;
@@ -52,7 +52,11 @@ pub fn foot_on_edge(
 fn on_edge(plan: &Plan, half_edge: Corner, share: f64) -> Blend {
     let [from, to] = [half_edge, half_edge.next()].map(|corner| plan.view.vertex_at(corner).0);
     let share = share.clamp(0.0, 1.0);
-    mixed(&[(Blend::one(from), 1.0 - share), (Blend::one(to), share)])
+    match [1.0 - share, share].map(|weight| weight as f32) {
+        [0.0, weight] => Blend { vertices: [to; 3], weights: [weight, 0.0, 0.0] },
+        [weight, 0.0] => Blend { vertices: [from; 3], weights: [weight, 0.0, 0.0] },
+        [near, far] => Blend { vertices: [from, to, from], weights: [near, far, 0.0] },
+    }
 }
 
 /// A weighted sum of blends that have no more than three vertices between them; of others, those
@@ -89,7 +93,7 @@ pub const REACHES: [f64; 3] = [1.0, 2.0, 4.0];
 /// owner's two edges, and the old corner.
 pub struct Kite {
     /// The other sectors, as places in the ring.
-    pub feet: Vec<(usize, Blend)>,
+    pub feet: Few<(usize, Blend)>,
     /// For vertices in the middle.
     pub middle: Blend,
 }

@@ -1,14 +1,13 @@
 //! Owners: which side's texture each strip continues.
 
-use std::collections::HashMap;
-
 use super::density::MOST_STRETCH;
 use super::feet::{is_pair, strip_feet};
-use super::{StripMap, seam_channels, strays};
+use super::{StripMap, strays};
 use crate::attributes::Attributes;
 use crate::ids::{Corner, Edge, IdVec, Triangle};
 use crate::placement::Placement;
 use crate::plan::Plan;
+use crate::strips::Cut;
 
 /// `#hard edges`: which of its two sides owns the chamfer.
 pub struct Owners {
@@ -21,15 +20,22 @@ const UNDECIDED: usize = usize::MAX;
 /// A whole chain of edges between two smooth regions has one owner, so that the texture does not
 /// zigzag: the region whose band fits more of the strips, or else the one that comes first in the
 /// mesh. Where its band does not fit at all but the other side's does, an edge has the other.
-pub fn owners(plan: &Plan, placement: &Placement, attributes: &Attributes) -> Owners {
+pub fn owners(
+    plan: &Plan,
+    placement: &Placement,
+    cuts: &IdVec<Edge, Cut>,
+    attributes: &Attributes,
+) -> Owners {
     let region = regions(plan);
-    let fits = fits(plan, placement, attributes);
+    let fits = fits(plan, placement, cuts, attributes);
     let misfits = misfits(plan, &region, &fits);
     let mut side = IdVec::filled(UNDECIDED, plan.edges.hard.len());
     for edge in plan.edges.hard.ids() {
         let [one, two] = plan.edges.hard[edge].sides.map(|side| region[side.triangle()]);
         if one != two {
-            let [first, second] = misfits[&[one.min(two), one.max(two)]];
+            let between = [one.min(two), one.max(two)];
+            let found = misfits.binary_search_by_key(&between, |misfits| misfits.between);
+            let [first, second] = found.map_or([0; 2], |place| misfits[place].counts);
             let lower = usize::from(two < one);
             side[edge] = if second < first { 1 - lower } else { lower };
         } else if side[edge] == UNDECIDED {
@@ -46,15 +52,20 @@ pub fn owners(plan: &Plan, placement: &Placement, attributes: &Attributes) -> Ow
 }
 
 /// `#hard edges`: for each side whether the strip fits onto its band.
-fn fits(plan: &Plan, placement: &Placement, attributes: &Attributes) -> IdVec<Edge, [bool; 2]> {
+fn fits(
+    plan: &Plan,
+    placement: &Placement,
+    cuts: &IdVec<Edge, Cut>,
+    attributes: &Attributes,
+) -> IdVec<Edge, [bool; 2]> {
     let of_edge = |edge: Edge| {
         let hard = &plan.edges.hard[edge];
-        let channels = if hard.skipped.is_some() { 0 } else { seam_channels(plan, hard) };
+        let channels = if hard.skipped.is_some() { 0 } else { hard.seams };
         if channels == 0 {
             return [true; 2];
         }
         let channel = channels.trailing_zeros() as usize;
-        let map = StripMap::new(plan, placement, attributes, hard);
+        let map = StripMap::new(plan, placement, attributes, hard, cuts[edge]);
         [0, 1].map(|owner| {
             let feet = strip_feet(plan, placement, hard, owner);
             let face = hard.sides[owner];
@@ -67,21 +78,36 @@ fn fits(plan: &Plan, placement: &Placement, attributes: &Attributes) -> IdVec<Ed
     IdVec::from_vec(plan.edges.hard.ids().map(of_edge).collect())
 }
 
-/// For each two regions that meet, lower first, how many strips do not fit onto the one's bands
-/// and how many not onto the other's.
+/// How many of the strips between two regions do not fit onto the bands of the first and of the
+/// second.
+struct Misfits {
+    /// The regions, lower first.
+    between: [Triangle; 2],
+    counts: [u32; 2],
+}
+
+/// For each two regions between which something does not fit, sorted.
 fn misfits(
     plan: &Plan,
     region: &IdVec<Triangle, Triangle>,
     fits: &IdVec<Edge, [bool; 2]>,
-) -> HashMap<[Triangle; 2], [u32; 2]> {
-    let mut misfits: HashMap<[Triangle; 2], [u32; 2]> = HashMap::new();
-    for edge in plan.edges.hard.ids() {
+) -> Vec<Misfits> {
+    let of_edge = |edge: Edge| {
         let [one, two] = plan.edges.hard[edge].sides.map(|side| region[side.triangle()]);
-        let counts = misfits.entry([one.min(two), one.max(two)]).or_default();
         let lower = usize::from(two < one);
-        counts[0] += u32::from(!fits[edge][lower]);
-        counts[1] += u32::from(!fits[edge][1 - lower]);
-    }
+        let counts = [lower, 1 - lower].map(|side| u32::from(!fits[edge][side]));
+        Misfits { between: [one.min(two), one.max(two)], counts }
+    };
+    let bad = plan.edges.hard.ids().filter(|&edge| fits[edge] != [true; 2]);
+    let mut misfits: Vec<Misfits> = bad.map(of_edge).collect();
+    misfits.sort_unstable_by_key(|misfits| misfits.between);
+    misfits.dedup_by(|next, sum| {
+        let is_same = next.between == sum.between;
+        if is_same {
+            sum.counts = [0, 1].map(|side| sum.counts[side] + next.counts[side]);
+        }
+        is_same
+    });
     misfits
 }
 

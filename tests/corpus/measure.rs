@@ -137,7 +137,8 @@ impl Sum {
         self.open_widths.0 / f64::from(self.open_widths.1.max(1))
     }
 
-    /// The mean width as a share of what was asked, skipped edges and tapers counted, weighted by edge length over mesh extent.
+    /// The mean width as a share of what was asked, skipped edges counted, weighted by edge length
+    /// over mesh extent.
     pub fn mean_width(&self) -> f64 {
         if self.length > 0.0 { self.width / self.length } else { 0.0 }
     }

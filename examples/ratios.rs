@@ -1,0 +1,120 @@
+//! Prints how long a chamfer takes in terms of meshoptimizer's position remap, in one run.
+//!
+//! `cargo run --release --example ratios -- [--rounds N] [--least] [--full] [--cubes N]`
+//!
+//! Times are medians; `--least` takes the least instead, for machines that have other work to do.
+
+#[path = "../benches/support/models.rs"]
+mod models;
+
+use std::hint::black_box;
+use std::time::{Duration, Instant};
+
+use chamfer::{MeshBuffers, Verify, chamfer};
+use models::{CUBES, copy, cube_field, options, position_remap, smooth_sphere, stage_times};
+
+fn main() {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    if let Some(model) = value_of(&arguments, "--peak-of") {
+        return print_peak(model);
+    }
+    let rounds = value_of(&arguments, "--rounds").and_then(|n| n.parse().ok()).unwrap_or(7);
+    let verify = if arguments.iter().any(|a| a == "--full") { Verify::Full } else { Verify::Fast };
+    if let Some(cubes) = value_of(&arguments, "--cubes").and_then(|n| n.parse().ok()) {
+        let name = format!("cube field, {} triangles", cubes * 12);
+        return table(&name, &cube_field(cubes), verify, rounds);
+    }
+    for cubes in CUBES {
+        table(&format!("cube field, {} triangles", cubes * 12), &cube_field(cubes), verify, rounds);
+    }
+    table("smooth sphere", &smooth_sphere(), verify, rounds);
+    for model in ["field", "sphere"] {
+        let program = std::env::current_exe().expect("a running program has a path");
+        let status = std::process::Command::new(program).args(["--peak-of", model]).status();
+        assert!(status.is_ok_and(|status| status.success()), "the peak of {model} is not known");
+    }
+}
+
+fn value_of<'a>(arguments: &'a [String], name: &str) -> Option<&'a str> {
+    let place = arguments.iter().position(|argument| argument == name)?;
+    arguments.get(place + 1).map(String::as_str)
+}
+
+/// Times and their ratios for one model.
+fn table(name: &str, mesh: &MeshBuffers, verify: Verify, rounds: usize) {
+    let triangles = mesh.indices.len() as f64 / 3.0;
+    let row = |what: &str, time: Duration, floor: Duration| {
+        let each = time.as_secs_f64() / triangles * 1e9;
+        let ratio = time.as_secs_f64() / floor.as_secs_f64();
+        println!("{what:<24}{:>10.2} ms{each:>9.1} ns{ratio:>8.2} x", time.as_secs_f64() * 1e3);
+    };
+    let remap = median(rounds, || drop(black_box(position_remap(mesh))));
+    println!("{name}: time, time for each triangle, in terms of the position remap");
+    row("position remap", remap, remap);
+    let [one, two] = [1, 2].map(|threads| options(verify, threads));
+    let result = chamfer(&mesh.as_mesh(), &one).expect("the model is sound");
+    row("copy of in and output", median(rounds, || drop(black_box(copy(mesh, &result)))), remap);
+    drop(result);
+    let whole = |options| median(rounds, || drop(black_box(chamfer(&mesh.as_mesh(), &options))));
+    row("chamfer, one thread", whole(one), remap);
+    row("chamfer, two threads", whole(two), remap);
+    let runs: Vec<_> = (0..rounds).map(|_| stage_times(mesh, &one)).collect();
+    for (place, (stage, _)) in runs[0].iter().enumerate() {
+        let mut times: Vec<Duration> = runs.iter().map(|run| run[place].1).collect();
+        row(&format!("  {stage:?}").to_lowercase(), middle(&mut times), remap);
+    }
+    println!();
+}
+
+fn median(rounds: usize, mut call: impl FnMut()) -> Duration {
+    let time = |_| {
+        let start = Instant::now();
+        call();
+        start.elapsed()
+    };
+    middle(&mut (0..rounds).map(time).collect::<Vec<_>>())
+}
+
+fn middle(times: &mut [Duration]) -> Duration {
+    times.sort_unstable();
+    let takes_least = std::env::args().any(|argument| argument == "--least");
+    times[if takes_least { 0 } else { times.len() / 2 }]
+}
+
+/// Runs one chamfer in a process of its own, and tells its peak memory.
+fn print_peak(model: &str) {
+    let mesh = if model == "field" { cube_field(CUBES[2]) } else { smooth_sphere() };
+    let before = peak();
+    let result = chamfer(&mesh.as_mesh(), &options(Verify::Fast, 1)).expect("the model is sound");
+    let (input, output) = (bytes(&mesh), bytes(&result.mesh) + provenance(&result));
+    let mega = |bytes: u64| bytes as f64 / 1e6;
+    println!(
+        "peak memory, {model}: {:.0} MB (before the call {:.0} MB), {:.2} x input and output ({:.0} and {:.0} MB)",
+        mega(peak()),
+        mega(before),
+        peak() as f64 / (input + output) as f64,
+        mega(input),
+        mega(output),
+    );
+}
+
+fn bytes(mesh: &MeshBuffers) -> u64 {
+    let floats = mesh.positions.len() * 6
+        + (mesh.tangents.len() + mesh.colors.len()) * 4
+        + mesh.uvs.iter().map(|uv| uv.values.len()).sum::<usize>();
+    4 * (floats + mesh.indices.len()) as u64
+}
+
+fn provenance(result: &chamfer::Chamfered) -> u64 {
+    (size_of_val(&*result.vertex_sources)
+        + size_of_val(&*result.triangle_sources)
+        + size_of_val(&*result.verdicts)) as u64
+}
+
+/// The most memory that this process ever had, in bytes; 0 where the system does not tell.
+fn peak() -> u64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    let kilobytes = line.and_then(|line| line.split_whitespace().next()?.parse::<u64>().ok());
+    kilobytes.unwrap_or(0) * 1024
+}

@@ -1,0 +1,108 @@
+//! Threads: the same work for each of many ids, shared out among some threads.
+//!
+//! Every value is computed by itself and put at its own place, so the result is the same for any
+//! number of threads.
+
+use crate::ids::{Id, IdVec};
+
+/// With less work than this in one stage, waking another thread takes longer than doing it.
+#[cfg(feature = "parallel")]
+const LEAST_WORK: usize = 4096;
+
+/// Up to so many threads, one for each core, however many are asked for.
+#[cfg(feature = "parallel")]
+const MOST_THREADS: usize = 64;
+
+/// The threads of one call.
+#[derive(Debug, Default)]
+pub struct Threads {
+    #[cfg(feature = "parallel")]
+    pool: Option<rayon::ThreadPool>,
+}
+
+impl Threads {
+    /// So many threads, or one for each core if that is 0, for a mesh of so many corners. Where
+    /// the system has none to give, the calling thread does all.
+    #[cfg(feature = "parallel")]
+    pub fn new(wanted: u32, corners: usize) -> Threads {
+        let cores = || std::thread::available_parallelism().map_or(1, usize::from);
+        let count = if wanted == 0 { cores() } else { wanted as usize };
+        let pays = count > 1 && corners >= LEAST_WORK;
+        let pool = || rayon::ThreadPoolBuilder::new().num_threads(count.min(MOST_THREADS)).build();
+        Threads { pool: if pays { pool().ok() } else { None } }
+    }
+
+    /// The calling thread alone.
+    #[cfg(not(feature = "parallel"))]
+    pub fn new(_wanted: u32, _corners: usize) -> Threads {
+        Threads {}
+    }
+
+    /// `#ids`: the value for each.
+    pub fn map<I: Id, T: Send>(
+        &self,
+        count: usize,
+        value: impl Fn(I) -> T + Sync + Send,
+    ) -> IdVec<I, T> {
+        let value = |index| value(I::new(index));
+        #[cfg(feature = "parallel")]
+        if let Some(pool) = self.pool.as_ref().filter(|_| count >= LEAST_WORK) {
+            use rayon::prelude::*;
+            return IdVec::from_vec(
+                pool.install(|| (0..count).into_par_iter().map(value).collect()),
+            );
+        }
+        IdVec::from_vec((0..count).map(value).collect())
+    }
+
+    /// As [`Threads::map`], with a scratch value that each thread makes once.
+    pub fn map_with<I: Id, T: Send, S>(
+        &self,
+        count: usize,
+        scratch: impl Fn() -> S + Sync + Send,
+        value: impl Fn(&mut S, I) -> T + Sync + Send,
+    ) -> IdVec<I, T> {
+        let value = |scratch: &mut S, index| value(scratch, I::new(index));
+        #[cfg(feature = "parallel")]
+        if let Some(pool) = self.pool.as_ref().filter(|_| count >= LEAST_WORK) {
+            use rayon::prelude::*;
+            return IdVec::from_vec(
+                pool.install(|| (0..count).into_par_iter().map_init(scratch, value).collect()),
+            );
+        }
+        let mut scratch = scratch();
+        IdVec::from_vec((0..count).map(|index| value(&mut scratch, index)).collect())
+    }
+
+    /// The ids that are such, in ascending order.
+    pub fn filter<I: Id + Send>(
+        &self,
+        count: usize,
+        is_such: impl Fn(I) -> bool + Sync + Send,
+    ) -> Vec<I> {
+        let such = |index| Some(I::new(index)).filter(|&id| is_such(id));
+        #[cfg(feature = "parallel")]
+        if let Some(pool) = self.pool.as_ref().filter(|_| count >= LEAST_WORK) {
+            use rayon::prelude::*;
+            return pool.install(|| (0..count).into_par_iter().filter_map(such).collect());
+        }
+        (0..count).filter_map(such).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ids::Vertex;
+
+    #[test]
+    fn each_value_is_at_its_place_whatever_the_threads() {
+        for threads in [0, 1, 2, 5] {
+            let threads = Threads::new(threads, 100_000);
+            let squares = threads.map(10_000, |vertex: Vertex| vertex.0 * vertex.0);
+            assert!(squares.iter().copied().eq((0..10_000).map(|number| number * number)));
+            let odd = threads.filter(10_000, |vertex: Vertex| vertex.0 % 2 == 1);
+            assert!(odd.into_iter().eq((0..5_000).map(|half| Vertex(2 * half + 1))));
+        }
+    }
+}
