@@ -16,8 +16,11 @@ use std::path::PathBuf;
 
 use drawing::Drawing;
 
-/// The stages, in the order of the pipeline, and what draws each.
-const FIGURES: [(&str, fn() -> Drawing); 14] = [
+/// What draws a figure.
+type Draw = fn() -> Drawing;
+
+/// The stages, in the order of the pipeline.
+const FIGURES: [(&str, Draw); 14] = [
     ("view", source::view),
     ("weld", source::weld),
     ("topology", source::topology),

@@ -5,14 +5,21 @@ use std::path::Path;
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
-#[test]
-fn the_readme_shows_the_c_example_that_is_tested() {
-    let example = include_str!("../examples/c/chamfer_cube.c");
-    let block = format!("```c\n{example}```\n");
+/// The README shows an example as it is.
+#[track_caller]
+fn assert_shown(language: &str, path: &str) {
+    let example = fs::read_to_string(Path::new(ROOT).join(path)).unwrap();
     assert!(
-        include_str!("../README.md").contains(&block),
-        "README.md does not show examples/c/chamfer_cube.c as it is: copy the file there"
+        include_str!("../README.md").contains(&format!("```{language}\n{example}```\n")),
+        "README.md does not show {path} as it is: copy the file there"
     );
+}
+
+#[test]
+fn the_readme_shows_the_examples_that_are_tested() {
+    assert_shown("rust", "examples/chamfer_cube.rs");
+    assert_shown("c", "examples/c/chamfer_cube.c");
+    assert_shown("python", "examples/python/chamfer_cube.py");
 }
 
 /// The sections of a page up to a heading: their titles and their texts.

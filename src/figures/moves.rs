@@ -166,16 +166,16 @@ fn draw_shares(drawing: &mut Drawing, mesh: &MeshBuffers, width: f32, camera: Ca
         let limited = ends.map(|end| placement.position_at(&plan, end));
         scene.line(drawing, limited, Pen::new(BLUE, 1.4));
     }
-    let mut labels: Vec<DVec2> = Vec::new();
+    let mut labels: Vec<(DVec2, String)> = Vec::new();
     let moved = |sector: &Sector| plan.offsets[*sector].moves();
     for sector in plan.sectors.fans.ids().filter(moved) {
         let (share, at) = (placement.share[sector], placement.point[sector]);
         scene.dot(drawing, at, 4.0, if share < 1.0 { ORANGE } else { GREEN });
         let beside = scene.camera.flat(at) + DVec2::new(0.0, -12.0);
-        let has_space = labels.iter().all(|other| other.distance(beside) > LABEL_SPACE);
+        let has_space = labels.iter().all(|(other, _)| other.distance(beside) > LABEL_SPACE);
         if share < 1.0 && scene.shows(at) && has_space {
-            labels.push(beside);
-            drawing.label(beside, INK, &format!("{share:.2}"));
+            labels.push((beside, format!("{share:.2}")));
         }
     }
+    labels.iter().for_each(|(at, share)| drawing.label(*at, INK, share));
 }
