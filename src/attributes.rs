@@ -4,6 +4,7 @@
 //! keeps the index, the others are appended. A flat face keeps its normal to the bit, a curved one
 //! the shading that it had at that place.
 
+pub mod middles;
 mod streams;
 
 use crate::ids::{Corner, Few, IdVec, Sector, Vertex};

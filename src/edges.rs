@@ -21,7 +21,7 @@ const ALIKE_COSINE: f64 = 0.999_975_630_705_4;
 const BACK_TO_BACK_COSINE: f64 = -0.999_998_476_913_288;
 
 /// UV values that differ by less than this share of their size are one: exporters round.
-const EQUAL_UV: f32 = 1e-6;
+pub const EQUAL_UV: f32 = 1e-6;
 
 /// A hard edge with two sides.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -12,9 +12,9 @@ use glam::DVec3;
 
 use crate::edges::is_hard;
 use crate::faces::Faces;
-use crate::ids::{Corner, IdVec, Sector, Triangle};
+use crate::ids::{Corner, Id, IdVec, Sector, Triangle};
 use crate::math::{Turn, area_vector, unit};
-use crate::resample::{Foot, locate};
+use crate::resample::{Foot, locate, uv_at};
 use crate::sectors::{Fan, Sectors};
 use crate::topology::Topology;
 use crate::view::View;
@@ -38,6 +38,10 @@ const LEVEL_COSINE: f64 = 0.999_961_923_064_171;
 /// A vertex slides along a border or crease that is at least this far (as a sine, 5.7 degrees)
 /// from the direction of the chamfered edge; nearer, sliding hardly opens the edge.
 const LEAST_SLIDE_SINE: f64 = 0.1;
+
+/// A vertex slides along a seam of the texture where that opens the narrower of its two edges by at
+/// least this share of the wider.
+const LEAST_BALANCE: f64 = 0.25;
 
 /// Where a sector's vertex goes at full width.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -140,7 +144,9 @@ fn course(
         // One edge on both sides: it ends here, and its chamfer tapers to a point.
         (false, false) if topology.twin[fan.first] == fan.last.prev() => None,
         (false, false) => match crease(view, faces, spread) {
-            Crease::None => bisect(view, total, spread),
+            Crease::None => {
+                slide_on_seam(view, total, spread).or_else(|| bisect(view, total, spread))
+            }
             Crease::Soft(blade) => {
                 slide_inside(view, total, blade).or_else(|| bisect(view, total, spread))
             }
@@ -182,6 +188,28 @@ fn slide(view: &View, corner: Corner, angle: Turn, to_chamfered: &[Turn]) -> Opt
 /// Along an edge in the middle of the fan.
 fn slide_inside(view: &View, total: Turn, blade: &Blade) -> Option<Course> {
     slide(view, blade.corner, Turn::ZERO, &[blade.start, total.minus(blade.start)])
+}
+
+/// Along the texture seam inside a fan that leads most nearly to the middle, so that the vertices
+/// of both charts stay in their own; none where that would narrow the chamfer.
+fn slide_on_seam(view: &View, total: Turn, spread: &[Blade]) -> Option<Course> {
+    let sines = |blade: &Blade| [blade.start.sin(), total.minus(blade.start).sin()];
+    let balance = |blade: &Blade| {
+        let [one, other] = sines(blade);
+        one.min(other) / one.max(other)
+    };
+    let is_seam = |place: &usize| is_seam(view, spread[*place].corner, spread[*place - 1].corner);
+    let blade = (1..spread.len())
+        .filter(is_seam)
+        .map(|place| &spread[place])
+        .max_by(|one, other| balance(one).total_cmp(&balance(other)))?;
+    (balance(blade) >= LEAST_BALANCE).then(|| slide_inside(view, total, blade)).flatten()
+}
+
+/// Whether two corners at one position lie in different charts of some UV channel.
+fn is_seam(view: &View, one: Corner, other: Corner) -> bool {
+    let [one, other] = [one, other].map(|corner| view.vertex_at(corner).index());
+    one != other && view.mesh.uvs.iter().any(|uv| uv_at(uv, one) != uv_at(uv, other))
 }
 
 /// The bends inside a fan that keep a vertex from leaving them.

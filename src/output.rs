@@ -5,17 +5,16 @@
 
 mod collapsed;
 mod copies;
-mod middles;
 mod submeshes;
 
-use crate::attributes::{Attributes, Streams};
+use crate::attributes::{Attributes, Streams, middles};
 use crate::ids::{Edge, IdVec, Ring};
 use crate::limits::{self, Limits};
 use crate::mesh::MeshBuffers;
 use crate::options::ChamferSubmesh;
 use crate::plan::Plan;
 use crate::report::{Chamfered, TriangleKind, TriangleSource};
-use crate::seams::{self, FillMap, Owners};
+use crate::seams::{self, FillLay, FillMap, Owners};
 use crate::strips::Cut;
 use crate::verdicts::{totals, verdicts};
 use crate::view::View;
@@ -107,22 +106,20 @@ impl Surface<'_> {
         let cluster = plan.topology.cluster_at[plan.sectors.fans[sectors[0]].first];
         let map = FillMap::new(plan, placement, &self.attributes, ring, &fill);
         let streams = &mut self.attributes.streams;
-        let choice = map.owner(streams, &self.owners);
-        let channels = map.channels(streams, choice);
-        let kite = map.kite(choice);
+        let FillLay { owner, channels, lay } = map.lay(streams, &self.owners);
         let mut vertices = map.vertices.clone();
         let copies = &mut self.copies;
         if channels != 0 {
-            for (place, foot) in &kite.feet {
+            for (place, foot) in &lay.feet {
                 vertices[*place] = copies.get(plan, streams, vertices[*place], foot, channels);
             }
         }
-        for places in &fill.middles {
+        for (places, foot) in fill.middles.iter().zip(&lay.middles) {
             let middle = middles::add(plan, placement, streams, sectors, places);
-            streams.rechart(plan, middle, &kite.middle, channels);
+            streams.rechart(plan, middle, foot, channels);
             vertices.push(copies.settle(streams, cluster));
         }
-        let first = plan.sectors.fans[sectors[choice.0]].first;
+        let first = plan.sectors.fans[sectors[owner]].first;
         let at = plan.view.vertex_at(plan.sectors.fans[sectors[0]].first);
         let source = TriangleSource { kind: TriangleKind::Corner, index: at.0 };
         for triangle in &fill.triangles {

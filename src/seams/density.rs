@@ -2,14 +2,19 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::ids::{Id, Triangle};
+use super::ground::Ground;
+use crate::ids::{Corner, Id, Triangle};
 use crate::math::area_vector;
 use crate::mesh::Uv;
 use crate::plan::Plan;
 
 /// A chamfer that lies this many times denser or thinner on the texture than the face that it
 /// continues looks smeared or noisy: then another way to map it is tried.
-pub const MOST_STRETCH: f64 = 4.0;
+pub const MOST_STRETCH: f64 = 3.9;
+
+/// Past the end of its chart a chamfer shows what belongs elsewhere, which is worse than any
+/// stretch that can still be looked at.
+const BEYOND: f64 = 100.0;
 
 /// Single precision, and a little for the arithmetic of exporters.
 const ROUNDING: f64 = 1e-6;
@@ -43,10 +48,20 @@ fn texture_area([a, b, c]: [DVec2; 3]) -> f64 {
     (b - a).perp_dot(c - a)
 }
 
+/// How a chamfer may lie on the texture.
+#[derive(Clone, Copy, PartialEq)]
+pub enum Facing {
+    /// As the face that it continues does.
+    AsFace,
+    /// Mirrored too: between faces of which one is, the texture turns over somewhere.
+    Either,
+}
+
 /// The factor by which the worst of some triangles lies denser or thinner on the texture than a
 /// face of the given density: 1 at best, infinite where one is mirrored or has no UV area.
-pub fn stretch(
+fn stretch(
     density: f64,
+    facing: Facing,
     resolution: f64,
     triangles: impl Iterator<Item = ([DVec3; 3], [DVec2; 3])>,
 ) -> f64 {
@@ -55,7 +70,8 @@ pub fn stretch(
     }
     let of_triangle = |(points, uvs): ([DVec3; 3], [DVec2; 3])| {
         let area = area_vector(points).length();
-        let ratio = texture_area(uvs) / density / area;
+        let signed = texture_area(uvs) / density / area;
+        let ratio = if facing == Facing::Either { signed.abs() } else { signed };
         let is_tiny = area <= resolution * resolution;
         match () {
             () if is_tiny => 1.0,
@@ -64,6 +80,25 @@ pub fn stretch(
         }
     };
     triangles.map(of_triangle).fold(1.0, f64::max)
+}
+
+/// How badly a chamfer lies on the texture of a face: as [`stretch`], and many times as much where
+/// it leaves the ground.
+pub fn misfit(
+    plan: &Plan,
+    face: Corner,
+    facing: Facing,
+    channel: usize,
+    ground: &Ground,
+    triangles: impl Iterator<Item = ([DVec3; 3], [DVec2; 3])> + Clone,
+) -> f64 {
+    let density = density(plan, face.triangle(), channel);
+    let stretch = stretch(density, facing, plan.view.resolution, triangles.clone());
+    let mut texture = triangles.map(|(_, uvs)| uvs);
+    if stretch.is_finite() && !texture.all(|uvs| ground.covers(uvs)) {
+        return stretch * BEYOND;
+    }
+    stretch
 }
 
 #[cfg(test)]
@@ -75,11 +110,13 @@ mod tests {
 
     #[test]
     fn thin_and_dense_are_alike_and_mirrored_is_worst() {
-        let of = |uvs: [DVec2; 3]| stretch(1.0, 1e-6, [(FLAT, uvs)].into_iter());
+        let of = |uvs: [DVec2; 3]| stretch(1.0, Facing::AsFace, 1e-6, [(FLAT, uvs)].into_iter());
         assert_eq!(of(UVS), 1.0);
         assert_eq!(of(UVS.map(|uv| uv * 2.0)), 4.0);
         assert_eq!(of(UVS.map(|uv| uv * 0.5)), 4.0);
         assert_eq!(of([UVS[0], UVS[2], UVS[1]]), f64::INFINITY);
         assert_eq!(of([UVS[0]; 3]), f64::INFINITY);
+        let either = |uvs| stretch(1.0, Facing::Either, 1e-6, [(FLAT, uvs)].into_iter());
+        assert_eq!(either([UVS[0], UVS[2], UVS[1]]), 1.0);
     }
 }

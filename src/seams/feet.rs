@@ -1,51 +1,125 @@
 //! Feet: where in its owner's chart the far vertices of a chamfer come to lie.
 
+use glam::DVec3;
+
+use super::seam_between;
 use crate::edges::HardEdge;
-use crate::ids::{Corner, Few, Id, Sector};
+use crate::ids::{Corner, Sector};
+use crate::math::{area_vector, unit};
 use crate::mesh::UV_CHANNELS;
 use crate::placement::Placement;
 use crate::plan::Plan;
 use crate::report::Blend;
-use crate::resample::{chart_foot, uv_at};
+use crate::resample::{chart_foot, locate};
 
 /// A middle vertex lies halfway between the old corner and the pulled one.
 const MIDDLE_SHARE: f64 = 0.5;
 
-/// The far corners of a strip, as places in b1, a1, a2, b2, each with its foot.
-pub fn strip_feet(
-    plan: &Plan,
-    placement: &Placement,
-    edge: &HardEdge,
-    owner: usize,
-) -> [(usize, Blend); 2] {
-    let [near, far] = [edge.sides[owner], edge.sides[1 - owner]];
-    let foot = |near_corner: Corner, far_corner: Corner| {
-        let [own, other] = [near_corner, far_corner].map(|c| plan.sectors.sector_of[c]);
-        // Where nothing but two strips meet, one foot serves both: below the far vertex.
-        let pulled = if is_pair(plan, own) { other } else { own };
-        foot_on_edge(plan, placement, near, pulled)
-    };
-    let [start, end] = if owner == 0 { [2, 3] } else { [0, 1] };
-    [(start, foot(near, far.next())), (end, foot(near.next(), far))]
+/// A strip reaches at most so far into its owner's triangle.
+const DEEPEST: f64 = 0.9;
+
+/// A fill that is laid into a triangle reaches at most so far along its sides.
+const WIDEST: f64 = 0.75;
+
+/// Where along the old edge the far corners of a strip land.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Spread {
+    /// Below themselves, so that the texture is not sheared.
+    Far,
+    /// Below the pulled corners of the owner's side.
+    Near,
+    /// At its very ends.
+    Whole,
 }
 
-/// Whether a sector and one other go all around their cluster.
-pub fn is_pair(plan: &Plan, sector: Sector) -> bool {
-    let ring = plan.sectors.fans[sector].ring;
-    plan.sectors.rings[ring].closed && plan.sectors.ring(ring).len() == 2
+/// How much of the band between the pulled edge and the old one a strip takes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Depth {
+    /// All of it.
+    Band,
+    /// As much as the strip is wide: between faces that meet like a knife that is less.
+    Strip,
 }
 
-/// The place on a half-edge at the foot of the perpendicular from a pulled vertex.
-pub fn foot_on_edge(
-    plan: &Plan,
-    placement: &Placement,
+/// One end of a strip: its edge, the owner as a place in the edge's sides, and 0 for the start of
+/// the owner's half-edge, 1 for its end.
+pub type End<'a> = (&'a HardEdge, usize, usize);
+
+/// A half-edge, and the sectors of its own and of the far side at one end.
+struct At {
     half_edge: Corner,
-    pulled: Sector,
-) -> Blend {
-    let [from, to] = [half_edge, half_edge.next()].map(|corner| plan.view.position_at(corner));
-    let along = to - from;
-    let share = (placement.point[pulled] - from).dot(along) / along.length_squared();
-    on_edge(plan, half_edge, share)
+    near: Sector,
+    far: Sector,
+}
+
+impl At {
+    fn new(plan: &Plan, (edge, owner, end): End) -> At {
+        let [near, far] = [edge.sides[owner], edge.sides[1 - owner]];
+        let corners = if end == 0 { [near, far.next()] } else { [near.next(), far] };
+        let [own, other] = corners.map(|corner| plan.sectors.sector_of[corner]);
+        At { half_edge: near, near: own, far: other }
+    }
+
+    /// The distance from the old edge to the pulled one, and from there to the far side.
+    fn widths(&self, plan: &Plan, placement: &Placement) -> [f64; 2] {
+        let [from, to] = ends(plan, self.half_edge);
+        let along = unit(to - from);
+        let [near, far] = [placement.point[self.near], placement.point[self.far]];
+        [near - from, far - near].map(|way| (way - along * way.dot(along)).length())
+    }
+}
+
+fn ends(plan: &Plan, half_edge: Corner) -> [DVec3; 2] {
+    [half_edge, half_edge.next()].map(|corner| plan.view.position_at(corner))
+}
+
+/// Where one far corner of a strip lands on its owner's band.
+pub fn band_foot(
+    plan: &Plan,
+    placement: &Placement,
+    end: End,
+    spread: Spread,
+    depth: Depth,
+) -> Option<Blend> {
+    let at = At::new(plan, end);
+    let share = match spread {
+        Spread::Far => share_of(plan, placement, at.half_edge, at.far),
+        Spread::Near => share_of(plan, placement, at.half_edge, at.near),
+        Spread::Whole => end.2 as f64,
+    };
+    let foot = on_edge(plan, at.half_edge, share);
+    let [band, strip] = at.widths(plan, placement);
+    if depth == Depth::Band || strip >= band {
+        return Some(foot);
+    }
+    let [from, to] = ends(plan, at.half_edge);
+    let inward = plan.faces.normal[at.half_edge.triangle()].cross(unit(to - from));
+    let way = (to - from) * share.clamp(0.0, 1.0) + inward * (band - strip);
+    locate(&plan.view, at.half_edge, from, way).map(|foot| foot.blend(plan, 1.0))
+}
+
+/// The near and the far corner at one end of a strip that is laid into its owner's triangle, as
+/// deep as the strip is wide.
+pub fn inside(plan: &Plan, placement: &Placement, end: End) -> [Blend; 2] {
+    let at = At::new(plan, end);
+    let [from, to] = ends(plan, at.half_edge);
+    let apex = plan.view.position_at(at.half_edge.prev());
+    let height = (to - from).cross(apex - from).length() / (to - from).length();
+    let [_, strip] = at.widths(plan, placement);
+    let depth = (strip / height).min(DEEPEST);
+    let foot = |sector: Sector| {
+        on_edge(plan, at.half_edge, share_of(plan, placement, at.half_edge, sector))
+    };
+    let apex = Blend::one(plan.view.vertex_at(at.half_edge.prev()).0);
+    let near = mixed(&[(foot(at.near), 1.0 - depth), (apex, depth)]);
+    [near, foot(at.far)]
+}
+
+/// Where the foot of the perpendicular from a sector's pulled vertex divides a half-edge: 0 to 1,
+/// or beyond.
+fn share_of(plan: &Plan, placement: &Placement, half_edge: Corner, pulled: Sector) -> f64 {
+    let [from, to] = ends(plan, half_edge);
+    (placement.point[pulled] - from).dot(to - from) / (to - from).length_squared()
 }
 
 /// The place at a share of a half-edge.
@@ -85,78 +159,149 @@ pub fn mixed(terms: &[(Blend, f64)]) -> Blend {
     sum
 }
 
-/// How far the feet of a fill may lie from the corner, in terms of where they would be: farther out
-/// where the kite would be too small for the fill.
-pub const REACHES: [f64; 3] = [1.0, 2.0, 4.0];
-
-/// Where a fill lies in its owner's chart: on the kite between the pulled corner, the feet on the
-/// owner's two edges, and the old corner.
-pub struct Kite {
-    /// The other sectors, as places in the ring.
-    pub feet: Few<(usize, Blend)>,
-    /// For vertices in the middle.
-    pub middle: Blend,
+/// Where the feet of a fill stand on its owner's two edges.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Wings {
+    /// Below the pulled vertices beyond the edges, as those of the strips there.
+    Far,
+    /// So many times as far from the corner as below the owner's own pulled vertex.
+    Near(f64),
 }
 
-/// The kite of one of a ring's sectors, its feet so many times as far from the corner as below the
-/// pulled vertex. The others lie on a bow from foot to foot that bends towards the old corner, so
-/// that no three of them are in line.
+/// Where a fill lies in its owner's chart.
+pub struct Lay {
+    /// Sectors, as places in the ring.
+    pub feet: Vec<(usize, Blend)>,
+    /// For each vertex in the middle.
+    pub middles: Vec<Blend>,
+}
+
+/// The kite between the pulled corner of one of a ring's sectors, the feet on its two edges, and
+/// the old corner. The other vertices lie on a bow from foot to foot that bends towards the old
+/// corner, so that no three of them are in line.
 pub fn kite(
     plan: &Plan,
     placement: &Placement,
     sectors: &[Sector],
     owner: usize,
-    reach: f64,
-) -> Kite {
+    wings: Wings,
+    middles: usize,
+) -> Lay {
     let sector = sectors[owner];
-    let [behind, before] = wings(plan, placement, sector, reach);
+    let [behind, before] = feet_of_wings(plan, placement, sector, wings);
     let fan = &plan.sectors.fans[sector];
     let corner = Blend::one(plan.view.vertex_at(fan.first).0);
-    let others = sectors.len() - 1;
-    let on_bow = |k: usize| {
-        let along = k as f64 / (others - 1).max(1) as f64;
-        let [from, to] = [1.0 - along, along].map(|share| share * share * share);
-        let foot = mixed(&[(behind, from), (corner, 1.0 - from - to), (before, to)]);
-        ((owner + 1 + k) % sectors.len(), foot)
-    };
     let share = placement.share[sector] * MIDDLE_SHARE;
-    Kite {
-        feet: (0..others).map(on_bow).collect(),
-        middle: chart_foot(plan, sector, fan.first).blend(plan, share),
+    let on_bow = |along: f64| {
+        let [from, to] = [1.0 - along, along].map(|share| share * share * share);
+        mixed(&[(behind, from), (corner, 1.0 - from - to), (before, to)])
+    };
+    Lay {
+        feet: on_others(sectors.len(), owner, on_bow),
+        middles: vec![chart_foot(plan, sector, fan.first).blend(plan, share); middles],
     }
+}
+
+/// The places of the ring but the owner's, each with what lies at its share of the way from the
+/// owner's last edge to its first.
+fn on_others(count: usize, owner: usize, at: impl Fn(f64) -> Blend) -> Vec<(usize, Blend)> {
+    let others = count - 1;
+    let along = |k: usize| k as f64 / (others - 1).max(1) as f64;
+    (0..others).map(|k| ((owner + 1 + k) % count, at(along(k)))).collect()
 }
 
 /// The feet on a sector's last and first edge; the old corner itself where the last one lies in
 /// another chart.
-fn wings(plan: &Plan, placement: &Placement, sector: Sector, reach: f64) -> [Blend; 2] {
+fn feet_of_wings(plan: &Plan, placement: &Placement, sector: Sector, wings: Wings) -> [Blend; 2] {
     let fan = &plan.sectors.fans[sector];
     let corner = plan.view.vertex_at(fan.first).0;
-    let way = placement.point[sector] - plan.view.position_at(fan.first);
-    let share = |other: Corner| {
-        let along = plan.view.position_at(other) - plan.view.position_at(fan.first);
-        reach * way.dot(along) / along.length_squared()
+    let foot = |half_edge: Corner| {
+        let edge = plan.edges.chamfered_at[half_edge];
+        let is_out = half_edge == fan.first;
+        match wings {
+            Wings::Far if edge.is_some() => {
+                let [one, two] = plan.edges.hard[edge].sides;
+                let other = if one == half_edge { two } else { one };
+                let across = if is_out { other.next() } else { other };
+                let far = plan.sectors.sector_of[across];
+                on_edge(plan, half_edge, share_of(plan, placement, half_edge, far))
+            }
+            _ => {
+                let reach = if let Wings::Near(reach) = wings { reach } else { 1.0 };
+                let share = share_of(plan, placement, half_edge, sector);
+                let reached = if is_out { reach * share } else { 1.0 - reach * (1.0 - share) };
+                on_edge(plan, half_edge, reached)
+            }
+        }
     };
-    let before = on_edge(plan, fan.first, share(fan.first.next()));
-    if !is_one_chart(plan, sector) {
+    let before = foot(fan.first);
+    let one_chart = (0..UV_CHANNELS).all(|channel| !is_broken(plan, sector, channel));
+    if !one_chart {
         return [Blend::one(corner), before];
     }
     let last = plan.view.vertex_at(fan.last).0;
-    let behind = on_edge(plan, fan.last.prev(), 1.0 - share(fan.last.prev()));
+    let behind = foot(fan.last.prev());
     let vertices = behind.vertices.map(|v| if v == last { corner } else { v });
     [Blend { vertices, ..behind }, before]
 }
 
-/// Whether the first and the last corner of a sector lie in one chart.
-fn is_one_chart(plan: &Plan, sector: Sector) -> bool {
-    (0..UV_CHANNELS).all(|channel| !is_broken(plan, sector, channel))
+/// A fill laid flat into the triangle at a corner, as large as it is if there is room. Its points
+/// are those of a ring and then its middles; the normal is that of the whole.
+pub fn corner_lay(
+    plan: &Plan,
+    corner: Corner,
+    points: &[DVec3],
+    ring: usize,
+    normal: DVec3,
+) -> Lay {
+    let apex = (0..ring).rev().max_by(|&one, &other| {
+        let opening = |apex| spread_at(points, ring, apex, normal);
+        opening(one).total_cmp(&opening(other))
+    });
+    let apex = apex.unwrap_or(0);
+    let [to_next, to_prev] = arms_at(points, ring, apex);
+    let opening = spread_at(points, ring, apex, normal);
+    let coordinates = |point: &DVec3| {
+        let way = *point - points[apex];
+        [way.cross(to_prev), to_next.cross(way)].map(|part| part.dot(normal) / opening)
+    };
+    let flat: Vec<[f64; 2]> = points.iter().map(coordinates).collect();
+    let least = [0, 1].map(|k| flat.iter().map(|at| at[k]).fold(0.0, f64::min));
+    let reach = |at: &[f64; 2]| at[0] - least[0] + at[1] - least[1];
+    let farthest = flat.iter().map(reach).fold(0.0, f64::max);
+    let face = area_vector(plan.view.triangle(corner.triangle())).length();
+    let size = (opening / face).sqrt().min(WIDEST / farthest);
+    let vertices = [corner, corner.next(), corner.prev()].map(|c| plan.view.vertex_at(c).0);
+    let blend = |at: &[f64; 2]| {
+        let [to_next, to_prev] = [0, 1].map(|k| size * (at[k] - least[k]));
+        let weights = [1.0 - to_next - to_prev, to_next, to_prev].map(|weight| weight as f32);
+        Blend { vertices, weights }
+    };
+    let mut blends = flat.iter().map(blend);
+    Lay { feet: blends.by_ref().take(ring).enumerate().collect(), middles: blends.collect() }
+}
+
+/// From one of a ring's points to the next and to the previous one.
+fn arms_at(points: &[DVec3], ring: usize, at: usize) -> [DVec3; 2] {
+    [points[(at + 1) % ring] - points[at], points[(at + ring - 1) % ring] - points[at]]
+}
+
+/// Twice the area between the sides at one of a ring's points, seen along a unit normal.
+fn spread_at(points: &[DVec3], ring: usize, at: usize, normal: DVec3) -> f64 {
+    let [to_next, to_prev] = arms_at(points, ring, at);
+    to_next.cross(to_prev).dot(normal)
+}
+
+/// Whether a sector and one other go all around their cluster.
+pub fn is_pair(plan: &Plan, sector: Sector) -> bool {
+    let ring = plan.sectors.fans[sector].ring;
+    plan.sectors.rings[ring].closed && plan.sectors.ring(ring).len() == 2
 }
 
 /// Whether a seam of a channel runs through a sector.
 pub fn is_broken(plan: &Plan, sector: Sector, channel: usize) -> bool {
     let fan = &plan.sectors.fans[sector];
-    let uv = &plan.view.mesh.uvs[channel];
-    let [first, last] = [fan.first, fan.last].map(|c| plan.view.vertex_at(c).index());
-    uv_at(uv, first) != uv_at(uv, last)
+    seam_between(plan, channel, fan.first, fan.last)
 }
 
 #[cfg(test)]
@@ -188,9 +333,24 @@ mod tests {
         let sector = Sector(0);
         placement.set(&plan, sector, 1.0);
         let side = plan.sectors.fans[sector].first;
-        let foot = foot_on_edge(&plan, &placement, side, sector);
+        let foot = on_edge(&plan, side, share_of(&plan, &placement, side, sector));
         let [from, to] = [side, side.next()].map(|corner| plan.view.vertex_at(corner).0);
         assert!((weight_of(&foot, from) - 0.9).abs() < 1e-6, "{foot:?}");
         assert!((weight_of(&foot, to) - 0.1).abs() < 1e-6, "{foot:?}");
+    }
+
+    /// A flat right angle of half the face's area, in the face's right angle.
+    #[test]
+    fn a_fill_in_a_corner_keeps_its_shape_and_area() {
+        let cube = shapes::cube(1.0);
+        let plan = plan_of(&cube, 0.1);
+        let points = [DVec3::ZERO, DVec3::X * 0.5, DVec3::Y * 0.5, DVec3::new(0.1, 0.1, 0.0)];
+        let lay = corner_lay(&plan, Corner(0), &points, 3, DVec3::Z);
+        let [from, next, prev] = [0, 1, 2].map(|corner| plan.view.vertex_at(Corner(corner)).0);
+        let weights = |blend: &Blend| [from, next, prev].map(|v| weight_of(blend, v));
+        let feet: Vec<[f32; 3]> = lay.feet.iter().map(|(_, foot)| weights(foot)).collect();
+        assert_eq!(feet, [[1.0, 0.0, 0.0], [0.5, 0.5, 0.0], [0.5, 0.0, 0.5]]);
+        let middle = weights(&lay.middles[0]);
+        assert!((middle[0] - 0.8).abs() < 1e-6 && (middle[1] - 0.1).abs() < 1e-6);
     }
 }

@@ -1,8 +1,7 @@
 //! Owners: which side's texture each strip continues.
 
-use super::density::MOST_STRETCH;
-use super::feet::{is_pair, strip_feet};
-use super::{StripMap, strays};
+use super::feet::is_pair;
+use super::strip_map::StripMap;
 use crate::attributes::Attributes;
 use crate::ids::{Corner, Edge, IdVec, Triangle};
 use crate::placement::Placement;
@@ -66,14 +65,7 @@ fn fits(
         }
         let channel = channels.trailing_zeros() as usize;
         let map = StripMap::new(plan, placement, attributes, hard, cuts[edge]);
-        [0, 1].map(|owner| {
-            let feet = strip_feet(plan, placement, hard, owner);
-            let face = hard.sides[owner];
-            let streams = &attributes.streams;
-            let near = [face, face.next()].map(|corner| attributes.vertex_at[corner]);
-            !near.into_iter().any(|vertex| strays(streams, vertex))
-                && map.stretch(streams, channel, face, &feet) <= MOST_STRETCH
-        })
+        [0, 1].map(|owner| map.fits(&attributes.streams, channel, owner))
     };
     IdVec::from_vec(plan.edges.hard.ids().map(of_edge).collect())
 }

@@ -5,7 +5,7 @@
 
 use glam::DVec3;
 
-use crate::attributes::Streams;
+use super::Streams;
 use crate::corners;
 use crate::ids::{Few, Sector, Vertex};
 use crate::math::unit;
@@ -36,7 +36,7 @@ pub fn add(
 
 /// The blend of a ring's corner and two of its neighbours, none of negative weight, that comes
 /// nearest to a point.
-fn nearest(plan: &Plan, sectors: &[Sector], point: DVec3) -> Blend {
+pub fn nearest(plan: &Plan, sectors: &[Sector], point: DVec3) -> Blend {
     let firsts = || sectors.iter().map(|&sector| plan.sectors.fans[sector].first);
     let corner = plan.view.vertex_at(plan.sectors.fans[sectors[0]].first);
     let at = base(plan, sectors[0]);

@@ -1,0 +1,151 @@
+//! Ground: the texture that a chart covers around a chamfer.
+
+use glam::DVec2;
+
+use crate::ids::Corner;
+use crate::plan::Plan;
+
+use super::density::uv_point;
+use super::seam_between;
+
+/// A chamfer that lies past the end of its chart by less than this share of its own length shows
+/// nothing else: textures have a margin there, and UVs are rounded.
+const MARGIN: f64 = 1e-3;
+
+/// Rounding of UVs, as a share of their size.
+const ROUNDING: f64 = 1e-6;
+
+/// Where a new triangle is looked at: its corners, the middles of its sides, and between them.
+const SAMPLES: [[f64; 3]; 7] = [
+    [1.0, 0.0, 0.0],
+    [0.0, 1.0, 0.0],
+    [0.0, 0.0, 1.0],
+    [0.5, 0.5, 0.0],
+    [0.0, 0.5, 0.5],
+    [0.5, 0.0, 0.5],
+    [1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0],
+];
+
+/// The source triangles around some corners that lie in the corners' own chart of a channel.
+pub struct Ground<'a> {
+    plan: &'a Plan<'a>,
+    channel: usize,
+    /// Corners of chamfered edges.
+    corners: &'a [Corner],
+}
+
+impl<'a> Ground<'a> {
+    pub fn new(plan: &'a Plan, channel: usize, corners: &'a [Corner]) -> Self {
+        Ground { plan, channel, corners }
+    }
+
+    /// Whether a triangle on the texture lies on it.
+    pub fn covers(&self, triangle: [DVec2; 3]) -> bool {
+        let [a, b, c] = triangle;
+        let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+        let size =
+            triangle.iter().fold(0.0, |size: f64, point| size.max(point.abs().max_element()));
+        let near = longest * MARGIN + size * ROUNDING;
+        let holds = |points: [DVec2; 3], point: DVec2| distance(point, points) <= near;
+        let mut faces = self.triangles();
+        if faces.any(|points| triangle.into_iter().all(|point| holds(points, point))) {
+            return true;
+        }
+        SAMPLES.into_iter().all(|weights| {
+            let point = (0..3).map(|k| triangle[k] * weights[k]).sum();
+            self.triangles().any(|points| holds(points, point))
+        })
+    }
+
+    fn triangles(&self) -> impl Iterator<Item = [DVec2; 3]> + '_ {
+        let around = |&at: &Corner| self.ahead(at).chain(self.behind(at));
+        self.corners.iter().flat_map(around).map(|corner| self.points(corner))
+    }
+
+    /// The corners from one on, counter-clockwise around its vertex, up to the chart's end.
+    fn ahead(&self, at: Corner) -> impl Iterator<Item = Corner> + '_ {
+        let mut following = Some(at);
+        std::iter::from_fn(move || {
+            let corner = following?;
+            let side = corner.prev();
+            let next = self.plan.topology.twin[side];
+            following = (self.runs_on(side) && next != at).then_some(next);
+            Some(corner)
+        })
+    }
+
+    /// The corners before one, clockwise.
+    fn behind(&self, at: Corner) -> impl Iterator<Item = Corner> + '_ {
+        let mut side = at;
+        std::iter::from_fn(move || {
+            let twin = self.plan.topology.twin[side];
+            let next = self.runs_on(side).then(|| twin.next()).filter(|&corner| corner != at)?;
+            side = next;
+            Some(next)
+        })
+    }
+
+    /// Whether the chart goes on beyond a half-edge.
+    fn runs_on(&self, side: Corner) -> bool {
+        let twin = self.plan.topology.twin[side];
+        let meet = |one, other| !seam_between(self.plan, self.channel, one, other);
+        twin.is_some() && meet(side, twin.next()) && meet(side.next(), twin)
+    }
+
+    fn points(&self, corner: Corner) -> [DVec2; 3] {
+        let uv = &self.plan.view.mesh.uvs[self.channel];
+        corner.triangle().corners().map(|corner| uv_point(uv, self.plan.view.vertex_at(corner).0))
+    }
+}
+
+/// How far a point is from a triangle.
+fn distance(point: DVec2, triangle: [DVec2; 3]) -> f64 {
+    let [a, b, c] = triangle;
+    let turn = |from: DVec2, to: DVec2| (to - from).perp_dot(point - from);
+    let turns = [turn(a, b), turn(b, c), turn(c, a)];
+    let has_area = (b - a).perp_dot(c - a) != 0.0;
+    if has_area && (turns.iter().all(|t| *t >= 0.0) || turns.iter().all(|t| *t <= 0.0)) {
+        return 0.0;
+    }
+    let squares = [[a, b], [b, c], [c, a]].map(|[from, to]| {
+        let way = to - from;
+        let share = (point - from).dot(way) / way.length_squared().max(f64::MIN_POSITIVE);
+        point.distance_squared(from + way * share.clamp(0.0, 1.0))
+    });
+    squares.into_iter().fold(f64::INFINITY, f64::min).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::tests::plan_of;
+    use crate::shapes;
+
+    #[test]
+    fn a_point_is_as_far_from_a_triangle_as_from_its_nearest_side() {
+        let triangle = [DVec2::ZERO, DVec2::X * 2.0, DVec2::Y * 2.0];
+        assert_eq!(distance(DVec2::new(0.5, 0.5), triangle), 0.0);
+        assert_eq!(distance(DVec2::new(1.0, -3.0), triangle), 3.0);
+        assert_eq!(distance(DVec2::new(5.0, 4.0), [DVec2::X * 2.0; 3]), 5.0);
+    }
+
+    /// The top of the cube is a square of the atlas, 0.3 by 0.45.
+    #[test]
+    fn the_ground_at_a_corner_of_a_seamed_cube_is_one_square_of_the_atlas() {
+        let cube = shapes::cube(1.0);
+        let plan = plan_of(&cube, 0.1);
+        let corners = [Corner(0)];
+        let ground = Ground::new(&plan, 0, &corners);
+        let uv = |corner: u32| {
+            let vertex = cube.indices[corner as usize] as usize;
+            let at = [cube.uvs[0].values[2 * vertex], cube.uvs[0].values[2 * vertex + 1]];
+            DVec2::from(at.map(f64::from))
+        };
+        let face = [0, 1, 2].map(uv);
+        assert!(ground.covers(face));
+        let middle = (face[0] + face[1] + face[2]) / 3.0;
+        assert!(ground.covers([face[0], face[1], middle]));
+        let away = face[0] * 2.0 - middle;
+        assert!(!ground.covers([face[0], face[1], away]), "past the end of the chart");
+    }
+}

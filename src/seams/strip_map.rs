@@ -1,0 +1,211 @@
+//! Strip map: how a strip lies on the texture.
+
+use glam::{DVec2, DVec3};
+
+use super::density::{Facing, MOST_STRETCH, misfit};
+use super::feet::{Depth, Spread, band_foot, corner_lay, inside};
+use super::ground::Ground;
+use super::{channels_of, place_of};
+use crate::attributes::{Attributes, Streams};
+use crate::edges::HardEdge;
+use crate::ids::Corner;
+use crate::math::{area_vector, unit};
+use crate::output::Copies;
+use crate::placement::Placement;
+use crate::plan::Plan;
+use crate::report::Blend;
+use crate::strips::{self, Cut};
+
+/// A way to lay a strip on the texture. Owners are places in the edge's sides.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Way {
+    /// Every vertex stays in its own chart.
+    Own,
+    /// On the band that the owner's side has left free, or a part of it.
+    Band(usize, Spread, Depth),
+    /// Along the edge, within the triangle of the owner's side.
+    Inside(usize),
+    /// Flat, anywhere in that triangle.
+    Flat(usize),
+}
+
+/// The ways onto one side's band, best first.
+const BANDS: [(Spread, Depth); 6] = [
+    (Spread::Far, Depth::Band),
+    (Spread::Near, Depth::Band),
+    (Spread::Whole, Depth::Band),
+    (Spread::Far, Depth::Strip),
+    (Spread::Near, Depth::Strip),
+    (Spread::Whole, Depth::Strip),
+];
+
+fn bands(owner: usize) -> impl Iterator<Item = Way> {
+    BANDS.into_iter().map(move |(spread, depth)| Way::Band(owner, spread, depth))
+}
+
+/// For the corners b1, a1, a2, b2: a place in the owner's chart, where they take one.
+type Feet = [Option<Blend>; 4];
+
+/// A strip, and what is around it.
+pub struct StripMap<'a> {
+    plan: &'a Plan<'a>,
+    placement: &'a Placement,
+    edge: &'a HardEdge,
+    points: [DVec3; 4],
+    cut: Cut,
+    /// The strip's own vertices: b1, a1, a2, b2.
+    vertices: [u32; 4],
+    /// The corners at the edge's ends, on either side.
+    ends: [[Corner; 2]; 2],
+}
+
+impl<'a> StripMap<'a> {
+    pub fn new(
+        plan: &'a Plan,
+        placement: &'a Placement,
+        attributes: &Attributes,
+        edge: &'a HardEdge,
+        cut: Cut,
+    ) -> Self {
+        let corners = strips::corners(edge);
+        let points = corners.map(|corner| placement.position_at(plan, corner));
+        let vertices = corners.map(|corner| attributes.vertex_at[corner]);
+        let ends = edge.sides.map(|side| [side, side.next()]);
+        StripMap { plan, placement, edge, points, cut, vertices, ends }
+    }
+
+    fn feet(&self, way: Way) -> Feet {
+        let mut feet = [None; 4];
+        match way {
+            Way::Own => {}
+            Way::Band(owner, spread, depth) => {
+                for (end, place) in far_places(owner).into_iter().enumerate() {
+                    let at = (self.edge, owner, end);
+                    feet[place] = band_foot(self.plan, self.placement, at, spread, depth);
+                }
+            }
+            Way::Flat(owner) => feet = self.flat(owner),
+            Way::Inside(owner) => {
+                for (end, place) in far_places(owner).into_iter().enumerate() {
+                    let [near, far] = inside(self.plan, self.placement, (self.edge, owner, end));
+                    feet[place] = Some(far);
+                    feet[far_places(1 - owner)[1 - end]] = Some(near);
+                }
+            }
+        }
+        std::array::from_fn(|place| feet[place].filter(|_| self.is_used(place)))
+    }
+
+    /// Whether some triangle has the corner.
+    fn is_used(&self, place: usize) -> bool {
+        self.cut.triangles().iter().any(|triangle| triangle.contains(&place))
+    }
+
+    fn flat(&self, owner: usize) -> Feet {
+        let places: Vec<usize> = (0..4).filter(|&place| self.is_used(place)).collect();
+        let points: Vec<DVec3> = places.iter().map(|&place| self.points[place]).collect();
+        let areas = self.cut.triangles().iter().map(|t| area_vector(t.map(|k| self.points[k])));
+        let normal = unit(areas.sum());
+        let lay = corner_lay(self.plan, self.edge.sides[owner], &points, points.len(), normal);
+        let mut feet = [None; 4];
+        for (k, foot) in lay.feet {
+            feet[places[k]] = Some(foot);
+        }
+        feet
+    }
+
+    /// How badly the strip lies on a channel in some way: see [`misfit`].
+    fn misfit(&self, streams: &Streams, channel: usize, way: Way, feet: &Feet) -> f64 {
+        let uv = |place: usize| match &feet[place] {
+            Some(foot) => place_of(self.plan, channel, foot),
+            None => streams.uv(self.vertices[place], channel),
+        };
+        let uvs = [0, 1, 2, 3].map(uv);
+        match way {
+            Way::Band(owner, ..) | Way::Inside(owner) | Way::Flat(owner) => {
+                self.misfit_on(owner, channel, uvs)
+            }
+            Way::Own => [0, 1]
+                .map(|owner| self.misfit_on(owner, channel, uvs))
+                .into_iter()
+                .fold(f64::INFINITY, f64::min),
+        }
+    }
+
+    fn misfit_on(&self, owner: usize, channel: usize, uvs: [DVec2; 4]) -> f64 {
+        let ground = Ground::new(self.plan, channel, &self.ends[owner]);
+        let triangles =
+            self.cut.triangles().iter().map(|t| (t.map(|k| self.points[k]), t.map(|k| uvs[k])));
+        misfit(self.plan, self.edge.sides[owner], Facing::AsFace, channel, &ground, triangles)
+    }
+
+    /// Whether the strip fits on the band of a side.
+    pub fn fits(&self, streams: &Streams, channel: usize, owner: usize) -> bool {
+        let fits = |way: Way| {
+            let feet = self.feet(way);
+            self.misfit(streams, channel, way, &feet) <= MOST_STRETCH
+        };
+        bands(owner).any(fits)
+    }
+
+    /// The feet of the first way that fits, or else of the one that fits best, among those that
+    /// agree with what other channels have taken.
+    fn lay(&self, streams: &Streams, channel: usize, owner: usize, taken: &Feet) -> Feet {
+        let own = (self.edge.seams >> channel & 1 == 0).then_some(Way::Own);
+        let ways = own.into_iter().chain(bands(owner)).chain(bands(1 - owner));
+        let sides = [owner, 1 - owner];
+        let inside = sides.map(Way::Inside).into_iter().chain(sides.map(Way::Flat));
+        let mut best = (f64::INFINITY, *taken);
+        let mut is_first = true;
+        for way in ways.chain(inside) {
+            let feet = self.feet(way);
+            let agrees = |place: usize| match (taken[place], feet[place]) {
+                (Some(one), Some(other)) => one == other,
+                _ => true,
+            };
+            if !(0..4).all(agrees) {
+                continue;
+            }
+            let misfit = self.misfit(streams, channel, way, &feet);
+            if misfit < best.0 || is_first {
+                (best, is_first) = ((misfit, feet), false);
+            }
+            if misfit <= MOST_STRETCH {
+                break;
+            }
+        }
+        best.1
+    }
+}
+
+/// The places of the far side's corners, at the start and at the end of the owner's half-edge.
+fn far_places(owner: usize) -> [usize; 2] {
+    if owner == 0 { [2, 3] } else { [0, 1] }
+}
+
+/// The output vertices of a strip's corners b1, a1, a2, b2, moved into the owner's chart where
+/// their own is another, or folds or ends under the chamfer.
+pub fn strip_vertices(
+    plan: &Plan,
+    placement: &Placement,
+    owner: usize,
+    edge: &HardEdge,
+    cut: Cut,
+    attributes: &mut Attributes,
+    copies: &mut Copies,
+) -> [u32; 4] {
+    let map = StripMap::new(plan, placement, attributes, edge, cut);
+    let streams = &mut attributes.streams;
+    let (mut taken, mut channels): (Feet, [u8; 4]) = ([None; 4], [0; 4]);
+    for channel in channels_of(plan) {
+        let feet = map.lay(streams, channel, owner, &taken);
+        for place in (0..4).filter(|&place| feet[place].is_some()) {
+            taken[place] = feet[place];
+            channels[place] |= 1 << channel;
+        }
+    }
+    std::array::from_fn(|place| match &taken[place] {
+        Some(foot) => copies.get(plan, streams, map.vertices[place], foot, channels[place]),
+        None => map.vertices[place],
+    })
+}
