@@ -1,7 +1,15 @@
-//! Models that only the figures need.
+//! Models that only the figures need, and results.
 
 use crate::mesh::MeshBuffers;
+use crate::options::{Options, Width};
+use crate::report::Chamfered;
 use crate::shapes;
+
+/// The whole pipeline on a sound mesh, for a width in mesh units.
+pub fn chamfered(mesh: &MeshBuffers, width: f32) -> Chamfered {
+    let options = Options { width: Width::Units(width), ..Options::default() };
+    crate::chamfer(&mesh.as_mesh(), &options).unwrap()
+}
 
 /// One submesh, empty.
 pub fn nothing() -> MeshBuffers {

@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 
 use super::drawing::{BLUE, Drawing, FAINT, GREEN, INK, ORANGE, PALETTE, Pen, RED};
 use super::models::{add_block, nothing};
-use super::scene::{Camera, Scene};
+use super::scene::{Camera, FRONT, Scene};
 use crate::ids::{Corner, Sector};
 use crate::limits::limits as stage_limits;
 use crate::mesh::MeshBuffers;
@@ -13,8 +13,6 @@ use crate::placement::base;
 use crate::plan::Plan;
 use crate::plan::tests::plan_of;
 use crate::shapes;
-
-const FRONT: [f64; 3] = [2.0, 2.2, 4.0];
 
 /// Numbers nearer to each other than this could not be read.
 const LABEL_SPACE: f64 = 40.0;

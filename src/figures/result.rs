@@ -3,24 +3,18 @@
 use glam::{DVec2, DVec3};
 
 use super::drawing::{Anchor, Drawing, GREEN, INK, ORANGE, Pen, RED};
-use super::models::{add_block, add_card, nothing};
-use super::scene::{CLAY, Camera, FILL, Facet, Paint, STRIP, Scene, triangles};
+use super::models::{add_block, add_card, chamfered, nothing};
+use super::scene::{CLAY, Camera, FILL, FRONT, Facet, Paint, STRIP, Scene, triangles};
 use crate::limits::limits;
 use crate::mesh::MeshBuffers;
-use crate::options::{Options, Verify, Width};
+use crate::options::Verify;
 use crate::plan::tests::plan_of;
 use crate::report::{Chamfered, Outcome, TriangleKind};
 use crate::shapes;
 use crate::strips as stage_strips;
 use crate::view::wide;
 
-const FRONT: [f64; 3] = [2.0, 2.2, 4.0];
 const ABOVE: [f64; 3] = [0.6, 3.0, 2.0];
-
-fn chamfered(mesh: &MeshBuffers, width: f32) -> Chamfered {
-    let options = Options { width: Width::Units(width), ..Options::default() };
-    crate::chamfer(&mesh.as_mesh(), &options).unwrap()
-}
 
 /// The result's triangles, painted by what they are.
 fn draw_result(drawing: &mut Drawing, result: &Chamfered, camera: Camera) -> Scene {

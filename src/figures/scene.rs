@@ -13,6 +13,9 @@ pub struct Facet {
     pub paint: Paint,
 }
 
+/// From the front, a little from the right and from above.
+pub const FRONT: [f64; 3] = [2.0, 2.2, 4.0];
+
 /// Red, green and blue (0 to 255) in full light.
 pub type Paint = [f64; 3];
 

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::drawing::{BLUE, Drawing, FAINT, GREEN, INK, ORANGE, PALETTE, PURPLE, Pen, RED};
-use super::scene::{Camera, Scene, exploded};
+use super::scene::{Camera, FRONT, Scene, exploded};
 use crate::ids::{Corner, Id, Triangle, Vertex};
 use crate::mesh::MeshBuffers;
 use crate::options::Options;
@@ -12,9 +12,6 @@ use crate::plan::tests::plan_of;
 use crate::shapes::{self, Touch};
 use crate::view::wide;
 use crate::{view as stage_view, weld as stage_weld};
-
-/// From the front, a little from the right and from above.
-const FRONT: [f64; 3] = [2.0, 2.2, 4.0];
 
 pub fn view() -> Drawing {
     let mut drawing = Drawing::new(720, 300);

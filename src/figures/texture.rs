@@ -3,17 +3,12 @@
 use glam::DVec2;
 
 use super::drawing::{BLUE, Drawing, FAINT, INK, ORANGE, Pen};
-use super::scene::{CLAY, Camera, FILL, Facet, Paint, STRIP, Scene, triangles};
+use super::models::chamfered;
+use super::scene::{CLAY, Camera, FILL, FRONT, Facet, Paint, STRIP, Scene, triangles};
 use crate::mesh::{Mesh, MeshBuffers};
-use crate::options::{Options, Width};
 use crate::report::{Chamfered, TriangleKind};
 use crate::shapes;
 use crate::view::wide;
-
-fn chamfered(mesh: &MeshBuffers, width: f32) -> Chamfered {
-    let options = Options { width: Width::Units(width), ..Options::default() };
-    crate::chamfer(&mesh.as_mesh(), &options).unwrap()
-}
 
 /// A square of the paper that shows texture space, v upwards.
 struct Chart {
@@ -104,7 +99,7 @@ pub fn seams() -> Drawing {
     let mesh = &result.mesh;
     drawing.title(170.0, "each chamfer has the colour of its owner");
     drawing.title(530.0, "the texture: chamfers fill their owner's band");
-    let camera = Camera::new([2.0, 2.2, 4.0], [0.0; 3], 150.0, [170.0, 170.0]);
+    let camera = Camera::new(FRONT, [0.0; 3], 150.0, [170.0, 170.0]);
     let facets = triangles(mesh).enumerate().map(|(triangle, points)| Facet {
         points,
         paint: FACES[owner_face(&mesh.as_mesh(), triangle)],
