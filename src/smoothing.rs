@@ -32,6 +32,9 @@ pub struct Smoothed {
 /// `positions` are `#vertices by 3`, finite; `indices` `#triangles by 3`, flattened, in range.
 /// Positions are welded bit for bit first, so that triangle soups work. A triangle without area
 /// takes the normal of the face behind its longest side.
+///
+/// # Panics
+/// Where an index is out of range.
 pub fn split_by_angle(positions: &[[f32; 3]], indices: &[u32], angle_degrees: f32) -> Smoothed {
     let mut smoothed = Smoothed {
         source_of: (0..positions.len() as u32).collect(),
