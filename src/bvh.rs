@@ -14,7 +14,8 @@ pub(crate) struct Aabb {
 }
 
 impl Aabb {
-    const EMPTY: Aabb = Aabb { low: [f32::INFINITY; 3], high: [f32::NEG_INFINITY; 3] };
+    /// Overlaps nothing.
+    pub const EMPTY: Aabb = Aabb { low: [f32::INFINITY; 3], high: [f32::NEG_INFINITY; 3] };
 
     /// The box around some points.
     pub fn around(points: &[[f32; 3]]) -> Aabb {
@@ -38,6 +39,35 @@ impl Aabb {
     }
 }
 
+/// Where something lies as seen from what it has in common with others (see `intersect::crowds`).
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Kin {
+    /// What that is: only things with the same can be told apart.
+    around: Option<u32>,
+    bounds: Aabb,
+}
+
+impl Kin {
+    /// Nothing in common with anything.
+    pub const NONE: Kin = Kin { around: None, bounds: Aabb::EMPTY };
+
+    pub fn new(around: u32, bounds: Aabb) -> Kin {
+        Kin { around: Some(around), bounds }
+    }
+
+    /// Whether the two have nothing to do with each other, though their boxes overlap.
+    pub fn is_apart(&self, other: &Kin) -> bool {
+        self.around.is_some() && self.around == other.around && !self.bounds.overlaps(&other.bounds)
+    }
+
+    fn union(self, other: Kin) -> Kin {
+        match self.around == other.around {
+            true => Kin { around: self.around, bounds: self.bounds.union(other.bounds) },
+            false => Kin::NONE,
+        }
+    }
+}
+
 struct Node {
     bounds: Aabb,
     /// The node after this one and all below it.
@@ -56,25 +86,47 @@ pub(crate) struct Bvh {
     order: Vec<u32>,
     /// `#boxes`: the boxes themselves, in the same order.
     boxes: Vec<Aabb>,
+    /// Their kin, and that of the nodes; none where there is no crowd.
+    crowds: Option<Crowds>,
+}
+
+struct Crowds {
+    /// `#boxes`, in the order of the tree.
+    of_box: Vec<Kin>,
+    /// `#nodes`: of all that is below.
+    of_node: Vec<Kin>,
 }
 
 impl Bvh {
-    /// Builds the tree over `boxes`.
-    pub fn new(boxes: &[Aabb]) -> Bvh {
+    /// Builds the tree over `boxes`, with the kin of each (`#boxes`) if there are crowds.
+    pub fn new(boxes: &[Aabb], kin: Option<&[Kin]>) -> Bvh {
         let mut order: Vec<u32> = (0..boxes.len() as u32).collect();
         let mut nodes = Vec::with_capacity(boxes.len());
         if !boxes.is_empty() {
             build(&mut nodes, &mut order, 0, boxes);
         }
         let boxes = order.iter().map(|&number| boxes[number as usize]).collect();
-        Bvh { nodes, order, boxes }
+        let crowds = kin.map(|kin| Crowds::new(&nodes, &order, kin));
+        Bvh { nodes, order, boxes, crowds }
     }
 
-    /// Calls `visit` once for each two boxes that have at least a point in common.
-    pub fn visit_overlapping_pairs(&self, mut visit: impl FnMut(u32, u32)) {
-        for leaf in self.nodes.iter().filter(|node| node.count > 0) {
+    /// Calls `visit` once for each two boxes that have at least a point in common and are not told
+    /// apart by their kin. Where `skip` holds for all boxes of a leaf by the time that it is its
+    /// turn, pairs with what comes behind are left out.
+    pub fn visit_overlapping_pairs(
+        &self,
+        skip: impl Fn(u32) -> bool,
+        mut visit: impl FnMut(u32, u32),
+    ) {
+        for (place, leaf) in self.nodes.iter().enumerate().filter(|(_, node)| node.count > 0) {
+            if leaf.places().all(|place| skip(self.order[place])) {
+                continue;
+            }
             let mut visit_places = |a: usize, b: usize| {
-                if self.boxes[a].overlaps(&self.boxes[b]) {
+                let of_box = |crowds: &Crowds| crowds.of_box[a].is_apart(&crowds.of_box[b]);
+                if self.boxes[a].overlaps(&self.boxes[b])
+                    && !self.crowds.as_ref().is_some_and(of_box)
+                {
                     visit(self.order[a], self.order[b]);
                 }
             };
@@ -82,7 +134,7 @@ impl Bvh {
                 (a + 1..leaf.places().end).for_each(|b| visit_places(a, b));
             }
             // Only leaves behind this one: those before have met it already.
-            self.visit_leaves_behind(leaf, |other| {
+            self.visit_leaves_behind(place, |other| {
                 for a in leaf.places() {
                     other.places().for_each(|b| visit_places(a, b));
                 }
@@ -91,15 +143,36 @@ impl Bvh {
     }
 
     /// Calls `visit` for each leaf behind `leaf`, in the order of the tree, that overlaps it.
-    fn visit_leaves_behind(&self, leaf: &Node, mut visit: impl FnMut(&Node)) {
-        let mut place = leaf.next as usize;
+    fn visit_leaves_behind(&self, leaf: usize, mut visit: impl FnMut(&Node)) {
+        let bounds = &self.nodes[leaf].bounds;
+        let mut place = self.nodes[leaf].next as usize;
         while let Some(node) = self.nodes.get(place) {
-            let overlaps = node.bounds.overlaps(&leaf.bounds);
+            let of_node = |crowds: &Crowds| crowds.of_node[leaf].is_apart(&crowds.of_node[place]);
+            let overlaps =
+                node.bounds.overlaps(bounds) && !self.crowds.as_ref().is_some_and(of_node);
             if overlaps && node.count > 0 {
                 visit(node);
             }
             place = if overlaps { place + 1 } else { node.next as usize };
         }
+    }
+}
+
+impl Crowds {
+    fn new(nodes: &[Node], order: &[u32], kin: &[Kin]) -> Crowds {
+        let of_box: Vec<Kin> = order.iter().map(|&number| kin[number as usize]).collect();
+        let mut of_node = vec![Kin::NONE; nodes.len()];
+        // Children follow their node, so from behind they are known first.
+        for (place, node) in nodes.iter().enumerate().rev() {
+            of_node[place] = if node.count > 0 {
+                let own = &of_box[node.places()];
+                own[1..].iter().fold(own[0], |all, &kin| all.union(kin))
+            } else {
+                let first = place + 1;
+                of_node[first].union(of_node[nodes[first].next as usize])
+            };
+        }
+        Crowds { of_box, of_node }
     }
 }
 
@@ -141,7 +214,8 @@ mod tests {
 
     fn pairs(boxes: &[Aabb]) -> Vec<(u32, u32)> {
         let mut pairs = Vec::new();
-        Bvh::new(boxes).visit_overlapping_pairs(|a, b| pairs.push((a.min(b), a.max(b))));
+        Bvh::new(boxes, None)
+            .visit_overlapping_pairs(|_| false, |a, b| pairs.push((a.min(b), a.max(b))));
         pairs.sort_unstable();
         pairs
     }

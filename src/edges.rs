@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use crate::faces::Faces;
 use crate::ids::{Corner, Edge, Id, IdVec, Vertex};
+use crate::mesh::UV_CHANNELS;
 use crate::report::Reason;
 use crate::resample::uv_at;
 use crate::topology::Topology;
@@ -100,19 +101,19 @@ fn obstacle(topology: &Topology, faces: &Faces, side: Corner, other: Corner) -> 
 
 /// The UV channels that differ between two half-edges that are twins, as bits.
 fn seam_channels(view: &View, side: Corner, other: Corner) -> u8 {
-    let ends = [(side, other.next()), (side.next(), other)];
-    let vertices = ends.map(|(one, other)| [one, other].map(|c| view.vertex_at(c).index()));
-    let mut channels = 0;
-    for (channel, uv) in view.mesh.uvs.iter().enumerate().filter(|(_, uv)| uv.components > 0) {
-        let differs = |[one, other]: [usize; 2]| {
-            let values = uv_at(uv, one).iter().zip(uv_at(uv, other));
-            values.into_iter().any(|(&a, &b)| (a - b).abs() > EQUAL_UV * a.abs().max(1.0))
-        };
-        if vertices.into_iter().any(differs) {
-            channels |= 1 << channel;
-        }
-    }
-    channels
+    let pairs = [(side, other.next()), (side.next(), other)];
+    let differs = |channel: &usize| {
+        pairs.into_iter().any(|(one, other)| seam_between(view, *channel, one, other))
+    };
+    let present = (0..UV_CHANNELS).filter(|&channel| view.mesh.uvs[channel].components > 0);
+    present.filter(differs).fold(0, |channels, channel| channels | 1 << channel)
+}
+
+/// Whether two corners at one position differ in a UV channel.
+pub fn seam_between(view: &View, channel: usize, one: Corner, other: Corner) -> bool {
+    let uv = &view.mesh.uvs[channel];
+    let [one, other] = [one, other].map(|corner| uv_at(uv, view.vertex_at(corner).index()));
+    one.iter().zip(other).any(|(&a, &b)| (a - b).abs() > EQUAL_UV * a.abs().max(1.0))
 }
 
 #[cfg(test)]

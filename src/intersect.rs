@@ -7,37 +7,73 @@
 //! (Shewchuk's predicates), in the manner of Guigue and Devillers, *Fast and Robust
 //! Triangle-Triangle Overlap Test Using Orientation Predicates* (2003).
 
+mod crowds;
+
 use glam::DVec3;
 use robust::{Coord, Coord3D, orient2d, orient3d};
 
 use crate::bvh::{Aabb, Bvh};
+
+use crowds::crowds;
 
 type Triangle = [[f32; 3]; 3];
 
 /// The pairs of triangles that cut each other, the smaller number first, in ascending order.
 ///
 /// `positions` are `#vertices by 3`, finite; `triangles` `#triangles by 3`, in range. Only pairs
-/// in one part (`part_of: #triangles`) count, and only those of which at least one is `suspect`.
+/// in one part (`part_of: #triangles`) count.
 pub(crate) fn self_intersections(
     positions: &[[f32; 3]],
     triangles: &[[u32; 3]],
     part_of: &[u32],
-    suspect: impl Fn(u32) -> bool,
 ) -> Vec<(u32, u32)> {
-    let corners = |triangle: u32| triangles[triangle as usize].map(|v| positions[v as usize]);
-    let boxes: Vec<Aabb> =
-        (0..triangles.len() as u32).map(|triangle| Aabb::around(&corners(triangle))).collect();
     let mut pairs = Vec::new();
-    Bvh::new(&boxes).visit_overlapping_pairs(|a, b| {
-        if (suspect(a) || suspect(b))
-            && part_of[a as usize] == part_of[b as usize]
-            && cut_each_other(&corners(a), &corners(b))
-        {
-            pairs.push((a.min(b), a.max(b)));
-        }
-    });
+    let soup = Soup::new(positions, triangles);
+    let may_cut = |a: u32, b: u32| part_of[a as usize] == part_of[b as usize];
+    soup.visit_cuts(|_| false, may_cut, |a, b| pairs.push((a.min(b), a.max(b))));
     pairs.sort_unstable();
     pairs
+}
+
+/// Triangles to be searched, more than once if need be.
+pub(crate) struct Soup<'a> {
+    positions: &'a [[f32; 3]],
+    triangles: &'a [[u32; 3]],
+    tree: Bvh,
+}
+
+impl Soup<'_> {
+    /// `positions` are `#vertices by 3`, finite; `triangles` `#triangles by 3`, in range.
+    pub fn new<'a>(positions: &'a [[f32; 3]], triangles: &'a [[u32; 3]]) -> Soup<'a> {
+        let corners = |t: u32| triangles[t as usize].map(|v| positions[v as usize]);
+        let boxes: Vec<Aabb> = (0..triangles.len() as u32).map(|t| bounds(&corners(t))).collect();
+        let kin = crowds(triangles.len(), corners);
+        Soup { positions, triangles, tree: Bvh::new(&boxes, kin.as_deref()) }
+    }
+
+    /// Calls `found` for each pair that `may_cut` and does, but for those with something to `skip`:
+    /// what that is may grow on the way, so that a search can end early.
+    pub fn visit_cuts(
+        &self,
+        skip: impl Fn(u32) -> bool,
+        may_cut: impl Fn(u32, u32) -> bool,
+        mut found: impl FnMut(u32, u32),
+    ) {
+        let corners = |t: u32| self.triangles[t as usize].map(|v| self.positions[v as usize]);
+        self.tree.visit_overlapping_pairs(&skip, |a, b| {
+            let is_skipped = skip(a) || skip(b);
+            if !is_skipped && may_cut(a, b) && cut_each_other(&corners(a), &corners(b)) {
+                found(a, b);
+            }
+        });
+    }
+}
+
+/// A triangle with two corners at one place cuts nothing, so it meets nothing: otherwise many at
+/// one place would all be compared.
+fn bounds(triangle: &Triangle) -> Aabb {
+    let [a, b, c] = triangle;
+    if a == b || b == c || c == a { Aabb::EMPTY } else { Aabb::around(triangle) }
 }
 
 /// Whether the insides of two triangles cross. Triangles without area have none.
@@ -290,16 +326,48 @@ mod tests {
     }
 
     #[test]
-    fn only_suspects_in_one_part_are_paired() {
+    fn only_what_may_cut_is_found() {
         let positions = [FLOOR, [[1.0, 1.0, -1.0], [2.0, 1.0, -1.0], [1.0, 1.0, 1.0]]].concat();
         let triangles = [[0, 1, 2], [3, 4, 5]];
-        let pairs = |part_of: [u32; 2], suspect: fn(u32) -> bool| {
-            self_intersections(&positions, &triangles, &part_of, suspect)
+        let found = |skip: fn(u32) -> bool, may_cut: fn(u32, u32) -> bool| {
+            let mut pairs = Vec::new();
+            Soup::new(&positions, &triangles).visit_cuts(skip, may_cut, |a, b| pairs.push((a, b)));
+            pairs.len()
         };
-        assert_eq!(pairs([0, 0], |_| true), [(0, 1)]);
-        assert_eq!(pairs([0, 0], |triangle| triangle == 0), [(0, 1)]);
-        assert_eq!(pairs([0, 0], |triangle| triangle == 1), [(0, 1)]);
-        assert!(pairs([0, 0], |_| false).is_empty());
-        assert!(pairs([0, 1], |_| true).is_empty());
+        assert_eq!(found(|_| false, |_, _| true), 1);
+        assert_eq!(found(|triangle| triangle == 0, |_, _| true), 0);
+        assert_eq!(found(|_| false, |_, _| false), 0);
+        assert_eq!(self_intersections(&positions, &triangles, &[0, 0]), [(0, 1)]);
+        assert!(self_intersections(&positions, &triangles, &[0, 1]).is_empty());
+    }
+
+    /// A cone of many sides with a wall through it, and faces around one of the wall's sides.
+    #[test]
+    fn in_a_crowd_all_pairs_are_found() {
+        let mut state = 7u32;
+        let mut random = || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (state >> 20) as f32 / 2048.0 - 1.0
+        };
+        let mut triangles: Vec<Triangle> = Vec::new();
+        for step in 0..120 {
+            let [[a, b, c], [d, e, f]] = [[(); 3]; 2].map(|point| point.map(|()| random()));
+            let apex = [0.0, 2.0, 0.0];
+            match step % 3 {
+                0 => triangles.push([apex, [a, b, c], [d, e, f]]),
+                1 => triangles.push([[d, e, f], [0.0; 3], apex]),
+                _ => triangles.push([[a, b, c], apex, [a + 0.3, b, f]]),
+            }
+        }
+        let points: Vec<[f32; 3]> = triangles.concat();
+        let corners: Vec<[u32; 3]> =
+            (0..triangles.len() as u32).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
+        let mut expected = Vec::new();
+        for a in 0..triangles.len() as u32 {
+            let cut = |b: &u32| cut_each_other(&triangles[a as usize], &triangles[*b as usize]);
+            expected.extend((a + 1..triangles.len() as u32).filter(cut).map(|b| (a, b)));
+        }
+        assert!(expected.len() > 100, "{}", expected.len());
+        assert_eq!(self_intersections(&points, &corners, &vec![0; corners.len()]), expected);
     }
 }

@@ -83,8 +83,7 @@ impl Surface<'_> {
             plan,
             placement,
             owner,
-            hard,
-            cut,
+            (hard, cut),
             &mut self.attributes,
             &mut self.copies,
         );

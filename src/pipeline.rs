@@ -87,9 +87,7 @@ pub fn chamfer_by_stages(
     let mut done = or_cancelled(after);
     let view = view(mesh, options)?;
     done(Stage::View)?;
-    let weld = weld(mesh);
-    done(Stage::Weld)?;
-    let shape = if may_be_hard(&view, &weld) { Some(shape(&view, weld, &mut done)?) } else { None };
+    let shape = find_shape(&view, &mut done)?;
     chamfer_shape(view, shape.as_ref(), options, &mut done)
 }
 
@@ -124,10 +122,17 @@ impl<'a> Prepared<'a> {
     pub fn new(mesh: &Mesh<'a>) -> Result<Prepared<'a>, Error> {
         let none = Options { width: Width::Units(0.0), threads: 1, ..Options::default() };
         let view = view(mesh, &none)?;
-        let weld = weld(mesh);
-        let may_be_hard = may_be_hard(&view, &weld);
-        let shape = if may_be_hard { Some(shape(&view, weld, &mut |_| Ok(()))?) } else { None };
-        Ok(Prepared { mesh: *mesh, shape })
+        Ok(Prepared { mesh: *mesh, shape: find_shape(&view, &mut |_| Ok(()))? })
+    }
+
+    /// From what [`Prepared::into_shape`] gave for this very mesh.
+    pub(crate) fn of_shape(mesh: Mesh<'a>, shape: Option<Shape>) -> Prepared<'a> {
+        Prepared { mesh, shape }
+    }
+
+    /// What was found out, without the mesh.
+    pub(crate) fn into_shape(self) -> Option<Shape> {
+        self.shape
     }
 
     /// The same as [`chamfer`](crate::chamfer()) of the mesh, sooner.
@@ -165,7 +170,13 @@ fn or_cancelled(
 /// Told whenever a stage ends; an error ends the call.
 type Done<'a> = dyn FnMut(Stage) -> Result<(), Error> + 'a;
 
-/// The stages that no width has a say in.
+/// The stages that no width has a say in; none where nothing can be hard.
+fn find_shape(view: &View, done: &mut Done) -> Result<Option<Shape>, Error> {
+    let weld = weld(&view.mesh);
+    done(Stage::Weld)?;
+    if may_be_hard(view, &weld) { shape(view, weld, done).map(Some) } else { Ok(None) }
+}
+
 pub(crate) fn shape(view: &View, weld: Weld, done: &mut Done) -> Result<Shape, Error> {
     let topology = topology(view, &weld);
     done(Stage::Topology)?;

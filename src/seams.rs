@@ -14,25 +14,15 @@ mod strip_map;
 
 use glam::DVec2;
 
-use crate::edges::EQUAL_UV;
-use crate::ids::{Corner, Id};
 use crate::mesh::UV_CHANNELS;
 use crate::plan::Plan;
 use crate::report::Blend;
-use crate::resample::uv_at;
 
 use density::uv_point;
 
 pub use fill_map::{FillLay, FillMap};
 pub use owners::{Owners, owners};
 pub use strip_map::strip_vertices;
-
-/// Whether two corners at one position differ in a UV channel.
-fn seam_between(plan: &Plan, channel: usize, one: Corner, other: Corner) -> bool {
-    let uv = &plan.view.mesh.uvs[channel];
-    let [one, other] = [one, other].map(|corner| uv_at(uv, plan.view.vertex_at(corner).index()));
-    one.iter().zip(other).any(|(&a, &b)| (a - b).abs() > EQUAL_UV * a.abs().max(1.0))
-}
 
 /// The UV channels that a mesh has.
 fn channels_of(plan: &Plan) -> impl Iterator<Item = usize> + use<> {

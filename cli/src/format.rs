@@ -80,7 +80,7 @@ impl fmt::Display for Format {
 pub fn read(path: &Path, options: &ReadOptions) -> Result<Box<dyn Document + Send>> {
     // Looked at first: whatever a file of an unknown kind holds, there is no need to load it.
     let format = known(path)?;
-    decode_as(format, path, read_file(path)?, options)
+    decode_as(format, path, fs::read(path)?, options)
 }
 
 /// Reads a model from the bytes of its file. What it refers to is looked for beside `path`.
@@ -112,15 +112,22 @@ fn decode_as(
     })
 }
 
-/// Reads a plain file: a pipe or a device could block for ever.
+/// Reads a file that a model refers to, which the user may know nothing of: a plain one, because a
+/// pipe or a device could block for ever, in the model's folder or below, also where links lead.
 ///
 /// # Errors
-/// Where it is missing, may not be read, or is something else. Callers say which file it was.
-pub fn read_file(path: &Path) -> Result<Vec<u8>> {
-    if !fs::metadata(path)?.is_file() {
+/// Where it is missing, elsewhere, may not be read, or is something else. Callers say which file it
+/// was.
+pub fn read_beside(folder: &Path, name: &Path) -> Result<Vec<u8>> {
+    let folder = if folder == Path::new("") { Path::new(".") } else { folder };
+    let path = folder.join(name).canonicalize()?;
+    if !path.starts_with(folder.canonicalize()?) {
+        bail!("a link leads out of the model's folder: put the file itself there");
+    }
+    if !fs::metadata(&path)?.is_file() {
         bail!("not a file");
     }
-    Ok(fs::read(path)?)
+    Ok(fs::read(&path)?)
 }
 
 #[cfg(test)]

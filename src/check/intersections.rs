@@ -38,5 +38,5 @@ pub(super) fn check_intersections(
 fn intersections_within(surface: &Surface, parts: &[u32]) -> Vec<(u32, u32)> {
     let triangles: Vec<[u32; 3]> =
         surface.mesh.indices.chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect();
-    self_intersections(surface.mesh.positions, &triangles, parts, |_| true)
+    self_intersections(surface.mesh.positions, &triangles, parts)
 }

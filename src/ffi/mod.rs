@@ -7,6 +7,7 @@ mod guard;
 mod input;
 mod normals;
 mod output;
+mod prepared;
 mod sized;
 mod status;
 mod types;
@@ -91,11 +92,8 @@ pub unsafe extern "C" fn chamfer_run(
     let body = || unsafe {
         let mesh = input::borrow_mesh(mesh)?;
         let options = input::read_options(options)?;
-        let mut report = |done| match progress {
-            Some(call) if call(user, done) != 0 => ControlFlow::Break(()),
-            _ => ControlFlow::Continue(()),
-        };
-        Ok(chamfer_with_progress(&mesh, &options, &mut report)?)
+        let result = chamfer_with_progress(&mesh, &options, &mut reporting(progress, user))?;
+        Ok(chamfer_result(result))
     };
     // SAFETY: as above.
     unsafe { produce(out, error, body) }
@@ -114,7 +112,10 @@ pub unsafe extern "C" fn chamfer_split_by_angle(
     error: *mut chamfer_error,
 ) -> i32 {
     // SAFETY: the caller's pointers are NULL or valid, as `chamfer.h` asks.
-    let body = || normals::with_normals(&unsafe { input::borrow_mesh(mesh) }?, angle_degrees);
+    let body = || {
+        let mesh = unsafe { input::borrow_mesh(mesh) }?;
+        Ok(chamfer_result(normals::with_normals(&mesh, angle_degrees)?))
+    };
     // SAFETY: as above.
     unsafe { produce(out, error, body) }
 }
@@ -196,14 +197,29 @@ pub unsafe extern "C" fn chamfer_result_destroy(result: *mut chamfer_result) {
     }
 }
 
+/// The caller's progress callback, as the core calls it.
+///
+/// # Safety
+/// The callback may be called with `user` as long as what this gives lives.
+unsafe fn reporting(
+    progress: chamfer_progress,
+    user: *mut c_void,
+) -> impl FnMut(f32) -> ControlFlow<()> {
+    move |done| match progress {
+        // SAFETY: as this function's.
+        Some(call) if unsafe { call(user, done) } != 0 => ControlFlow::Break(()),
+        _ => ControlFlow::Continue(()),
+    }
+}
+
 /// Runs `make` and hands what it made to the caller.
 ///
 /// # Safety
 /// `out` is NULL, misaligned or writable; `error` as for [`guard`].
-unsafe fn produce(
-    out: *mut *mut chamfer_result,
+unsafe fn produce<T>(
+    out: *mut *mut T,
     error: *mut chamfer_error,
-    make: impl FnOnce() -> Result<Chamfered, Failure>,
+    make: impl FnOnce() -> Result<T, Failure>,
 ) -> i32 {
     let checked = check_pointer(out, "out");
     if checked.is_ok() {
@@ -213,9 +229,9 @@ unsafe fn produce(
     }
     let body = || {
         checked?;
-        let result = Box::new(chamfer_result(make()?));
+        let made = Box::new(make()?);
         // SAFETY: as above.
-        unsafe { out.write(Box::into_raw(result)) };
+        unsafe { out.write(Box::into_raw(made)) };
         Ok(())
     };
     // SAFETY: as this function's.

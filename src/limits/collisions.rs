@@ -3,10 +3,12 @@
 //! Only edge-connected parts that are clean in the source are kept clean: where a part cuts
 //! through itself already, a chamfer across the cut has to cut as well.
 
+use std::cell::Cell;
+
 use crate::corners;
 use crate::groups::Groups;
 use crate::ids::{Corner, Few, Id, IdVec, Sector, Triangle};
-use crate::intersect::self_intersections;
+use crate::intersect;
 use crate::plan::Plan;
 use crate::report::Reason;
 use crate::strips;
@@ -55,6 +57,9 @@ fn give_back(search: &mut Search, limits: &mut Limits, free: &IdVec<Sector, f64>
             bad.extend(bad_around(plan, &limits.placement, &shrunk));
             let mut back: Vec<Sector> = bad.iter().flat_map(|&e| sectors_of(plan, e)).collect();
             back.retain(|&sector| limits.placement.share[sector] > safe[sector]);
+            // Each once: the second time, what was safe would be taken for what was not.
+            back.sort_unstable();
+            back.dedup();
             if back.is_empty() {
                 break;
             }
@@ -82,13 +87,35 @@ impl Search<'_> {
     /// All that takes part in a cut in a part that had none.
     fn new_cuts(&mut self, limits: &Limits) -> Vec<Element> {
         let soup = soup(self.plan, limits, &self.part_of);
-        let cuts = soup.cuts(self.plan, limits);
-        if cuts.is_empty() {
-            return Vec::new();
+        let is_changed = soup.changed(self.plan, limits);
+        let part_of = |triangle: u32| soup.part_of[triangle as usize] as usize;
+        let may_cut = |a: u32, b: u32| {
+            part_of(a) == part_of(b) && (is_changed[a as usize] || is_changed[b as usize])
+        };
+        let search = intersect::Soup::new(&soup.points, &soup.triangles);
+        if self.was_cut.is_none() {
+            let is_cut = Cell::new(false);
+            search.visit_cuts(|_| is_cut.get(), may_cut, |_, _| is_cut.set(true));
+            if !is_cut.get() {
+                return Vec::new();
+            }
         }
         let was_cut = self.was_cut.get_or_insert_with(|| parts_that_cut(self.plan, &self.part_of));
-        let new = cuts.into_iter().filter(|pair| !was_cut[soup.part_of[pair[0]] as usize]);
-        new.flatten().map(|place| soup.elements[place]).collect()
+        // Which pairs cut does not matter, and there may be very many: only what takes part.
+        let mut takes_part = vec![false; soup.elements.len()];
+        search.visit_cuts(
+            |triangle| was_cut[part_of(triangle)],
+            may_cut,
+            |a, b| {
+                takes_part[a as usize] = true;
+                takes_part[b as usize] = true;
+            },
+        );
+        soup.elements
+            .iter()
+            .zip(takes_part)
+            .filter_map(|(&element, takes_part)| takes_part.then_some(element))
+            .collect()
     }
 }
 
@@ -109,18 +136,17 @@ impl Soup {
         self.elements.push(element);
     }
 
-    /// The pairs that cut each other, of which at least one is new or has moved.
-    fn cuts(&self, plan: &Plan, limits: &Limits) -> Vec<[usize; 2]> {
+    /// `#triangles`: whether it is new or has moved.
+    fn changed(&self, plan: &Plan, limits: &Limits) -> Vec<bool> {
         let has_moved = |corner: Corner| {
             let sector = plan.sectors.sector_of[corner];
             sector.is_some() && limits.placement.has_moved(plan, sector)
         };
-        let is_changed = |place: u32| match self.elements[place as usize] {
+        let is_changed = |element: &Element| match *element {
             Element::Surface(triangle) => triangle.corners().into_iter().any(has_moved),
             Element::Strip(_) | Element::Fill(_) => true,
         };
-        let pairs = self_intersections(&self.points, &self.triangles, &self.part_of, is_changed);
-        pairs.into_iter().map(|(one, other)| [one as usize, other as usize]).collect()
+        self.elements.iter().map(is_changed).collect()
     }
 }
 
@@ -176,15 +202,17 @@ fn parts(plan: &Plan) -> Vec<u32> {
 
 /// `#triangles`, by the number of a part: whether it cuts through itself in the source.
 fn parts_that_cut(plan: &Plan, part_of: &[u32]) -> Vec<bool> {
-    let mut cuts = vec![false; part_of.len()];
+    let cuts = vec![Cell::new(false); part_of.len()];
+    let cuts_itself = |triangle: u32| &cuts[part_of[triangle as usize] as usize];
     let triangles: Vec<[u32; 3]> = plan
         .view
         .triangles()
         .map(|triangle: Triangle| triangle.corners().map(|corner| plan.view.vertex_at(corner).0))
         .collect();
-    let positions = plan.view.mesh.positions;
-    for (triangle, _) in self_intersections(positions, &triangles, part_of, |_| true) {
-        cuts[part_of[triangle as usize] as usize] = true;
-    }
-    cuts
+    intersect::Soup::new(plan.view.mesh.positions, &triangles).visit_cuts(
+        |triangle| cuts_itself(triangle).get(),
+        |a, b| part_of[a as usize] == part_of[b as usize],
+        |a, _| cuts_itself(a).set(true),
+    );
+    cuts.into_iter().map(Cell::into_inner).collect()
 }

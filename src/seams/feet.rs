@@ -2,9 +2,8 @@
 
 use glam::DVec3;
 
-use super::seam_between;
-use crate::edges::HardEdge;
-use crate::ids::{Corner, Sector};
+use crate::edges::{HardEdge, seam_between};
+use crate::ids::{Corner, Few, Sector};
 use crate::math::{area_vector, unit};
 use crate::mesh::UV_CHANNELS;
 use crate::placement::Placement;
@@ -171,7 +170,7 @@ pub enum Wings {
 /// Where a fill lies in its owner's chart.
 pub struct Lay {
     /// Sectors, as places in the ring.
-    pub feet: Vec<(usize, Blend)>,
+    pub feet: Few<(usize, Blend)>,
     /// For each vertex in the middle.
     pub middles: Vec<Blend>,
 }
@@ -204,7 +203,7 @@ pub fn kite(
 
 /// The places of the ring but the owner's, each with what lies at its share of the way from the
 /// owner's last edge to its first.
-fn on_others(count: usize, owner: usize, at: impl Fn(f64) -> Blend) -> Vec<(usize, Blend)> {
+fn on_others(count: usize, owner: usize, at: impl Fn(f64) -> Blend) -> Few<(usize, Blend)> {
     let others = count - 1;
     let along = |k: usize| k as f64 / (others - 1).max(1) as f64;
     (0..others).map(|k| ((owner + 1 + k) % count, at(along(k)))).collect()
@@ -254,7 +253,7 @@ pub fn corner_lay(
     ring: usize,
     normal: DVec3,
 ) -> Lay {
-    let apex = (0..ring).rev().max_by(|&one, &other| {
+    let apex = (0..ring).max_by(|&one, &other| {
         let opening = |apex| spread_at(points, ring, apex, normal);
         opening(one).total_cmp(&opening(other))
     });
@@ -265,7 +264,7 @@ pub fn corner_lay(
         let way = *point - points[apex];
         [way.cross(to_prev), to_next.cross(way)].map(|part| part.dot(normal) / opening)
     };
-    let flat: Vec<[f64; 2]> = points.iter().map(coordinates).collect();
+    let flat: Few<[f64; 2]> = points.iter().map(coordinates).collect();
     let least = [0, 1].map(|k| flat.iter().map(|at| at[k]).fold(0.0, f64::min));
     let reach = |at: &[f64; 2]| at[0] - least[0] + at[1] - least[1];
     let farthest = flat.iter().map(reach).fold(0.0, f64::max);
@@ -301,7 +300,7 @@ pub fn is_pair(plan: &Plan, sector: Sector) -> bool {
 /// Whether a seam of a channel runs through a sector.
 pub fn is_broken(plan: &Plan, sector: Sector, channel: usize) -> bool {
     let fan = &plan.sectors.fans[sector];
-    seam_between(plan, channel, fan.first, fan.last)
+    seam_between(&plan.view, channel, fan.first, fan.last)
 }
 
 #[cfg(test)]

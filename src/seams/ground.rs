@@ -6,7 +6,7 @@ use crate::ids::Corner;
 use crate::plan::Plan;
 
 use super::density::uv_point;
-use super::seam_between;
+use crate::edges::seam_between;
 
 /// A chamfer that lies past the end of its chart by less than this share of its own length shows
 /// nothing else: textures have a margin there, and UVs are rounded.
@@ -88,7 +88,7 @@ impl<'a> Ground<'a> {
     /// Whether the chart goes on beyond a half-edge.
     fn runs_on(&self, side: Corner) -> bool {
         let twin = self.plan.topology.twin[side];
-        let meet = |one, other| !seam_between(self.plan, self.channel, one, other);
+        let meet = |one, other| !seam_between(&self.plan.view, self.channel, one, other);
         twin.is_some() && meet(side, twin.next()) && meet(side.next(), twin)
     }
 

@@ -67,7 +67,7 @@ fn fits(
         let map = StripMap::new(plan, placement, attributes, hard, cuts[edge]);
         [0, 1].map(|owner| map.fits(&attributes.streams, channel, owner))
     };
-    IdVec::from_vec(plan.edges.hard.ids().map(of_edge).collect())
+    plan.view.threads.map(plan.edges.hard.len(), of_edge)
 }
 
 /// How many of the strips between two regions do not fit onto the bands of the first and of the

@@ -8,7 +8,7 @@ use super::ground::Ground;
 use super::{channels_of, place_of};
 use crate::attributes::{Attributes, Streams};
 use crate::edges::HardEdge;
-use crate::ids::Corner;
+use crate::ids::{Corner, Few};
 use crate::math::{area_vector, unit};
 use crate::output::Copies;
 use crate::placement::Placement;
@@ -102,8 +102,8 @@ impl<'a> StripMap<'a> {
     }
 
     fn flat(&self, owner: usize) -> Feet {
-        let places: Vec<usize> = (0..4).filter(|&place| self.is_used(place)).collect();
-        let points: Vec<DVec3> = places.iter().map(|&place| self.points[place]).collect();
+        let places: Few<usize> = (0..4).filter(|&place| self.is_used(place)).collect();
+        let points: Few<DVec3> = places.iter().map(|&place| self.points[place]).collect();
         let areas = self.cut.triangles().iter().map(|t| area_vector(t.map(|k| self.points[k])));
         let normal = unit(areas.sum());
         let lay = corner_lay(self.plan, self.edge.sides[owner], &points, points.len(), normal);
@@ -151,7 +151,8 @@ impl<'a> StripMap<'a> {
     /// The feet of the first way that fits, or else of the one that fits best, among those that
     /// agree with what other channels have taken.
     fn lay(&self, streams: &Streams, channel: usize, owner: usize, taken: &Feet) -> Feet {
-        let own = (self.edge.seams >> channel & 1 == 0).then_some(Way::Own);
+        let seams = self.edge.seams;
+        let own = (seams >> channel & 1 == 0).then_some(Way::Own);
         let ways = own.into_iter().chain(bands(owner)).chain(bands(1 - owner));
         let sides = [owner, 1 - owner];
         let inside = sides.map(Way::Inside).into_iter().chain(sides.map(Way::Flat));
@@ -189,8 +190,7 @@ pub fn strip_vertices(
     plan: &Plan,
     placement: &Placement,
     owner: usize,
-    edge: &HardEdge,
-    cut: Cut,
+    (edge, cut): (&HardEdge, Cut),
     attributes: &mut Attributes,
     copies: &mut Copies,
 ) -> [u32; 4] {

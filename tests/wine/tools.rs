@@ -45,8 +45,11 @@ fn has_rustup_target() -> bool {
 
 /// Tries Debian's packages, which need the rights of root.
 fn install() -> bool {
+    // A registry that does not answer must not hold up the tests.
+    let patience = ["-o", "Acquire::http::Timeout=20", "-o", "Acquire::Retries=1"];
     let apt = |arguments: &[&str]| {
-        Command::new("apt-get").args(arguments).output().is_ok_and(|o| o.status.success())
+        let output = Command::new("apt-get").args(patience).args(arguments).output();
+        output.is_ok_and(|o| o.status.success())
     };
     let install = [&["install", "-y", "--no-install-recommends"][..], &PACKAGES].concat();
     apt(&install) || apt(&["update"]) && apt(&install)

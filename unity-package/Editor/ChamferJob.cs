@@ -55,7 +55,7 @@ namespace ChamferEditor
                 var source = MeshReader.Read(mesh);
                 var output = ArrayChamfer.Run(source, settings, progress, progress.Cancellation);
                 output.Mesh.Name = mesh.name + JobResult.Suffix;
-                results.Add(mesh, new JobResult(source.Positions, output));
+                results.Add(mesh, new JobResult(source.Positions, settings, output));
             }
             catch (ChamferException exception) { failures.Add(exception.Message); }
         }

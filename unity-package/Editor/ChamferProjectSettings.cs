@@ -28,6 +28,8 @@ namespace ChamferEditor
     {
         [Tooltip("Such as Assets/Models.")]
         public string folder;
+
+        [Tooltip("At width 0, the settings for all models count.")]
         public ChamferSettings settings;
 
         /// <summary>Without a slash at its end, which users may write; never null.</summary>

@@ -1,4 +1,5 @@
 using System.Collections.Generic;
+using System.Linq;
 using Chamfer;
 using UnityEditor;
 using UnityEngine;
@@ -40,8 +41,10 @@ namespace ChamferEditor
             var job = new ChamferJob();
             if (!job.Run(meshes, settings)) { return false; }
             int group = BeginUndo();
-            ReplaceSlots(job);
+            // What is in a file can be used by all others; what is in a scene, by that scene only.
             SaveAssets(job);
+            ReplaceSlots(job, slots.Where(slot => SlotEditing.IsInPrefab(slot.Holder)));
+            ReplaceSlots(job, slots.Where(slot => !SlotEditing.IsInPrefab(slot.Holder)));
             Undo.CollapseUndoOperations(group);
             AssetDatabase.SaveAssets();
             summary.Add(job);
@@ -63,7 +66,7 @@ namespace ChamferEditor
             return Undo.GetCurrentGroup();
         }
 
-        private void ReplaceSlots(ChamferJob job)
+        private static void ReplaceSlots(ChamferJob job, IEnumerable<MeshSlot> slots)
         {
             foreach (var slot in slots)
             {
@@ -82,7 +85,7 @@ namespace ChamferEditor
             {
                 JobResult result;
                 string path = AssetDatabase.GetAssetPath(mesh);
-                bool isNew = TryFind(job, mesh, out result) && (result.Mesh == null || !AssetDatabase.Contains(result.Mesh));
+                bool isNew = TryFind(job, mesh, out result) && result.Mesh == null;
                 if (isNew && path.Length > 0) { SaveBeside(path, result); }
             }
         }
@@ -99,7 +102,7 @@ namespace ChamferEditor
                 EditorUtility.SetDirty(earlier);
                 return;
             }
-            if (result.Mesh == null) { result.Write(); }
+            result.Write();
             AssetDatabase.CreateAsset(result.Mesh, AssetDatabase.GenerateUniqueAssetPath(path));
         }
 

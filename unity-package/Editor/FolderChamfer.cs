@@ -53,7 +53,8 @@ namespace ChamferEditor
         /// <summary>Sorted, so that each run does the same in the same order.</summary>
         private static IEnumerable<string> Paths(string filter, string folder)
         {
-            var paths = AssetDatabase.FindAssets(filter, new[] { folder }).Select(guid => AssetDatabase.GUIDToAssetPath(guid));
+            var guids = AssetDatabase.FindAssets(filter, new[] { folder });
+            var paths = guids.Select(guid => AssetDatabase.GUIDToAssetPath(guid));
             return paths.Distinct().OrderBy(path => path, StringComparer.Ordinal);
         }
     }

@@ -1,12 +1,15 @@
 using System.Globalization;
 using System.Text;
 using Chamfer;
+using Chamfer.Streams;
 using UnityEditor;
 using UnityEngine;
 
 namespace ChamferEditor
 {
-    /// <summary>Makes Unity import chamfered models again when Project Settings > Chamfer change.</summary>
+    /// <summary>
+    /// Makes Unity import chamfered models again when Project Settings > Chamfer change, or the library does.
+    /// </summary>
     internal static class ImportDependency
     {
         /// <summary>What chamfered models depend on.</summary>
@@ -45,7 +48,7 @@ namespace ChamferEditor
 
         private static string Text(ChamferProjectSettings project)
         {
-            var text = new StringBuilder();
+            var text = new StringBuilder(LibraryCheck.Version()).Append('\n');
             Append(text, project.settings);
             foreach (var rule in project.folders)
             {

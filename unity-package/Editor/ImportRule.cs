@@ -26,7 +26,7 @@ namespace ChamferEditor
             {
                 if (TryParse(label, common, out settings)) { return true; }
             }
-            return TryFolder(path, folders, out settings);
+            return TryFolder(path, common, folders, out settings);
         }
 
         /// <summary>Whether a label is about chamfering.</summary>
@@ -59,7 +59,11 @@ namespace ChamferEditor
             throw new FormatException("The label '" + label + "' holds no width: write Chamfer=0.02 or Chamfer=2%");
         }
 
-        private static bool TryFolder(string path, IEnumerable<FolderRule> folders, out ChamferSettings settings)
+        private static bool TryFolder(
+            string path,
+            ChamferSettings common,
+            IEnumerable<FolderRule> folders,
+            out ChamferSettings settings)
         {
             int longest = 0;
             settings = default(ChamferSettings);
@@ -69,7 +73,8 @@ namespace ChamferEditor
                 bool isInside = path.StartsWith(folder + "/", StringComparison.Ordinal);
                 if (folder.Length <= longest || !isInside) { continue; }
                 longest = folder.Length;
-                settings = rule.settings;
+                // A rule that was just added to the list holds zeros.
+                settings = rule.settings.width == 0 ? common : rule.settings;
             }
             return longest > 0;
         }

@@ -11,13 +11,16 @@ namespace ChamferEditor
         internal const string Suffix = " Chamfered";
 
         private readonly Vector3[] positions;
+        private readonly ChamferSettings settings;
         private readonly ArrayResult output;
 
         /// <param name="positions">Those of the source.</param>
+        /// <param name="settings">How it was chamfered.</param>
         /// <param name="output">What the library made of it.</param>
-        internal JobResult(Vector3[] positions, ArrayResult output)
+        internal JobResult(Vector3[] positions, ChamferSettings settings, ArrayResult output)
         {
             this.positions = positions;
+            this.settings = settings;
             this.output = output;
         }
 
@@ -37,7 +40,7 @@ namespace ChamferEditor
                 MeshWriter.Overwrite(overwritten, output.Mesh);
                 Mesh = overwritten;
             }
-            VerdictCache.Remember(Mesh, new MeshVerdicts(positions, Report));
+            VerdictCache.Remember(Mesh, new MeshVerdicts(positions, Report, settings));
         }
     }
 }

@@ -12,9 +12,11 @@ namespace ChamferEditor
 
         /// <param name="positions">Those of the source, which need not be readable any more.</param>
         /// <param name="report">About the source's edges.</param>
-        internal MeshVerdicts(Vector3[] positions, ChamferReport report)
+        /// <param name="settings">What the mesh was made with.</param>
+        internal MeshVerdicts(Vector3[] positions, ChamferReport report, ChamferSettings settings)
         {
             Report = report;
+            Settings = settings;
             segments = new Vector3[Enum.GetValues(typeof(EdgeOutcome)).Length][];
             for (int outcome = 0; outcome < segments.Length; outcome++)
             {
@@ -23,6 +25,8 @@ namespace ChamferEditor
         }
 
         internal ChamferReport Report { get; }
+
+        internal ChamferSettings Settings { get; }
 
         /// <summary>Two points for each edge with that outcome.</summary>
         internal Vector3[] Segments(EdgeOutcome outcome)

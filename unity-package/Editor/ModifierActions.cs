@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 using System.IO;
 using System.Linq;
@@ -54,6 +55,13 @@ namespace ChamferEditor
             }
             AssetDatabase.SaveAssets();
             return paths;
+        }
+
+        /// <summary>A folder on disk as assets are named, from Assets on; null if it is not in there.</summary>
+        internal static string ProjectFolder(string folder, string assets)
+        {
+            bool isInside = (folder + "/").StartsWith(assets + "/", StringComparison.Ordinal);
+            return isInside ? "Assets" + folder.Substring(assets.Length) : null;
         }
 
         /// <summary>The mesh that a slot held before this modifier.</summary>

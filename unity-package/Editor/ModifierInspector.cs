@@ -77,9 +77,12 @@ namespace ChamferEditor
 
         private void Save()
         {
-            string folder = EditorUtility.SaveFolderPanel("Save chamfered meshes", "Assets", "");
-            string relative = FileUtil.GetProjectRelativePath(folder);
-            if (!string.IsNullOrEmpty(relative)) { ForEach(modifier => ModifierActions.Save(modifier, relative)); }
+            string chosen = EditorUtility.SaveFolderPanel("Save chamfered meshes", "Assets", "");
+            if (string.IsNullOrEmpty(chosen)) { return; }
+            failures.Clear();
+            string folder = ModifierActions.ProjectFolder(chosen, Application.dataPath);
+            if (folder == null) { failures.Add("Choose a folder inside the project's Assets to save meshes in"); }
+            else { ForEach(modifier => ModifierActions.Save(modifier, folder)); }
         }
 
         private void ForEach(Action<ChamferModifier> action)

@@ -26,17 +26,10 @@ namespace ChamferEditor
         {
             if (entry.original == null || entry.chamfered == null) { return null; }
             MeshVerdicts verdicts;
-            if (!known.TryGetValue(entry.chamfered, out verdicts))
-            {
-                verdicts = Again(entry);
-                known[entry.chamfered] = verdicts;
-            }
-            return verdicts;
-        }
-
-        internal static void Forget()
-        {
-            known.Clear();
+            // Undo may have given the mesh back what it held before.
+            bool isKnown = known.TryGetValue(entry.chamfered, out verdicts)
+                && (verdicts == null || verdicts.Settings.Equals(entry.settings));
+            return isKnown ? verdicts : known[entry.chamfered] = Again(entry);
         }
 
         private static MeshVerdicts Again(ChamferedMesh entry)
@@ -45,7 +38,7 @@ namespace ChamferEditor
             {
                 var source = MeshReader.Read(entry.original);
                 var output = ArrayChamfer.Run(source, entry.settings, null, CancellationToken.None);
-                return new MeshVerdicts(source.Positions, output.Report);
+                return new MeshVerdicts(source.Positions, output.Report, entry.settings);
             }
             catch (ChamferException) { return null; }
         }

@@ -31,6 +31,7 @@ mod triangles;
 mod uri;
 
 use std::collections::BTreeSet;
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
@@ -38,7 +39,6 @@ use chamfer::Chamfered;
 use serde_json::Value;
 
 use crate::document::{Document, Instance, NormalsRead, OutputFile, ReadOptions, SourceMesh};
-use crate::format;
 use accessor_writer::AccessorWriter;
 use budget::Budget;
 use container::{Container, Format};
@@ -74,7 +74,7 @@ impl GltfDocument {
     /// Where the file, or one that it refers to, cannot be read; where it breaks a rule of glTF
     /// that its geometry or its nodes depend on; where its geometry is compressed.
     pub fn read(path: &Path, options: &ReadOptions) -> Result<GltfDocument> {
-        Self::decode(path, format::read_file(path)?, options)
+        Self::decode(path, fs::read(path)?, options)
     }
 
     /// Reads the bytes of a .glb or .gltf that lies, or would lie, at `path`.

@@ -13,7 +13,7 @@ use serde_json::Value;
 use super::json;
 use super::uri::{self, Target};
 use crate::document::OutputFile;
-use crate::format::read_file;
+use crate::format::read_beside;
 
 /// The folder that a file lies in.
 pub fn folder(file: &Path) -> PathBuf {
@@ -50,7 +50,7 @@ pub fn copies(json: &Value, key: &str, from: &Path, to: &Path) -> Result<Vec<Out
         if !source.exists() || copies.iter().any(|copy| copy.path == place) {
             continue;
         }
-        let bytes = read_file(&source).with_context(|| source.display().to_string())?;
+        let bytes = read_beside(from, &path).with_context(|| source.display().to_string())?;
         copies.push(OutputFile { bytes, path: place });
     }
     Ok(copies)

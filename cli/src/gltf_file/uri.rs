@@ -8,7 +8,7 @@ use base64::alphabet::STANDARD;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 use percent_encoding::percent_decode_str;
 
-use crate::format::read_file;
+use crate::format::read_beside;
 
 /// Exporters differ in whether they pad.
 const BASE64: GeneralPurpose = GeneralPurpose::new(
@@ -81,8 +81,7 @@ pub fn read(uri: &str, folder: &Path) -> Result<Vec<u8>> {
     match target(uri)? {
         Target::Data(bytes) => Ok(bytes),
         Target::Inside(path) => {
-            let path = folder.join(path);
-            read_file(&path).with_context(|| path.display().to_string())
+            read_beside(folder, &path).with_context(|| folder.join(path).display().to_string())
         }
         Target::Above | Target::Elsewhere => bail!(
             "the URI {uri:?} leaves the model's folder: put the file beside the model and name it relatively"

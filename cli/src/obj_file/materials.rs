@@ -1,13 +1,13 @@
 //! The files that an OBJ refers to: material libraries, and the textures in them.
 
 use std::collections::BTreeSet;
-use std::fs;
 use std::path::{Component, Path, PathBuf};
 
 use anyhow::{Context, Result};
 
 use super::parse::{Item, Obj};
 use crate::document::OutputFile;
+use crate::format::read_beside;
 use crate::plan::identity;
 
 /// Copies for the folder of the result, so that it has its materials there; none where that is
@@ -36,8 +36,8 @@ pub fn companions(obj: &Obj, from: &Path, output: &Path) -> Result<Vec<OutputFil
 }
 
 fn read(folder: &Path, name: &Path) -> Result<Vec<u8>> {
-    let path = folder.join(name);
-    fs::read(&path).with_context(|| format!("cannot read {}", path.display()))
+    read_beside(folder, name)
+        .with_context(|| format!("cannot read {}", folder.join(name).display()))
 }
 
 /// The files that the lines of a material library name, as paths from the folder of the model.
@@ -79,6 +79,7 @@ fn is_below(name: &str) -> bool {
 mod tests {
     use super::*;
     use crate::obj_file::parse::parse;
+    use std::fs;
 
     #[test]
     fn libraries_and_textures_are_copied_to_another_folder_only() {

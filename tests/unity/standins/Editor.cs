@@ -97,7 +97,6 @@ namespace UnityEditor
     [AttributeUsage(AttributeTargets.Method)]
     public class InitializeOnLoadMethodAttribute : Attribute { }
 
-    public static class FileUtil { public static string GetProjectRelativePath(string path) { return path; } }
     public static class Selection { public static Object[] objects = new Object[0]; }
     public static class EditorApplication { public static int exitCode = -1; public static void Exit(int code) { exitCode = code; } }
     public class MenuCommand { public Object context; }

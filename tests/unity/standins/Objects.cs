@@ -95,6 +95,8 @@ namespace UnityEngine
         }
     }
 
+    public static class Application { public static string dataPath { get { return "/home/me/Game/Assets"; } } }
+
     public static class Debug
     {
         public static readonly List<string> logged = new List<string>();

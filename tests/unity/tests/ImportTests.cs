@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.Linq;
 using System.Reflection;
 using Chamfer;
+using Chamfer.Streams;
 using ChamferEditor;
 using UnityEditor;
 using UnityEditor.AssetImporters;
@@ -35,6 +36,14 @@ namespace Chamfer.Tests
             Check.That(settings.width == 2 && settings.unit == WidthUnit.PercentOfExtent, "percent");
             Check.That(Find("Assets/Props/a.fbx", null, out settings) && settings.width == 1, "folder");
             Check.That(Find("Assets/Props/Fine/a.fbx", null, out settings) && settings.width == 0.25f, "nearer folder");
+        }
+
+        public static void A_folder_without_a_width_takes_the_common_settings()
+        {
+            ChamferSettings settings;
+            var rules = new[] { new FolderRule { folder = "Assets/New" } };
+            Check.That(ImportRule.TryFind("Assets/New/a.fbx", new string[0], ChamferSettings.Default, rules, out settings), "on");
+            Check.Equal(ChamferSettings.Default, settings);
         }
 
         private static AssetImportContext Import(Mesh mesh, params string[] labels)
@@ -102,6 +111,8 @@ namespace Chamfer.Tests
             AssetDatabase.paths[new GameObject("Barrel")] = "Assets/Rule/barrel.fbx";
             ImportDependency.Register();
             var before = AssetDatabase.dependencies[ImportDependency.Name];
+            Check.Equal(3, LibraryCheck.Version().Split('.').Length);
+            Check.That(before.text.StartsWith(LibraryCheck.Version() + "\n"), "the library's version");
             ImportDependency.Register();
             Check.Equal(before, AssetDatabase.dependencies[ImportDependency.Name]);
             project.folders.Add(folder);

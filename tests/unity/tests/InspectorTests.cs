@@ -81,13 +81,28 @@ namespace Chamfer.Tests
         public static void Nothing_is_reverted_or_saved_before_it_is_chamfered()
         {
             var inspector = Inspector(Modifier(Shapes.Cube()));
-            EditorUtility.chosen = "Assets/Chosen";
+            EditorUtility.chosen = "/home/me/Game/Assets/Chosen";
             Click(inspector, "Save as Asset");
             Check.That(!AssetDatabase.paths.ContainsValue("Assets/Chosen/Cube Chamfered.asset"), "disabled");
             Click(inspector, "Chamfer");
             Click(inspector, "Save as Asset");
             EditorUtility.chosen = "";
             Check.That(AssetDatabase.paths.ContainsValue("Assets/Chosen/Cube Chamfered.asset"), "saved");
+        }
+
+        public static void Meshes_are_saved_in_the_project_only()
+        {
+            Check.Equal("Assets", ModifierActions.ProjectFolder("/game/Assets", "/game/Assets"));
+            Check.Equal("Assets/Props", ModifierActions.ProjectFolder("/game/Assets/Props", "/game/Assets"));
+            Check.Equal(null, ModifierActions.ProjectFolder("/game/AssetsElse", "/game/Assets"));
+            var inspector = Inspector(Modifier(Shapes.Cube()));
+            Click(inspector, "Chamfer");
+            EditorUtility.chosen = "/tmp";
+            Click(inspector, "Save as Asset");
+            EditorUtility.chosen = "";
+            EditorGUILayout.boxes.Clear();
+            inspector.OnInspectorGUI();
+            Check.That(EditorGUILayout.boxes.Any(box => box.Contains("inside the project's Assets")), "told");
         }
 
         public static void Edges_are_drawn_if_asked_for()

@@ -174,6 +174,28 @@ namespace Chamfer.Tests
             Check.Equal(2, Scene.MeshesIn("Assets/Crate.prefab").Count);
         }
 
+        /// A prefab would lose a mesh that only the scene has.
+        public static void A_mesh_that_a_prefab_and_a_scene_share_goes_into_the_prefab()
+        {
+            var shared = Shapes.Cube();
+            GameObject item = Scene.Holding(shared, "Item"), prefab = Scene.Holding(shared, "Prefab");
+            Scene.MakeAsset(prefab, "Assets/Shared.prefab");
+            ChamferAll(item, prefab);
+            Check.That(Scene.MeshOf(item) == Scene.MeshOf(prefab), "one for both");
+            Check.Equal("Assets/Shared.prefab", AssetDatabase.GetAssetPath(Scene.MeshOf(item)));
+        }
+
+        public static void What_uses_a_mesh_asset_gets_the_chamfered_file()
+        {
+            var mesh = Shapes.Cube();
+            AssetDatabase.paths[mesh] = "Assets/Used/Cube.asset";
+            var prefab = Scene.Holding(mesh, "Prefab");
+            Scene.MakeAsset(prefab, "Assets/Used/Prefab.prefab");
+            ChamferAll(prefab, mesh);
+            Check.Equal("Assets/Used/Cube Chamfered.asset", AssetDatabase.GetAssetPath(Scene.MeshOf(prefab)));
+            Check.Equal(0, Scene.MeshesIn("Assets/Used/Prefab.prefab").Count);
+        }
+
         /// A variant's components are an instance of its base, in a file of its own.
         public static void Prefab_variants_override_and_keep_their_own_mesh()
         {

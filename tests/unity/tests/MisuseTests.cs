@@ -154,6 +154,46 @@ namespace Chamfer.Tests
             Check.Equal(Cancelled, Status(call => call.Progress = (user, done) => 1));
         }
 
+        public static void A_callback_that_stops_at_any_of_its_calls()
+        {
+            int calls = 0;
+            Check.Equal(0, Status(call => call.Progress = (user, done) => { calls++; return 0; }));
+            for (int last = 1; last <= calls; last++)
+            {
+                int left = last;
+                Check.Equal(Cancelled, Status(call => call.Progress = (user, done) => --left == 0 ? 1 : 0));
+            }
+        }
+
+        public static void What_is_unusual_but_allowed()
+        {
+            Check.Equal(0, Status(call => call.Options.Width = 1e30f));
+            Check.Equal(0, Status(call => call.Mesh.Colors = call.Mesh.Tangents));
+            Check.Equal(0, Status(call => SetUv(call, 1, 3, call.Mesh.Positions)));
+            NativeMethods.ResultDestroy(IntPtr.Zero);
+        }
+
+        public static void Several_threads_look_at_one_result()
+        {
+            using (var result = Run())
+            {
+                int different = 0;
+                var threads = new Thread[4];
+                for (int i = 0; i < threads.Length; i++)
+                {
+                    threads[i] = new Thread(() =>
+                    {
+                        var mesh = NativeMesh.Empty();
+                        NativeMethods.ResultMesh(result, ref mesh);
+                        if (mesh.IndexCount != 132) { Interlocked.Increment(ref different); }
+                    });
+                    threads[i].Start();
+                }
+                foreach (var thread in threads) { thread.Join(); }
+                Check.Equal(0, different);
+            }
+        }
+
         private static ResultHandle Run()
         {
             using (var pins = new PinnedArrays())

@@ -17,6 +17,14 @@ namespace Chamfer.Streams
             passed = true;
         }
 
+        /// <summary>The library's version; "none" where there is no library that fits.</summary>
+        internal static string Version()
+        {
+            try { Require(); }
+            catch (ChamferException) { return "none"; }
+            return Marshal.PtrToStringAnsi(NativeMethods.VersionString());
+        }
+
         internal static void Check(Func<uint> abiVersion)
         {
             try { Compare(abiVersion()); }

@@ -1,0 +1,69 @@
+//! The same input gives the same bytes: on every platform, in every build, with any number of
+//! threads, and from a prepared mesh as from a fresh one.
+
+#[path = "support/fingerprint.rs"]
+mod fingerprint;
+
+use chamfer::{MeshBuffers, Options, Prepared, Verify, Width, chamfer, shapes};
+use fingerprint::fingerprint;
+
+/// What the demonstration models come out as at 2 % of their extent, on any machine. A change of
+/// the output has its line in CHANGELOG.md, and then `CHAMFER_UPDATE_HASHES=1` writes this anew.
+const KNOWN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/support/demo_hashes.txt");
+
+fn options(threads: u32) -> Options {
+    let width = Width::PercentOfExtent(2.0);
+    Options { width, threads, verify: Verify::Full, ..Options::default() }
+}
+
+fn hash(mesh: &MeshBuffers, options: &Options) -> u64 {
+    fingerprint(&chamfer(&mesh.as_mesh(), options).unwrap())
+}
+
+#[test]
+fn the_demonstration_models_come_out_as_on_every_machine() {
+    let line = |(name, mesh)| format!("{name} {:016x}\n", hash(&mesh, &options(1)));
+    let found: String = shapes::demo_models().into_iter().map(line).collect();
+    if std::env::var_os("CHAMFER_UPDATE_HASHES").is_some() {
+        std::fs::write(KNOWN, &found).unwrap();
+    }
+    let known = std::fs::read_to_string(KNOWN).unwrap().replace('\r', "");
+    assert_eq!(found, known, "CHAMFER_UPDATE_HASHES=1 accepts what was found");
+}
+
+/// Large enough that threads share the work.
+fn field() -> MeshBuffers {
+    shapes::cube_field(500)
+}
+
+#[test]
+fn the_number_of_threads_changes_nothing() {
+    let alone = hash(&field(), &options(1));
+    for threads in [0, 2, 3, 8] {
+        assert_eq!(hash(&field(), &options(threads)), alone, "{threads} threads");
+    }
+}
+
+#[test]
+fn a_prepared_mesh_gives_what_a_fresh_one_does_at_any_width() {
+    let models = [field(), shapes::bolt(), shapes::sphere(6, 8), MeshBuffers::default()];
+    for mesh in models {
+        let prepared = Prepared::new(&mesh.as_mesh()).unwrap();
+        for percent in [0.0, 5.0, 0.5, 60.0, 5.0] {
+            let options = Options { width: Width::PercentOfExtent(percent), ..options(1) };
+            let again = prepared.chamfer(&options).unwrap();
+            assert_eq!(fingerprint(&again), hash(&mesh, &options), "{percent} %");
+        }
+    }
+}
+
+/// A smooth mesh goes a shorter way, which must lead to the same place.
+#[test]
+fn a_smooth_mesh_comes_back_bit_for_bit() {
+    let sphere = shapes::sphere(6, 8);
+    let result = chamfer(&sphere.as_mesh(), &options(1)).unwrap();
+    assert_eq!(result.mesh, sphere);
+    assert_eq!(result.vertex_sources.len(), sphere.positions.len());
+    assert_eq!(result.triangle_sources.len(), sphere.indices.len() / 3);
+    assert!(result.verdicts.is_empty());
+}

@@ -1,0 +1,63 @@
+//! The worst shapes, small enough for the checker: all that is promised holds for them.
+//!
+//! How their time grows is a matter of `cargo bench --bench worst`.
+
+#[path = "support/shaded.rs"]
+mod shaded;
+#[path = "support/worst.rs"]
+mod worst;
+
+use chamfer::check::assert_sound;
+use chamfer::{MeshBuffers, Options, Width, chamfer, shapes};
+
+fn check(name: &str, mesh: &MeshBuffers) {
+    for percent in [0.05, 1.0, 15.0] {
+        let options = Options { width: Width::PercentOfExtent(percent), ..Options::default() };
+        let result = chamfer(&mesh.as_mesh(), &options).unwrap();
+        assert_sound(&format!("{name} at {percent} %"), &mesh.as_mesh(), &result);
+    }
+}
+
+#[test]
+fn many_triangles_at_one_corner() {
+    check("flat fan", &worst::fan(300, true));
+    check("smooth fan", &worst::fan(300, false));
+    check("pyramid", &shapes::pyramid(300));
+}
+
+#[test]
+fn many_faces_on_one_edge() {
+    check("book", &worst::book(100));
+    check("stack", &worst::stack(40));
+}
+
+#[test]
+fn all_vertices_at_one_place() {
+    check("point", &worst::point(50));
+}
+
+#[test]
+fn surfaces_with_one_side() {
+    check("moebius strip", &worst::moebius_strip(40));
+    check("klein bottle", &worst::klein_bottle(24));
+}
+
+#[test]
+fn slivers() {
+    check("slivers", &worst::slivers(8));
+}
+
+#[test]
+fn sizes_at_the_ends_of_single_precision() {
+    for scale in [1e30, 1e-30, 1e-38, 1e-42, f32::from_bits(1)] {
+        check(&format!("cubes of {scale:e}"), &worst::placed(shapes::cube_field(8), scale, 0.0));
+        check(&format!("plate of {scale:e}"), &worst::placed(shapes::plate(), scale, 0.0));
+    }
+}
+
+#[test]
+fn far_from_the_origin() {
+    for shift in [1e6, -3e6, 1e7] {
+        check(&format!("cubes at {shift:e}"), &worst::placed(shapes::cube_field(8), 1.0, shift));
+    }
+}
