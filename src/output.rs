@@ -1,7 +1,8 @@
 //! Output: the mesh, its provenance, and the verdicts.
 //!
-//! Source vertices keep their indices and source triangles their order; what is new is appended,
-//! per submesh: strips in the order of their edges, then fills in the order of their rings.
+//! Source vertices keep their indices and source triangles their order, though a triangle may use
+//! an equal vertex in place of its own. What is new is appended, per submesh: strips in the order
+//! of their edges, then fills in the order of their rings.
 
 mod collapsed;
 mod copies;

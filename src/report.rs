@@ -6,7 +6,9 @@ use crate::mesh::MeshBuffers;
 #[derive(Clone, Debug, Default)]
 pub struct Chamfered {
     /// The mesh. Source vertices keep their indices and source triangles their order; what is new
-    /// stands behind them, per submesh.
+    /// stands behind them, per submesh. Vertices that come out equal in every stream are joined:
+    /// a corner of a source triangle may then use the index of its equal, and its own vertex is
+    /// left unused.
     pub mesh: MeshBuffers,
     /// `#vertices`: what each vertex was re-sampled from.
     pub vertex_sources: Vec<VertexSource>,
@@ -41,7 +43,9 @@ impl Blend {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct VertexSource {
-    /// For what belongs to the surface: position, normal, skin weights, morph targets.
+    /// For what belongs to the surface: position, normal, skin weights, morph targets. The vertex
+    /// in the middle of a fill of five or more points lies on no triangle of the source: its
+    /// surface is what comes nearest, and does not rebuild its position and normal.
     pub surface: Blend,
     /// For what belongs to the vertex's own texture chart: colour, and the UV channels and tangent
     /// that `owner_channels` does not name.

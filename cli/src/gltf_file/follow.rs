@@ -34,20 +34,38 @@ impl Follower<'_> {
         vertices: &[u32],
     ) -> Stream {
         let streams = self.geometry.streams(target, name);
+        let is_color = name.starts_with("COLOR_") && target.is_none();
+        let range = if is_color { self.range(&streams) } else { Vec::new() };
         let mut values = Vec::with_capacity(vertices.len() * element.shape.components());
         for vertex in vertices {
             let source = &self.sources[*vertex as usize];
             let blend = blend_of(source, name);
-            let value = match is_label(name, element) {
+            let mut value = match is_label(name, element) {
                 true => nearest(&streams, blend),
                 false => mean(&streams, blend),
             };
+            for (number, &[least, most]) in value.iter_mut().zip(&range) {
+                *number = number.max(least).min(most);
+            }
             values.extend((0..element.shape.components()).map(|component| {
                 value.get(component).copied().unwrap_or(neutral(name, target, component))
             }));
         }
         let stream = Stream { element, values };
         if may_be_rounded(name) { stream } else { stream.exact_or_floats() }
+    }
+
+    /// The least and the most of each component: a blend that reads past its triangle must not
+    /// leave them.
+    fn range(&self, streams: &SourceStreams) -> Vec<[f64; 2]> {
+        let mut range = Vec::new();
+        for value in (0..self.geometry.origins.len()).filter_map(|vertex| streams.at(vertex)) {
+            range.resize(range.len().max(value.len()), [f64::INFINITY, f64::NEG_INFINITY]);
+            for ([least, most], number) in range.iter_mut().zip(value) {
+                (*least, *most) = (number.min(*least), number.max(*most));
+            }
+        }
+        range
     }
 }
 

@@ -4,5 +4,6 @@ mod corpus;
 mod damage;
 mod features;
 mod files;
+mod followers;
 mod morphs;
 mod support;

@@ -1,0 +1,144 @@
+//! What the core does not know follows its provenance, in the type that it had.
+
+use chamfer_cli::document::Document;
+use serde_json::{Value, json};
+
+use crate::support::{Model, SQUARE_INDICES, Written, all_grown, folder, json_of};
+
+/// A square with more attributes; `targets` may be none.
+fn square_with(model: &mut Model, more: &[(&str, usize)], targets: &[Value]) {
+    let mut attributes = model.square();
+    for (name, accessor) in more {
+        attributes[*name] = (*accessor).into();
+    }
+    let indices = model.indices(&SQUARE_INDICES);
+    let mut primitive = json!({"attributes": attributes, "indices": indices});
+    if !targets.is_empty() {
+        primitive["targets"] = targets.into();
+    }
+    model.mesh(json!([primitive]));
+}
+
+fn attribute(name: &str) -> String {
+    format!("/meshes/0/primitives/0/attributes/{name}")
+}
+
+/// The model with a vertex that reads past the first triangle: half of the first vertex too much.
+fn stretched(model: &Model, name: &str) -> Written {
+    let document = model.read(name).unwrap();
+    let mut chamfered = all_grown(&document);
+    let source = chamfered[0].vertex_sources.last_mut().unwrap();
+    (source.chart.weights, source.owner.weights) = ([1.5, -0.25, -0.25], [1.5, -0.25, -0.25]);
+    let files = document.encode(&folder(name).join("out.glb"), &chamfered).unwrap();
+    let bytes = files[0].bytes.clone();
+    let json_length = u32::from_le_bytes(bytes[12..16].try_into().unwrap()) as usize;
+    Written { json: json_of(&bytes), bytes: bytes[28 + json_length..].to_vec() }
+}
+
+#[test]
+fn colours_of_two_bytes_keep_their_type() {
+    let mut model = Model::new();
+    let words = [[65535u16, 0, 0, 65535], [0; 4], [0; 4], [0; 4]];
+    let bytes = words.as_flattened().iter().flat_map(|word| word.to_le_bytes());
+    let colors = model.normalized(5123, "VEC4", 4, &bytes.collect::<Vec<u8>>());
+    square_with(&mut model, &[("COLOR_0", colors)], &[]);
+    let written = model.grown("word_colours");
+    let colors = written.accessor(&attribute("COLOR_0"));
+    assert_eq!((&colors["componentType"], &colors["normalized"]), (&json!(5123), &json!(true)));
+    assert_eq!(written.bytes(colors)[..8], [255, 255, 0, 0, 0, 0, 255, 255]);
+    assert_eq!(written.bytes(colors)[32..], [0, 128, 0, 0, 0, 0, 0, 128], "half, rounded");
+}
+
+#[test]
+fn further_colours_stay_between_those_of_the_source() {
+    let mut model = Model::new();
+    let floats = model.floats(&[[0.5f32, 0.25, 0.5, 1.0], [0.25; 4], [0.25; 4], [0.25; 4]]);
+    let bytes =
+        model.normalized(5121, "VEC4", 4, &[[100, 0, 9, 255], [20; 4], [20; 4], [20; 4]].concat());
+    square_with(&mut model, &[("COLOR_1", floats), ("COLOR_2", bytes)], &[]);
+    let written = stretched(&model, "further_colours");
+    assert_eq!(written.floats(&attribute("COLOR_1"))[16..], [0.5, 0.25, 0.5, 1.0]);
+    let bytes = written.accessor(&attribute("COLOR_2"));
+    assert_eq!(bytes["componentType"], 5121);
+    assert_eq!(written.bytes(bytes)[16..], [100, 0, 9, 255]);
+}
+
+#[test]
+fn channels_past_the_eighth_are_read_past_their_triangle() {
+    let mut model = Model::new();
+    let uvs = model.floats(&[[0.0f32, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]]);
+    square_with(&mut model, &[("TEXCOORD_9", uvs)], &[]);
+    let written = stretched(&model, "ninth_channel");
+    assert_eq!(written.floats(&attribute("TEXCOORD_9"))[8..], [-2.0, -1.0]);
+}
+
+#[test]
+fn custom_attributes_of_any_width_are_blended() {
+    let mut model = Model::new();
+    let two = model.floats(&[[4.0f32, 8.0], [0.0; 2], [0.0; 2], [0.0; 2]]);
+    let three = model.floats(&[[4.0f32, 8.0, 2.0], [0.0; 3], [0.0; 3], [0.0; 3]]);
+    let four = model.floats(&[[4.0f32, 8.0, 2.0, 6.0], [0.0; 4], [0.0; 4], [0.0; 4]]);
+    let share =
+        model.normalized(5120, "VEC4", 4, &[[100, 0x9c, 0, 50], [0; 4], [0; 4], [0; 4]].concat());
+    let more = [("_TWO", two), ("_THREE", three), ("_FOUR", four), ("_SHARE", share)];
+    square_with(&mut model, &more, &[]);
+    let written = model.grown("custom");
+    assert_eq!(written.floats(&attribute("_TWO"))[8..], [2.0, 4.0]);
+    assert_eq!(written.floats(&attribute("_THREE"))[12..], [2.0, 4.0, 1.0]);
+    assert_eq!(written.floats(&attribute("_FOUR"))[16..], [2.0, 4.0, 1.0, 3.0]);
+    let share = written.accessor(&attribute("_SHARE"));
+    assert_eq!(written.bytes(share)[16..], [50, (-50i8) as u8, 0, 25], "a signed share");
+}
+
+/// The first vertex has eight joints, the two others one each, of which one is new: the eight
+/// strongest of nine stay.
+#[test]
+fn the_sets_of_a_skin_are_merged_and_share_one_sum() {
+    let mut model = Model::new();
+    let joints = |first: u8| [[first, first + 1, first + 2, first + 3], [1; 4], [9; 4], [9; 4]];
+    let low = model.accessor(5121, "VEC4", 4, &joints(1).concat());
+    let high = model.accessor(5121, "VEC4", 4, &joints(5).concat());
+    let one = [1.0f32, 0.0, 0.0, 0.0];
+    let first = model.floats(&[[0.125; 4], one, one, one]);
+    let second = model.floats(&[[0.125f32; 4], [0.0; 4], [0.0; 4], [0.0; 4]]);
+    let more = [("JOINTS_0", low), ("JOINTS_1", high), ("WEIGHTS_0", first), ("WEIGHTS_1", second)];
+    square_with(&mut model, &more, &[]);
+    let written = model.grown("two_sets");
+    let joints = written.bytes(written.accessor(&attribute("JOINTS_0")));
+    assert_eq!(joints[16..18], [1, 9], "the strongest first");
+    let weights =
+        [0, 1].map(|set| written.floats(&attribute(&format!("WEIGHTS_{set}")))[16..].to_vec());
+    let sum: f32 = weights.iter().flatten().sum();
+    assert!((sum - 1.0).abs() < 1e-6, "{weights:?}");
+    assert!((weights[0][0] - 0.3125 / 0.9375).abs() < 1e-6, "{weights:?}");
+    assert!(weights.iter().flatten().all(|weight| *weight > 0.0), "{weights:?}");
+}
+
+/// Half of the greatest step is no whole one, so floats take over where the blend needs them.
+#[test]
+fn quantized_morph_targets_stay_or_turn_into_floats() {
+    let mut model = Model::new();
+    let words = |first: i16, rest: i16| -> Vec<u8> {
+        let rows = [[first, 0, 0, 0], [rest, 0, 0, 0], [rest, 0, 0, 0], [rest, 0, 0, 0]];
+        rows.as_flattened().iter().flat_map(|word| word.to_le_bytes()).collect()
+    };
+    let even = model.normalized(5122, "VEC3", 4, &words(32767, 32767));
+    let steep = model.normalized(5122, "VEC3", 4, &words(32767, 0));
+    let normals =
+        model.normalized(5120, "VEC3", 4, &[[127, 0, 0, 0], [0; 4], [0; 4], [0; 4]].concat());
+    for (accessor, stride) in [(even, 8), (steep, 8), (normals, 4)] {
+        let view = model.json["accessors"][accessor]["bufferView"].as_u64().unwrap();
+        model.json["bufferViews"][view as usize]["byteStride"] = stride.into();
+    }
+    model.json["extensionsUsed"] = json!(["KHR_mesh_quantization"]);
+    let targets = [json!({"POSITION": even}), json!({"POSITION": steep, "NORMAL": normals})];
+    square_with(&mut model, &[], &targets);
+    let written = model.grown("quantized_targets");
+    let target = |place: &str| format!("/meshes/0/primitives/0/targets/{place}");
+    assert_eq!(written.accessor(&target("0/POSITION"))["componentType"], 5122);
+    for place in ["1/POSITION", "1/NORMAL"] {
+        assert_eq!(written.accessor(&target(place))["componentType"], 5126);
+        let values = written.floats(&target(place));
+        assert_eq!((values[0], &values[12..]), (1.0, &[0.5, 0.0, 0.0][..]), "{place}");
+    }
+}
