@@ -27,13 +27,15 @@ impl Flips {
         self.flipped[..first].iter().filter(|flipped| **flipped).count()
     }
 
-    /// How many triangles behind the first ones are flipped but touch no flipped one of the first.
-    fn alone(&self, first: usize) -> usize {
-        let all = || self.places.iter().zip(&self.flipped);
+    /// How many chamfers are flipped but touch no face that the target flips in the source. Such a
+    /// face may be narrowed so far that it no longer flips; the chamfers around it then do.
+    fn alone(&self, source: &Flips) -> usize {
+        let faces = source.flipped.iter().zip(&self.places);
         let touched: HashSet<[u64; 3]> =
-            all().take(first).filter(|(_, flipped)| **flipped).flat_map(|(at, _)| *at).collect();
+            faces.filter(|(flipped, _)| **flipped).flat_map(|(_, at)| *at).collect();
         let is_alone = |at: &[[u64; 3]; 3]| !at.iter().any(|place| touched.contains(place));
-        all().skip(first).filter(|(at, flipped)| **flipped && is_alone(at)).count()
+        let chamfers = self.places.iter().zip(&self.flipped).skip(source.flipped.len());
+        chamfers.filter(|(at, flipped)| **flipped && is_alone(at)).count()
     }
 }
 
@@ -175,13 +177,17 @@ fn before_and_after(name: &str, percent: f32) -> Option<[Glb; 2]> {
     Some([Glb::new(&before), Glb::new(&files[0].bytes)])
 }
 
-/// A target that turns faces of the source over turns over the chamfers between them, but no others.
-/// Not met yet at 2 %: there the targets fold seven chamfers of the sphere that no flipped face
-/// touches.
+/// A target that turns faces of the source over turns over the chamfers between them, but hardly
+/// any others. The second target of the last model crumples a cube: it flips 358 of its faces, and
+/// folds edges back so far that no chamfer there can face both of their sides.
 #[test]
 fn a_morph_target_at_full_weight_flips_nothing_away_from_what_the_source_flips() {
-    for name in ["khr_AnimatedMorphCube.glb", "khr_AnimatedMorphSphere.glb"] {
-        for (percent, most_alone) in [(0.5, 0), (2.0, 7)] {
+    for (name, most_alone) in [
+        ("khr_AnimatedMorphCube.glb", [0, 0]),
+        ("khr_AnimatedMorphSphere.glb", [0, 0]),
+        ("blenderio_24_animation_pointer.glb", [9, 7]),
+    ] {
+        for (percent, most_alone) in [0.5, 2.0].into_iter().zip(most_alone) {
             let Some([before, after]) = before_and_after(name, percent) else { continue };
             let [source, result] = [before.flips(), after.flips()];
             assert!(!source.is_empty() && source.len() == result.len(), "{name}");
@@ -189,7 +195,7 @@ fn a_morph_target_at_full_weight_flips_nothing_away_from_what_the_source_flips()
                 let faces = source.flipped.len();
                 let [was, is] = [source.count(faces), result.count(faces)];
                 assert!(is <= was, "{name} at {percent} %: {is} faces, {was} before");
-                let alone = result.alone(faces);
+                let alone = result.alone(source);
                 assert!(alone <= most_alone, "{name} at {percent} %: {alone} away from those");
             }
         }
