@@ -25,8 +25,10 @@ pub struct Attributes {
 
 pub fn attributes(plan: &Plan, placement: &Placement) -> Attributes {
     let vertex_at = plan.view.mesh.indices.to_vec();
+    // At a seam both far vertices of a strip are copied.
+    let copies = 2 * plan.edges.hard.iter().filter(|edge| edge.seams != 0).count();
     let mut attributes = Attributes {
-        streams: Streams::of_source(&plan.view),
+        streams: Streams::of_source(&plan.view, copies),
         vertex_at: IdVec::from_vec(vertex_at),
     };
     let mut taken = staying(plan, placement);

@@ -8,13 +8,14 @@ mod copies;
 mod submeshes;
 
 use crate::attributes::{Attributes, Streams, middles};
+use crate::corners::Fill;
 use crate::ids::{Edge, IdVec, Ring};
 use crate::limits::{self, Limits};
 use crate::mesh::MeshBuffers;
 use crate::options::ChamferSubmesh;
 use crate::plan::Plan;
 use crate::report::{Chamfered, TriangleKind, TriangleSource};
-use crate::seams::{self, FillLay, FillMap, Owners};
+use crate::seams::{self, FillLay, FillMap, Owners, StripLay};
 use crate::strips::Cut;
 use crate::verdicts::{totals, verdicts};
 use crate::view::View;
@@ -25,7 +26,7 @@ pub use copies::Copies;
 
 /// The source as it is, for want of hard edges.
 pub fn unchanged(view: &View, target: ChamferSubmesh) -> Chamfered {
-    let Streams { vertices, sources, .. } = Streams::of_source(view);
+    let Streams { vertices, sources, .. } = Streams::of_source(view, 0);
     let kind = TriangleKind::Source;
     let mut submesh_index_counts = view.mesh.submesh_index_counts.to_vec();
     if target == ChamferSubmesh::Own {
@@ -55,8 +56,8 @@ pub fn output(
     }
     let submeshes = Submeshes::of_source(plan, target, &attributes);
     let mut surface = Surface { plan, limits, cuts, owners, attributes, copies, submeshes };
-    plan.edges.hard.ids().for_each(|edge| surface.add_strip(edge));
-    plan.sectors.rings.ids().for_each(|ring| surface.add_fill(ring));
+    surface.add_strips();
+    surface.add_fills();
     surface.finish()
 }
 
@@ -70,60 +71,97 @@ struct Surface<'a> {
     submeshes: Submeshes,
 }
 
+/// Strips and fills are laid out so many at a time, by all threads, and then added by one: more
+/// would only need more memory.
+const BATCH: usize = 8192;
+
+/// A fill that is laid out.
+struct LaidFill {
+    fill: Fill,
+    lay: FillLay,
+}
+
 impl Surface<'_> {
-    fn add_strip(&mut self, edge: Edge) {
-        let (plan, placement) = (self.plan, &self.limits.placement);
-        let hard = &plan.edges.hard[edge];
-        let cut = self.cuts[edge];
-        if cut == Cut::Closed {
-            return;
-        }
-        let owner = self.owners.side[edge];
-        let vertices = seams::strip_vertices(
-            plan,
-            placement,
-            owner,
-            (hard, cut),
-            &mut self.attributes,
-            &mut self.copies,
-        );
-        let source = TriangleSource { kind: TriangleKind::Edge, index: edge.0 };
-        for triangle in cut.triangles() {
-            let vertices = triangle.map(|place| vertices[place]);
-            self.submeshes.add(hard.sides[owner].triangle(), vertices, source);
+    fn add_strips(&mut self) {
+        let count = self.plan.edges.hard.len();
+        for start in (0..count).step_by(BATCH) {
+            let size = BATCH.min(count - start);
+            let lay = |place: Edge| self.strip(Edge(start as u32 + place.0));
+            let laid = self.plan.view.threads.map(size, lay);
+            for (edge, lay) in (start as u32..).map(Edge).zip(laid.iter()) {
+                if let Some(lay) = lay {
+                    self.add_strip(edge, lay);
+                }
+            }
         }
     }
 
-    fn add_fill(&mut self, ring: Ring) {
+    fn strip(&self, edge: Edge) -> Option<StripLay> {
+        let (plan, cut) = (self.plan, self.cuts[edge]);
+        let (owner, hard) = (self.owners.side[edge], &plan.edges.hard[edge]);
+        let lay =
+            || seams::strip_lay(plan, &self.limits.placement, &self.attributes, owner, (hard, cut));
+        (cut != Cut::Closed).then(lay)
+    }
+
+    fn add_strip(&mut self, edge: Edge, lay: &StripLay) {
+        let face = self.plan.edges.hard[edge].sides[self.owners.side[edge]].triangle();
+        let vertices = lay.vertices(self.plan, &mut self.attributes.streams, &mut self.copies);
+        let source = TriangleSource { kind: TriangleKind::Edge, index: edge.0 };
+        for triangle in self.cuts[edge].triangles() {
+            self.submeshes.add(face, triangle.map(|place| vertices[place]), source);
+        }
+    }
+
+    fn add_fills(&mut self) {
+        let count = self.plan.sectors.rings.len();
+        for start in (0..count).step_by(BATCH) {
+            let size = BATCH.min(count - start);
+            let lay = |place: Ring| self.fill(Ring(start as u32 + place.0));
+            let laid = self.plan.view.threads.map(size, lay);
+            for (ring, laid) in (start as u32..).map(Ring).zip(laid.iter()) {
+                if let Some(laid) = laid {
+                    self.add_fill(ring, laid);
+                }
+            }
+        }
+    }
+
+    fn fill(&self, ring: Ring) -> Option<LaidFill> {
         let (plan, placement) = (self.plan, &self.limits.placement);
         // Limits end with fills that are valid, or with rings that did not move.
         let fill = limits::fill(plan, placement, ring).unwrap_or_default();
         if fill.triangles.is_empty() {
-            return;
+            return None;
         }
-        let sectors = plan.sectors.ring(ring);
-        let cluster = plan.topology.cluster_at[plan.sectors.fans[sectors[0]].first];
         let map = FillMap::new(plan, placement, &self.attributes, ring, &fill);
+        let lay = map.lay(&self.attributes.streams, &self.owners);
+        Some(LaidFill { fill, lay })
+    }
+
+    fn add_fill(&mut self, ring: Ring, LaidFill { fill, lay }: &LaidFill) {
+        let (plan, copies) = (self.plan, &mut self.copies);
         let streams = &mut self.attributes.streams;
-        let FillLay { owner, channels, lay } = map.lay(streams, &self.owners);
-        let mut vertices = map.vertices.clone();
-        let copies = &mut self.copies;
-        if channels != 0 {
+        let sectors = plan.sectors.ring(ring);
+        let first = |place: usize| plan.sectors.fans[sectors[place]].first;
+        let cluster = plan.topology.cluster_at[first(0)];
+        let FillLay { owner, vertices, channels, lay } = lay;
+        let mut vertices = vertices.clone();
+        if *channels != 0 {
             for (place, foot) in &lay.feet {
-                vertices[*place] = copies.get(plan, streams, vertices[*place], foot, channels);
+                vertices[*place] = copies.get(plan, streams, vertices[*place], foot, *channels);
             }
         }
         for (places, foot) in fill.middles.iter().zip(&lay.middles) {
-            let middle = middles::add(plan, placement, streams, sectors, places);
-            streams.rechart(plan, middle, foot, channels);
+            let middle = middles::add(plan, &self.limits.placement, streams, sectors, places);
+            streams.rechart(plan, middle, foot, *channels);
             vertices.push(copies.settle(streams, cluster));
         }
-        let first = plan.sectors.fans[sectors[owner]].first;
-        let at = plan.view.vertex_at(plan.sectors.fans[sectors[0]].first);
+        let at = plan.view.vertex_at(first(0));
         let source = TriangleSource { kind: TriangleKind::Corner, index: at.0 };
         for triangle in &fill.triangles {
             let vertices = triangle.map(|place| vertices[place]);
-            self.submeshes.add(first.triangle(), vertices, source);
+            self.submeshes.add(first(*owner).triangle(), vertices, source);
         }
     }
 

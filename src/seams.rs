@@ -22,7 +22,7 @@ use density::uv_point;
 
 pub use fill_map::{FillLay, FillMap};
 pub use owners::{Owners, owners};
-pub use strip_map::strip_vertices;
+pub use strip_map::{StripLay, strip_lay};
 
 /// The UV channels that a mesh has.
 fn channels_of(plan: &Plan) -> impl Iterator<Item = usize> + use<> {

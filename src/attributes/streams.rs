@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 
 use crate::ids::{Id, Vertex};
 use crate::math::unit;
-use crate::mesh::{MeshBuffers, UV_CHANNELS};
+use crate::mesh::{MeshBuffers, Uv, UvBuffer};
 use crate::plan::Plan;
 use crate::report::{Blend, VertexSource};
 use crate::resample::{blended_normal, weighted_sum};
@@ -19,19 +19,34 @@ pub struct Streams {
     pub vertices: MeshBuffers,
     /// `#vertices`.
     pub sources: Vec<VertexSource>,
+    /// The channels from here on are absent.
+    uv_end: usize,
     /// Per colour component, the least and the greatest value that a blend may have.
     color_range: [[f32; 2]; 4],
 }
 
 impl Streams {
-    /// The streams of the source as they are.
-    pub fn of_source(view: &View) -> Streams {
-        let mesh = crate::mesh::Mesh { indices: &[], submesh_index_counts: &[], ..view.mesh };
-        let count = mesh.positions.len() as u32;
+    /// The streams of the source as they are, with room for some more vertices.
+    pub fn of_source(view: &View, room: usize) -> Streams {
+        let mesh = &view.mesh;
+        let uv = |uv: &Uv| UvBuffer {
+            components: uv.components,
+            values: copied(uv.values, room * uv.components as usize),
+        };
+        let mut sources = Vec::with_capacity(mesh.positions.len() + room);
         let untouched = |v| VertexSource::new(Blend::one(v), Blend::one(v));
+        sources.extend((0..mesh.positions.len() as u32).map(untouched));
         Streams {
-            vertices: mesh.to_buffers(),
-            sources: (0..count).map(untouched).collect(),
+            vertices: MeshBuffers {
+                positions: copied(mesh.positions, room),
+                normals: copied(mesh.normals, room),
+                tangents: copied(mesh.tangents, room),
+                colors: copied(mesh.colors, room),
+                uvs: mesh.uvs.each_ref().map(uv),
+                ..MeshBuffers::default()
+            },
+            sources,
+            uv_end: mesh.uvs.iter().rposition(|uv| uv.components > 0).map_or(0, |last| last + 1),
             color_range: color_range(mesh.colors),
         }
     }
@@ -52,7 +67,7 @@ impl Streams {
         if !vertices.colors.is_empty() {
             vertices.colors.push(vertices.colors[from]);
         }
-        for uv in &mut vertices.uvs {
+        for uv in &mut vertices.uvs[..self.uv_end] {
             let components = uv.components as usize;
             uv.values.extend_from_within(from * components..(from + 1) * components);
         }
@@ -95,7 +110,7 @@ impl Streams {
         vertices.normals.truncate(count);
         vertices.tangents.truncate(count);
         vertices.colors.truncate(count);
-        for uv in &mut vertices.uvs {
+        for uv in &mut vertices.uvs[..self.uv_end] {
             uv.values.truncate(count * uv.components as usize);
         }
         self.sources.truncate(count);
@@ -113,7 +128,7 @@ impl Streams {
         if !vertices.colors.is_empty() {
             vertices.colors[to] = vertices.colors[from];
         }
-        for uv in &mut vertices.uvs {
+        for uv in &mut vertices.uvs[..self.uv_end] {
             let components = uv.components as usize;
             uv.values.copy_within(from * components..(from + 1) * components, to * components);
         }
@@ -128,7 +143,7 @@ impl Streams {
             && v.normals[a] == v.normals[b]
             && (v.tangents.is_empty() || v.tangents[a] == v.tangents[b])
             && (v.colors.is_empty() || v.colors[a] == v.colors[b])
-            && v.uvs.iter().all(|uv| {
+            && v.uvs[..self.uv_end].iter().all(|uv| {
                 let components = uv.components as usize;
                 (0..components)
                     .all(|k| uv.values[a * components + k] == uv.values[b * components + k])
@@ -174,7 +189,7 @@ impl Streams {
             let normal = wide(self.vertices.normals[place]);
             self.vertices.tangents[place] = tangent(plan, chart, normal);
         }
-        for channel in (0..UV_CHANNELS).filter(|channel| channels & (1 << channel) != 0) {
+        for channel in (0..self.uv_end).filter(|channel| channels & (1 << channel) != 0) {
             self.set_uv(plan, place, chart, channel);
         }
     }
@@ -203,6 +218,14 @@ impl Streams {
             blend_value(chart, colors.map(|color| color[k])).clamp(least, greatest)
         })
     }
+}
+
+/// A copy with room for some more; an absent stream stays absent.
+fn copied<T: Copy>(values: &[T], room: usize) -> Vec<T> {
+    let room = if values.is_empty() { 0 } else { room };
+    let mut copy = Vec::with_capacity(values.len() + room);
+    copy.extend_from_slice(values);
+    copy
 }
 
 /// Equal values stay equal to the bit, whatever the weights.

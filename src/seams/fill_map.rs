@@ -35,6 +35,8 @@ const WAYS: [Way; 5] = [
 pub struct FillLay {
     /// The owner, as a place in the ring.
     pub owner: usize,
+    /// `#sectors`: their own output vertices.
+    pub vertices: Few<u32>,
     /// The channels, as bits, that the fill has from its owner; the others run on as they are.
     pub channels: u8,
     pub lay: Lay,
@@ -48,7 +50,7 @@ pub struct FillMap<'a> {
     fill: &'a Fill,
     points: Few<DVec3>,
     /// `#sectors`: their output vertices.
-    pub vertices: Few<u32>,
+    vertices: Few<u32>,
 }
 
 impl<'a> FillMap<'a> {
@@ -70,36 +72,44 @@ impl<'a> FillMap<'a> {
 
     /// The first way, and the first owner in rank, that fits in all channels that cannot run on; or
     /// else those that fit best.
-    pub fn lay(&self, streams: &Streams, owners: &Owners) -> FillLay {
-        let plan = self.plan;
-        let mut ranked: Few<_> =
-            (0..self.sectors.len()).map(|place| (self.rank(place, owners), place)).collect();
-        ranked.sort_unstable_by(|one, other| other.cmp(one));
-        let places: Few<usize> = ranked.iter().map(|&(_, place)| place).collect();
+    pub fn lay(self, streams: &Streams, owners: &Owners) -> FillLay {
         let broken = |channel: &usize| self.own_misfit(streams, *channel) > MOST_STRETCH;
-        let channels = channels_of(plan).filter(broken).fold(0, |channels, k| channels | 1 << k);
+        let all = channels_of(self.plan);
+        let channels = all.filter(broken).fold(0, |channels, k| channels | 1 << k);
+        let (owner, channels, lay) = self.best_lay(streams, channels, &self.ranked(owners));
+        FillLay { owner, vertices: self.vertices, channels, lay }
+    }
+
+    /// The places of the ring, best owner first.
+    fn ranked(&self, owners: &Owners) -> Few<usize> {
+        let places = 0..self.sectors.len();
+        let mut ranked: Few<_> = places.map(|place| (self.rank(place, owners), place)).collect();
+        ranked.sort_unstable_by(|one, other| other.cmp(one));
+        ranked.iter().map(|&(_, place)| place).collect()
+    }
+
+    fn best_lay(&self, streams: &Streams, channels: u8, places: &[usize]) -> (usize, u8, Lay) {
         let worst = |owner: usize, lay: &Lay| {
-            let mapped = channels_of(plan).filter(|channel| channels >> channel & 1 == 1);
+            let mapped = channels_of(self.plan).filter(|channel| channels >> channel & 1 == 1);
             let misfits = mapped.map(|channel| self.misfit(streams, channel, owner, lay));
             misfits.fold(0.0, f64::max)
         };
         if channels == 0 {
-            return FillLay { owner: places[0], channels, lay: self.laid(WAYS[0], places[0]) };
+            return (places[0], channels, self.laid(WAYS[0], places[0]));
         }
-        let mut best: Option<(f64, FillLay)> = None;
+        let mut best: Option<(f64, usize, Lay)> = None;
         for (way, &owner) in WAYS.iter().flat_map(|way| places.iter().map(move |at| (way, at))) {
             let lay = self.laid(*way, owner);
             let misfit = worst(owner, &lay);
-            let found = (misfit, FillLay { owner, channels, lay });
             if misfit <= MOST_STRETCH {
-                return found.1;
+                return (owner, channels, lay);
             }
-            if best.as_ref().is_none_or(|(least, _)| misfit < *least) {
-                best = Some(found);
+            if best.as_ref().is_none_or(|(least, ..)| misfit < *least) {
+                best = Some((misfit, owner, lay));
             }
         }
-        let none = || FillLay { owner: 0, channels: 0, lay: self.laid(WAYS[0], 0) };
-        best.map_or_else(none, |(_, lay)| lay)
+        let none = || (0, 0, self.laid(WAYS[0], 0));
+        best.map_or_else(none, |(_, owner, lay)| (owner, channels, lay))
     }
 
     fn laid(&self, way: Way, owner: usize) -> Lay {

@@ -151,8 +151,7 @@ impl<'a> StripMap<'a> {
     /// The feet of the first way that fits, or else of the one that fits best, among those that
     /// agree with what other channels have taken.
     fn lay(&self, streams: &Streams, channel: usize, owner: usize, taken: &Feet) -> Feet {
-        let seams = self.edge.seams;
-        let own = (seams >> channel & 1 == 0).then_some(Way::Own);
+        let own = (self.edge.seams >> channel & 1 == 0).then_some(Way::Own);
         let ways = own.into_iter().chain(bands(owner)).chain(bands(1 - owner));
         let sides = [owner, 1 - owner];
         let inside = sides.map(Way::Inside).into_iter().chain(sides.map(Way::Flat));
@@ -184,28 +183,43 @@ fn far_places(owner: usize) -> [usize; 2] {
     if owner == 0 { [2, 3] } else { [0, 1] }
 }
 
-/// The output vertices of a strip's corners b1, a1, a2, b2, moved into the owner's chart where
-/// their own is another, or folds or ends under the chamfer.
-pub fn strip_vertices(
+/// Where a strip lies on the texture: for its corners b1, a1, a2, b2.
+pub struct StripLay {
+    vertices: [u32; 4],
+    feet: Feet,
+    /// The channels, as bits, that each takes from its foot.
+    channels: [u8; 4],
+}
+
+/// Lays a strip into the owner's chart where its own is another, or folds or ends under the
+/// chamfer.
+pub fn strip_lay(
     plan: &Plan,
     placement: &Placement,
+    attributes: &Attributes,
     owner: usize,
     (edge, cut): (&HardEdge, Cut),
-    attributes: &mut Attributes,
-    copies: &mut Copies,
-) -> [u32; 4] {
+) -> StripLay {
     let map = StripMap::new(plan, placement, attributes, edge, cut);
-    let streams = &mut attributes.streams;
     let (mut taken, mut channels): (Feet, [u8; 4]) = ([None; 4], [0; 4]);
     for channel in channels_of(plan) {
-        let feet = map.lay(streams, channel, owner, &taken);
+        let feet = map.lay(&attributes.streams, channel, owner, &taken);
         for place in (0..4).filter(|&place| feet[place].is_some()) {
             taken[place] = feet[place];
             channels[place] |= 1 << channel;
         }
     }
-    std::array::from_fn(|place| match &taken[place] {
-        Some(foot) => copies.get(plan, streams, map.vertices[place], foot, channels[place]),
-        None => map.vertices[place],
-    })
+    StripLay { vertices: map.vertices, feet: taken, channels }
+}
+
+impl StripLay {
+    /// The output vertices of the corners.
+    pub fn vertices(&self, plan: &Plan, streams: &mut Streams, copies: &mut Copies) -> [u32; 4] {
+        std::array::from_fn(|place| match &self.feet[place] {
+            Some(foot) => {
+                copies.get(plan, streams, self.vertices[place], foot, self.channels[place])
+            }
+            None => self.vertices[place],
+        })
+    }
 }
