@@ -155,7 +155,9 @@ class Library:
 
     def __init__(self, path=None):
         """Loads a file: `path`, or what CHAMFER_LIBRARY names, or the one beside this module."""
-        self._c = ctypes.CDLL(os.fspath(path or _default_path()))
+        path = os.fspath(path or _default_path())
+        # Windows finds a file by its whole path only; a bare name is the system's to find.
+        self._c = ctypes.CDLL(os.path.abspath(path) if os.path.exists(path) else path)
         self._declare()
         found = self._c.chamfer_abi_version()
         if found != ABI_VERSION:
