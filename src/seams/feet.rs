@@ -253,7 +253,7 @@ pub fn corner_lay(
     ring: usize,
     normal: DVec3,
 ) -> Lay {
-    let apex = (0..ring).max_by(|&one, &other| {
+    let apex = (0..ring).rev().max_by(|&one, &other| {
         let opening = |apex| spread_at(points, ring, apex, normal);
         opening(one).total_cmp(&opening(other))
     });
