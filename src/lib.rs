@@ -32,6 +32,8 @@ mod error;
 mod faces;
 #[allow(unsafe_code)]
 mod ffi;
+#[cfg(test)]
+mod figures;
 mod groups;
 mod ids;
 mod intersect;

@@ -6,7 +6,10 @@
 /// How many UV channels a mesh has room for.
 pub const UV_CHANNELS: usize = 8;
 
-/// A borrowed triangle mesh. An empty slice is an absent stream.
+/// A borrowed triangle mesh. An empty slice is an absent stream; every value is finite.
+///
+/// Triangles are wound so that `cross(b - a, c - a)` points outward, whatever the handedness of
+/// the axes. A mesh without submeshes has no triangles.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Mesh<'a> {
     /// `#vertices by 3`, in mesh units.
@@ -34,16 +37,16 @@ pub struct Uv<'a> {
     pub values: &'a [f32],
 }
 
-/// An owned triangle mesh, stream by stream as in [`Mesh`].
+/// An owned triangle mesh, stream by stream as in [`Mesh`]. An empty vector is an absent stream.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeshBuffers {
-    /// `#vertices by 3`.
+    /// `#vertices by 3`, in mesh units.
     pub positions: Vec<[f32; 3]>,
-    /// `#vertices by 3`.
+    /// `#vertices by 3`, unit length.
     pub normals: Vec<[f32; 3]>,
-    /// `#vertices by 4` or empty.
+    /// `#vertices by 4` or empty: a unit vector and the handedness, +1 or -1.
     pub tangents: Vec<[f32; 4]>,
-    /// `#vertices by 4` or empty.
+    /// `#vertices by 4` or empty: red, green, blue, alpha.
     pub colors: Vec<[f32; 4]>,
     /// Each `#vertices by components` or absent.
     pub uvs: [UvBuffer; UV_CHANNELS],

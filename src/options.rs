@@ -30,7 +30,7 @@ impl Default for Options {
 pub enum Width {
     /// In mesh units.
     Units(f32),
-    /// In percent of the largest side of the mesh's box.
+    /// In percent of the largest side of the mesh's box: 1.0 is a hundredth of it.
     PercentOfExtent(f32),
 }
 

@@ -19,7 +19,11 @@ use crate::topology::topology;
 use crate::view::{View, view, view_of_checked};
 use crate::weld::{Weld, weld};
 
-/// Chamfers all hard edges of a mesh.
+/// Chamfers all hard edges of a mesh: the method of the thesis (Algma 2018, chapter 6), as
+/// `docs/pipeline.md` goes on from there.
+///
+/// The result depends on nothing but the mesh and the options, to the last bit. At width 0, or
+/// without hard edges, it is the mesh as it was. Time and memory grow linearly with the mesh.
 ///
 /// # Errors
 /// Whatever is wrong with the mesh or the options: see [`Error`].

@@ -7,7 +7,7 @@
 use glam::DVec3;
 
 use crate::faces::faces;
-use crate::ids::{Corner, Id, IdVec, Triangle, Vertex};
+use crate::ids::{Corner, Id, IdVec, Vertex};
 use crate::math::unit;
 use crate::mesh::Mesh;
 use crate::threads::Threads;
@@ -32,6 +32,9 @@ pub struct Smoothed {
 /// `positions` are `#vertices by 3`, finite; `indices` `#triangles by 3`, flattened, in range.
 /// Positions are welded bit for bit first, so that triangle soups work. A triangle without area
 /// takes the normal of the face behind its longest side.
+///
+/// # Panics
+/// Where an index is out of range.
 pub fn split_by_angle(positions: &[[f32; 3]], indices: &[u32], angle_degrees: f32) -> Smoothed {
     let mut smoothed = Smoothed {
         source_of: (0..positions.len() as u32).collect(),
@@ -58,8 +61,15 @@ pub fn split_by_angle(positions: &[[f32; 3]], indices: &[u32], angle_degrees: f3
         twin.is_some() && faces[side.triangle()].dot(faces[twin.triangle()]) >= cosine
     };
     let mut variants = Variants { next: vec![Vertex::NONE; positions.len()] };
+    let mut sums = IdVec::filled(None, indices.len());
     for corner in (0..indices.len()).map(Corner::new) {
-        let normal = corner_normal(&view, &topology, &faces, &is_smooth, corner);
+        let sum = sums[corner].unwrap_or_else(|| {
+            let fan = fan_of(&topology, &is_smooth, corner);
+            let sum = fan.iter().map(|&at| faces[at.triangle()] * corner_angle(&view, at)).sum();
+            fan.into_iter().for_each(|at| sums[at] = Some(sum));
+            sum
+        });
+        let normal = normal_of(sum, faces[corner.triangle()]);
         let vertex = variants.of(view.vertex_at(corner), normal, &mut smoothed);
         smoothed.indices[corner.index()] = vertex.0;
     }
@@ -73,14 +83,9 @@ pub fn split_by_angle(positions: &[[f32; 3]], indices: &[u32], angle_degrees: f3
 /// No unit normal looks like this.
 const UNSET: [f32; 3] = [0.0; 3];
 
-/// The mean over the fan of corners that smooth edges join to this one.
-fn corner_normal(
-    view: &View,
-    topology: &Topology,
-    faces: &IdVec<Triangle, DVec3>,
-    is_smooth: &impl Fn(Corner) -> bool,
-    corner: Corner,
-) -> [f32; 3] {
+/// The corners that smooth edges join to this one, in order; it comes first where they go all the
+/// way round.
+fn fan_of(topology: &Topology, is_smooth: &impl Fn(Corner) -> bool, corner: Corner) -> Vec<Corner> {
     let mut first = corner;
     while is_smooth(first) {
         first = topology.twin[first].next();
@@ -88,19 +93,20 @@ fn corner_normal(
             break;
         }
     }
-    let mut sum = DVec3::ZERO;
+    let mut fan = vec![first];
     let mut at = first;
-    loop {
-        sum += faces[at.triangle()] * corner_angle(view, at);
-        if !is_smooth(at.prev()) {
-            break;
-        }
+    while is_smooth(at.prev()) {
         at = topology.twin[at.prev()];
         if at == first {
             break;
         }
+        fan.push(at);
     }
-    let own = faces[corner.triangle()];
+    fan
+}
+
+/// The direction of a sum of normals; that of the own face where they cancel out.
+fn normal_of(sum: DVec3, own: DVec3) -> [f32; 3] {
     let normal = [unit(sum), own].into_iter().find(|normal| *normal != DVec3::ZERO);
     normal.unwrap_or(DVec3::Z).as_vec3().to_array()
 }

@@ -5,14 +5,39 @@ use std::path::Path;
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
-#[test]
-fn the_readme_shows_the_c_example_that_is_tested() {
-    let example = include_str!("../examples/c/chamfer_cube.c");
-    let block = format!("```c\n{example}```\n");
+/// The README shows an example as it is.
+#[track_caller]
+fn assert_shown(language: &str, path: &str) {
+    let example = fs::read_to_string(Path::new(ROOT).join(path)).unwrap();
     assert!(
-        include_str!("../README.md").contains(&block),
-        "README.md does not show examples/c/chamfer_cube.c as it is: copy the file there"
+        include_str!("../README.md").contains(&format!("```{language}\n{example}```\n")),
+        "README.md does not show {path} as it is: copy the file there"
     );
+}
+
+#[test]
+fn the_readme_shows_the_examples_that_are_tested() {
+    assert_shown("rust", "examples/chamfer_cube.rs");
+    assert_shown("c", "examples/c/chamfer_cube.c");
+    assert_shown("python", "examples/python/chamfer_cube.py");
+}
+
+/// The sections of a page up to a heading: their titles and their texts.
+fn sections<'a>(page: &'a str, until: &str) -> Vec<(&'a str, &'a str)> {
+    let part = page.split_once(until).map_or(page, |(before, _)| before);
+    part.split("\n## ").skip(1).filter_map(|section| section.split_once('\n')).collect()
+}
+
+#[test]
+fn each_stage_shows_its_figure() {
+    let page = include_str!("../docs/pipeline.md");
+    let stages = sections(page, "\n# Helpers\n");
+    for (title, text) in &stages {
+        let link = format!("](figures/{}.svg)", title.to_lowercase());
+        assert!(text.contains(&link), "the section {title} of docs/pipeline.md lacks its figure");
+    }
+    let figures = fs::read_dir(Path::new(ROOT).join("docs/figures")).unwrap();
+    assert_eq!(figures.count(), stages.len(), "each figure is shown, and each one shown is there");
 }
 
 /// A stage or helper is a file in src whose header begins with its name and a colon.

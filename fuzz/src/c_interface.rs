@@ -130,8 +130,11 @@ pub fn is_known(status: i32) -> bool {
 ///
 /// # Panics
 /// Where it does not.
-pub fn look_at(result: *const chamfer_result) {
-    // SAFETY: the result came from the library and lives; the structs state their sizes.
+///
+/// # Safety
+/// The result came from the library and lives.
+pub unsafe fn look_at(result: *const chamfer_result) {
+    // SAFETY: as this function's; the structs state their sizes.
     unsafe {
         let mut mesh: chamfer_mesh = mem::zeroed();
         mesh.struct_size = size_of_val(&mesh) as u32;

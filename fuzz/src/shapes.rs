@@ -155,7 +155,7 @@ fn book(pages: &[[i8; 2]]) -> Net {
     points.extend(pages.iter().map(|&[x, z]| [f32::from(x), 4.0, f32::from(z)]));
     let page = |number: usize| {
         let outer = number as u32 + 2;
-        if number % 2 == 0 { [0, 1, outer] } else { [1, 0, outer] }
+        if number.is_multiple_of(2) { [0, 1, outer] } else { [1, 0, outer] }
     };
     Net { points, indices: (0..pages.len()).flat_map(page).collect() }
 }

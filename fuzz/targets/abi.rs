@@ -209,8 +209,10 @@ fn call(input: &Input, make: impl FnOnce(*mut *mut chamfer_result, *mut chamfer_
         false => assert_eq!(result.is_null(), status != CHAMFER_STATUS_OK),
     }
     if status == CHAMFER_STATUS_OK {
-        look_at(result);
-        // SAFETY: it came from the library, and nobody has it any more.
-        unsafe { chamfer_result_destroy(result) };
+        // SAFETY: it came from the library, and is given up here.
+        unsafe {
+            look_at(result);
+            chamfer_result_destroy(result);
+        }
     }
 }

@@ -123,7 +123,7 @@ fn ascii_stl(facets: &[[[i8; 3]; 3]], ending: &Ending) -> String {
 /// The count is wrong where it is odd.
 fn binary_stl(count: u32, records: &[[[f32; 3]; 4]], rest: &[u8]) -> Vec<u8> {
     let mut bytes = vec![b's'; 80];
-    let count = if count % 2 == 0 { records.len() as u32 } else { count };
+    let count = if count.is_multiple_of(2) { records.len() as u32 } else { count };
     bytes.extend(count.to_le_bytes());
     for record in records {
         bytes.extend(record.as_flattened().iter().flat_map(|value| value.to_le_bytes()));

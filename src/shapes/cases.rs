@@ -5,13 +5,13 @@ use glam::Vec3;
 use super::builder::{BOX_FACES, Builder, Corner, LID};
 use crate::mesh::MeshBuffers;
 
-/// Three cubes that extrude from a middle one (thesis 6.2, figure 40). At the inner corner three
+/// Three unit cubes that extrude from a middle one (thesis 6.2, figure 40). At the inner corner three
 /// vertices are corner-connected: each is shared by two coplanar faces that touch nowhere else.
 pub fn extruding_cubes() -> MeshBuffers {
     voxels(&[[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
 }
 
-/// A step in two directions: one cube on the corner of a floor of four. Where it stands, a convex
+/// A step in two directions: one unit cube on the corner of a floor of four. Where it stands, a convex
 /// edge meets two concave ones.
 pub fn saddle() -> MeshBuffers {
     voxels(&[[0, 0, 0], [1, 0, 0], [0, 0, 1], [1, 0, 1], [0, 1, 0]])
@@ -34,7 +34,7 @@ fn voxels(cells: &[[i32; 3]]) -> MeshBuffers {
     builder.finish()
 }
 
-/// An extruded L, with one concave edge.
+/// An extruded L of 2 by 2 by 1, with one concave edge.
 pub fn l_shape() -> MeshBuffers {
     let mut builder = Builder::with_uvs();
     let outline = [[1.0, 1.0], [1.0, 2.0], [0.0, 2.0], [0.0, 0.0], [2.0, 0.0], [2.0, 1.0]];
@@ -60,14 +60,14 @@ pub fn aligned_strip() -> MeshBuffers {
     builder.finish()
 }
 
-/// A box without lid, of single-sided walls that look outward: open.
+/// A box of 2 by 1 by 2 without lid, of single-sided walls that look outward: open.
 pub fn open_box() -> MeshBuffers {
     let mut builder = Builder::with_uvs();
     builder.block([-1.0, 0.0, -1.0], [1.0, 1.0, 1.0], &[LID]);
     builder.finish()
 }
 
-/// A square plate, a hundred times as wide as thick.
+/// A square plate of 2 by 0.02 by 2: a hundred times as wide as thick.
 pub fn plate() -> MeshBuffers {
     let mut builder = Builder::with_uvs();
     builder.block([-1.0, 0.0, -1.0], [1.0, 0.02, 1.0], &[]);

@@ -3,8 +3,8 @@
 use super::builder::{BOX_FACES, Builder, Corner, FLOOR, LID, around};
 use crate::mesh::{MeshBuffers, UvBuffer};
 
-/// A cube around the origin: 24 vertices, 12 triangles. Each face has its own square in the UV
-/// atlas, so that every edge is a seam.
+/// A cube around the origin, its sides of length `size`: 24 vertices, 12 triangles. Each face has
+/// its own square in the UV atlas, so that every edge is a seam.
 pub fn cube(size: f32) -> MeshBuffers {
     let mut builder = Builder::with_uvs();
     for face in 0..BOX_FACES.len() {
@@ -13,7 +13,7 @@ pub fn cube(size: f32) -> MeshBuffers {
     builder.finish()
 }
 
-/// A cube around the origin without UVs: 24 vertices, 12 triangles.
+/// A cube around the origin without UVs, its sides of length `size`: 24 vertices, 12 triangles.
 pub fn plain_cube(size: f32) -> MeshBuffers {
     let mut builder = Builder::default();
     builder.block([-size / 2.0; 3], [size / 2.0; 3], &[]);

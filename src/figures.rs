@@ -1,0 +1,59 @@
+//! The figures of `docs/pipeline.md`: each stage's values on small models, drawn as SVG.
+//!
+//! `CHAMFER_UPDATE_FIGURES=1 cargo test --lib figures` writes them to `docs/figures`; without that
+//! variable the test fails where a committed figure is not what the code draws.
+
+mod drawing;
+mod models;
+mod moves;
+mod result;
+mod scene;
+mod source;
+mod texture;
+
+use std::fs;
+use std::path::PathBuf;
+
+use drawing::Drawing;
+
+/// What draws a figure.
+type Draw = fn() -> Drawing;
+
+/// The stages, in the order of the pipeline.
+const FIGURES: [(&str, Draw); 14] = [
+    ("view", source::view),
+    ("weld", source::weld),
+    ("topology", source::topology),
+    ("faces", source::faces),
+    ("edges", source::edges),
+    ("sectors", moves::sectors),
+    ("offsets", moves::offsets),
+    ("limits", moves::limits),
+    ("attributes", texture::attributes),
+    ("seams", texture::seams),
+    ("strips", result::strips),
+    ("corners", result::corners),
+    ("verdicts", result::verdicts),
+    ("output", result::output),
+];
+
+#[test]
+fn the_committed_figures_are_what_the_code_draws() {
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("docs/figures");
+    let is_update = std::env::var_os("CHAMFER_UPDATE_FIGURES").is_some();
+    for (name, draw) in FIGURES {
+        let path = folder.join(name).with_extension("svg");
+        let drawn = draw().finish();
+        if is_update {
+            fs::create_dir_all(&folder).unwrap();
+            fs::write(&path, drawn).unwrap();
+            continue;
+        }
+        let committed = fs::read_to_string(&path).unwrap_or_default();
+        assert!(
+            committed == drawn,
+            "docs/figures/{name}.svg is out of date: look at what \
+             CHAMFER_UPDATE_FIGURES=1 cargo test --lib figures writes, and commit it"
+        );
+    }
+}

@@ -1,0 +1,179 @@
+//! Where vertices go: sectors, offsets, limits.
+
+use glam::{DVec2, DVec3};
+
+use super::drawing::{BLUE, Drawing, FAINT, GREEN, INK, ORANGE, PALETTE, Pen, RED};
+use super::models::{add_block, nothing};
+use super::scene::{Camera, FRONT, Scene};
+use crate::ids::{Corner, Sector};
+use crate::limits::limits as stage_limits;
+use crate::mesh::MeshBuffers;
+use crate::options::Verify;
+use crate::placement::base;
+use crate::plan::Plan;
+use crate::plan::tests::plan_of;
+use crate::shapes;
+
+/// Numbers nearer to each other than this could not be read.
+const LABEL_SPACE: f64 = 40.0;
+
+pub fn sectors() -> Drawing {
+    let mut drawing = Drawing::new(720, 300);
+    drawing.title(125.0, "three around a corner");
+    drawing.title(360.0, "a fan over soft edges");
+    drawing.title(595.0, "six around an inner corner");
+    let cube = shapes::plain_cube(2.0);
+    let camera = Camera::new(FRONT, [0.0; 3], 66.0, [125.0, 160.0]);
+    draw_sectors(&mut drawing, &cube, camera, 0.55);
+    let cylinder = shapes::cylinder(8);
+    let camera = Camera::new([1.2, 2.0, 4.0], [0.0, 0.5, 0.0], 150.0, [360.0, 160.0]);
+    draw_sectors(&mut drawing, &cylinder, camera, 0.15);
+    let cubes = shapes::extruding_cubes();
+    let camera = Camera::new([2.6, 2.4, 3.4], [0.9, 0.9, 0.9], 66.0, [595.0, 165.0]);
+    draw_sectors(&mut drawing, &cubes, camera, 0.3);
+    drawing.legend(&[(RED, "hard edge"), (BLUE, "one colour: one sector, which moves as one")]);
+    drawing
+}
+
+/// Hard edges, and a fan of the given radius for each sector.
+fn draw_sectors(drawing: &mut Drawing, mesh: &MeshBuffers, camera: Camera, radius: f64) {
+    let plan = plan_of(mesh, 0.01);
+    let scene = Scene::of_mesh(camera, mesh);
+    scene.paint(drawing);
+    soft_edges(drawing, &scene, &plan);
+    for ring in plan.sectors.rings.ids() {
+        for (place, &sector) in plan.sectors.ring(ring).iter().enumerate() {
+            for corner in plan.sectors.corners(&plan.topology, sector) {
+                let blade = blade(&plan, corner, radius);
+                let middle = blade.iter().sum::<DVec3>() / 3.0;
+                if scene.shows(middle) {
+                    let flat = blade.map(|point| scene.camera.flat(point));
+                    drawing.polygon(&flat, PALETTE[place]);
+                }
+            }
+        }
+    }
+    hard_edges(drawing, &scene, &plan, Pen::new(RED, 2.2));
+}
+
+/// The tip of a triangle at one of its corners.
+fn blade(plan: &Plan, corner: Corner, radius: f64) -> [DVec3; 3] {
+    let at = plan.view.position_at(corner);
+    let tip = |other: Corner| {
+        let way = plan.view.position_at(other) - at;
+        at + way * (radius / way.length()).min(0.45)
+    };
+    [at, tip(corner.next()), tip(corner.prev())]
+}
+
+fn ends(plan: &Plan, corner: Corner) -> [DVec3; 2] {
+    [corner, corner.next()].map(|end| plan.view.position_at(end))
+}
+
+fn hard_edges(drawing: &mut Drawing, scene: &Scene, plan: &Plan, pen: Pen) {
+    for edge in plan.edges.hard.iter() {
+        scene.line(drawing, ends(plan, edge.sides[0]), pen);
+    }
+}
+
+fn soft_edges(drawing: &mut Drawing, scene: &Scene, plan: &Plan) {
+    for corner in plan.topology.twin.ids() {
+        if plan.edges.chamfered_at[corner].is_none() {
+            scene.line(drawing, ends(plan, corner), Pen::new(FAINT, 0.8));
+        }
+    }
+}
+
+pub fn offsets() -> Drawing {
+    let mut drawing = Drawing::new(720, 310);
+    drawing.title(125.0, "bisector, convex and reflex");
+    drawing.title(360.0, "along a crease, along a border");
+    drawing.title(595.0, "an end: the vertex stays");
+    let camera = Camera::new(FRONT, [1.0, 1.0, 0.5], 70.0, [125.0, 165.0]);
+    draw_offsets(&mut drawing, &shapes::l_shape(), 0.18, camera);
+    let camera = Camera::new([1.2, 2.0, 4.0], [0.0, 0.5, 0.0], 105.0, [300.0, 165.0]);
+    draw_offsets(&mut drawing, &shapes::cylinder(8), 0.12, camera);
+    let camera = Camera::new(FRONT, [0.0, 0.5, 0.0], 50.0, [430.0, 165.0]);
+    draw_offsets(&mut drawing, &shapes::open_box(), 0.25, camera);
+    let camera = Camera::new([-2.5, 3.4, 3.2], [1.0, 0.7, 1.0], 66.0, [595.0, 165.0]);
+    draw_offsets(&mut drawing, &shapes::wedge_end(), 0.15, camera);
+    drawing.legend(&[(RED, "hard edge"), (INK, "offset"), (BLUE, "pulled edge, at the width")]);
+    drawing
+}
+
+/// Arrows for the offsets, and the hard edges as they would be pulled.
+fn draw_offsets(drawing: &mut Drawing, mesh: &MeshBuffers, width: f32, camera: Camera) {
+    let plan = plan_of(mesh, width);
+    let scene = Scene::of_mesh(camera, mesh);
+    scene.paint(drawing);
+    hard_edges(drawing, &scene, &plan, Pen::new(RED, 1.6));
+    let pulled = |corner: Corner| {
+        let sector = plan.sectors.sector_of[corner];
+        plan.view.position_at(corner) + plan.offsets[sector].vector
+    };
+    for side in plan.edges.hard.iter().flat_map(|edge| edge.sides) {
+        scene.line(drawing, [pulled(side), pulled(side.next())], Pen::new(BLUE, 1.6));
+    }
+    for sector in plan.sectors.fans.ids() {
+        let (at, offset) = (base(&plan, sector), &plan.offsets[sector]);
+        if scene.shows(at + offset.vector) {
+            scene.arrow(drawing, [at, at + offset.vector], Pen::new(INK, 1.6));
+            if !offset.moves() {
+                scene.dot(drawing, at, 4.0, INK);
+            }
+        }
+    }
+}
+
+pub fn limits() -> Drawing {
+    let mut drawing = Drawing::new(720, 320);
+    drawing.title(185.0, "a narrow part narrows itself alone");
+    drawing.title(540.0, "two that compete for a face get the same");
+    let mut parts = nothing();
+    add_block(&mut parts, [-1.0, 0.0, -0.7], [1.0, 0.6, 0.7]);
+    add_block(&mut parts, [-1.0, 0.0, 1.3], [1.0, 0.2, 1.5]);
+    let camera = Camera::new(FRONT, [0.0, 0.3, 0.4], 100.0, [185.0, 160.0]);
+    draw_shares(&mut drawing, &parts, 0.15, camera);
+    let mut slab = nothing();
+    add_block(&mut slab, [-1.0, 0.0, -0.6], [1.0, 0.5, 0.6]);
+    let camera = Camera::new(FRONT, [0.0, 0.25, 0.0], 120.0, [540.0, 160.0]);
+    draw_shares(&mut drawing, &slab, 0.32, camera);
+    drawing.legend(&[
+        (FAINT, "at full width"),
+        (BLUE, "as limited"),
+        (GREEN, "share of the offset: all of it"),
+        (ORANGE, "less"),
+    ]);
+    drawing
+}
+
+/// The pulled edges as limited, and the share of each sector.
+fn draw_shares(drawing: &mut Drawing, mesh: &MeshBuffers, width: f32, camera: Camera) {
+    let plan = plan_of(mesh, width);
+    let placement = stage_limits(&plan, Verify::Fast).placement;
+    let scene = Scene::of_mesh(camera, mesh);
+    scene.paint(drawing);
+    hard_edges(drawing, &scene, &plan, Pen::new(INK, 0.8));
+    for side in plan.edges.hard.iter().flat_map(|edge| edge.sides) {
+        let full = |corner: Corner| {
+            let sector = plan.sectors.sector_of[corner];
+            plan.view.position_at(corner) + plan.offsets[sector].vector
+        };
+        let ends = [side, side.next()];
+        scene.line(drawing, ends.map(full), Pen::dashed(FAINT, 1.0));
+        let limited = ends.map(|end| placement.position_at(&plan, end));
+        scene.line(drawing, limited, Pen::new(BLUE, 1.4));
+    }
+    let mut labels: Vec<(DVec2, String)> = Vec::new();
+    let moved = |sector: &Sector| plan.offsets[*sector].moves();
+    for sector in plan.sectors.fans.ids().filter(moved) {
+        let (share, at) = (placement.share[sector], placement.point[sector]);
+        scene.dot(drawing, at, 4.0, if share < 1.0 { ORANGE } else { GREEN });
+        let beside = scene.camera.flat(at) + DVec2::new(0.0, -12.0);
+        let has_space = labels.iter().all(|(other, _)| other.distance(beside) > LABEL_SPACE);
+        if share < 1.0 && scene.shows(at) && has_space {
+            labels.push((beside, format!("{share:.2}")));
+        }
+    }
+    labels.iter().for_each(|(at, share)| drawing.label(*at, INK, share));
+}
