@@ -88,16 +88,16 @@ const KEPT: [&str; 9] = [
     "6 duplicates",
 ];
 
-/// What real models may break, at most, as a share of what was looked at: seams that run through
-/// the sector of a pulled vertex, slivers, and charts that the source has folded already.
+/// What real models may break, at most, as a share of what was looked at: chamfers that are larger
+/// than any face of their chart around them, and vertices pulled past a seam beside a crease.
 const BOUNDS: [(&str, f64); 9] = [
-    ("1 footprint", 0.022),
-    ("1 area", 0.005),
-    ("1 mirrored", 0.005),
-    ("1 thin strip", 0.045),
-    ("1 dense strip", 0.015),
-    ("1 thin fill", 0.12),
-    ("1 dense fill", 0.012),
+    ("1 footprint", 0.0006),
+    ("1 area", 0.0001),
+    ("1 mirrored", 0.0001),
+    ("1 thin strip", 0.014),
+    ("1 dense strip", 0.0002),
+    ("1 thin fill", 0.008),
+    ("1 dense fill", 0.0003),
     ("2 position", 0.005),
     ("3 affine", 0.005),
 ];

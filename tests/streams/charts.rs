@@ -7,6 +7,9 @@ use chamfer::{Mesh, Uv};
 /// UV values that differ by less than this share of their size are one.
 const EQUAL_UV: f32 = 1e-6;
 
+/// How far arithmetic takes a mean of UV values past them, as a share of their size.
+const ROUNDING: f64 = 1e-7;
+
 /// Cells along each side of a footprint's grid.
 const CELLS: usize = 24;
 
@@ -196,7 +199,9 @@ impl Footprint {
 
     /// Whether a point lies on the chart, or no farther off than a share of its size.
     pub fn covers(&self, point: Point, tolerance: f64) -> bool {
-        let near = tolerance * self.size();
+        // A chart of one texel has no size, but rounding has.
+        let rounding = point[0].abs().max(point[1].abs()) * ROUNDING;
+        let near = tolerance * self.size() + rounding;
         let [x, y] = self.cell(point, 0.0);
         self.cells[y * CELLS + x]
             .iter()

@@ -151,3 +151,16 @@ fn each_side_of_a_seam_that_meets_a_hard_edge_stays_in_its_chart() {
         }
     }
 }
+
+/// A seam that leans: its vertices slide along it, so that neither chart has to go on past it.
+#[test]
+fn both_sides_of_a_leaning_seam_stay_on_it() {
+    let mut mesh = seam_across();
+    for position in mesh.positions.iter_mut().filter(|p| p[0] == 2.0 && p[1] == 0.0) {
+        position[0] = 2.5;
+    }
+    let result = chamfered(&mesh, 0.1);
+    let last = mesh.positions.len() - 1;
+    let [x, y, _] = result.mesh.positions[last];
+    assert!((x - 2.05).abs() < 1e-5 && (y - 0.9).abs() < 1e-5, "{x} {y}");
+}
