@@ -145,6 +145,22 @@ fn an_obj_goes_out_as_glb_where_asked() {
     assert!(fs::read(folder.path("cube.glb")).unwrap().starts_with(b"glTF"));
 }
 
+/// The cube has a material for its top and one for its sides: 12 strips and 8 corners are new.
+#[test]
+fn chamfers_go_to_the_submesh_that_is_asked_for() {
+    let folder = Folder::with(&[("cube.obj", CUBE_OBJ)]);
+    let triangles = |submesh: &str| -> Vec<usize> {
+        folder.run(&format!("cube.obj -o out.obj --chamfer-submesh {submesh}")).exits(0);
+        let text = folder.text("out.obj");
+        let groups = text.split("usemtl ").skip(1);
+        groups.map(|group| group.matches("\nf ").count()).collect()
+    };
+    assert_eq!(triangles("own"), [2, 10, 32]);
+    assert_eq!(triangles("0"), [34, 10]);
+    assert_eq!(triangles("owner").iter().sum::<usize>(), 44);
+    folder.run("cube.obj -o out.obj --chamfer-submesh 2").exits(1);
+}
+
 #[test]
 fn an_stl_goes_out_as_glb_unless_an_stl_is_asked_for() {
     let folder = Folder::with(&[("a.stl", TRIANGLE_STL)]);

@@ -132,6 +132,19 @@ fn a_cube_is_chamfered() {
 }
 
 #[test]
+fn chamfers_go_to_the_submesh_that_is_asked_for() {
+    let counts = |submesh_mode, submesh| {
+        let result =
+            run(&Cube::new().view(), &chamfer_options { submesh_mode, submesh, ..options() });
+        let mesh = mesh_of(&result);
+        // SAFETY: the result lives, and says how long its array is.
+        unsafe { slice_or_empty(mesh.submesh_index_counts, mesh.submesh_count as usize) }.to_vec()
+    };
+    assert_eq!(counts(CHAMFER_SUBMESH_OWN, 0), [18, 18, 96]);
+    assert_eq!(counts(CHAMFER_SUBMESH_GIVEN, 1), [18, 114]);
+}
+
+#[test]
 fn a_cube_has_twelve_verdicts() {
     let result = run(&Cube::new().view(), &options());
     let verdicts = array_of(&result, LIBRARY.chamfer_result_verdicts);

@@ -9,6 +9,7 @@ mod result;
 mod seams;
 #[path = "../support/shaded.rs"]
 mod shaded;
+mod textures;
 mod touching;
 
 use chamfer::check::assert_sound;
