@@ -1,17 +1,33 @@
 //! Prints how long a chamfer takes in terms of meshoptimizer's position remap, in one run.
 //!
 //! `cargo run --release --example ratios -- [--rounds N] [--least] [--full] [--cubes N]`
+//! `cargo run --release --example ratios -- --corpus [--rounds N] [--least]`
 //!
 //! Times are medians; `--least` takes the least instead, for machines that have other work to do.
 
 #[path = "../benches/support/models.rs"]
 mod models;
 
+#[allow(dead_code)]
+#[path = "../tests/corpus/measure.rs"]
+mod measure;
+
 use std::hint::black_box;
+use std::path::Path;
 use std::time::{Duration, Instant};
 
-use chamfer::{MeshBuffers, Verify, chamfer};
+use chamfer::{MeshBuffers, Options, Prepared, Verify, Width, chamfer};
+use chamfer_cli::{document::ReadOptions, format};
 use models::{CUBES, copy, cube_field, options, position_remap, smooth_sphere, stage_times};
+
+/// In percent of each model's extent.
+const CORPUS_PERCENT: f32 = 1.0;
+
+/// What may pass between two pictures while a width is dragged.
+const LONGEST_DRAG: Duration = Duration::from_millis(10);
+
+/// The triangles of a large game asset.
+const MOST_DRAGGED: usize = 50_000;
 
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -20,6 +36,9 @@ fn main() {
     }
     let rounds = value_of(&arguments, "--rounds").and_then(|n| n.parse().ok()).unwrap_or(7);
     let verify = if arguments.iter().any(|a| a == "--full") { Verify::Full } else { Verify::Fast };
+    if arguments.iter().any(|argument| argument == "--corpus") {
+        return corpus(rounds);
+    }
     if let Some(cubes) = value_of(&arguments, "--cubes").and_then(|n| n.parse().ok()) {
         let name = format!("cube field, {} triangles", cubes * 12);
         return table(&name, &cube_field(cubes), verify, rounds);
@@ -33,6 +52,42 @@ fn main() {
         let status = std::process::Command::new(program).args(["--peak-of", model]).status();
         assert!(status.is_ok_and(|status| status.success()), "the peak of {model} is not known");
     }
+}
+
+/// The corpus as a whole, `full` in terms of `fast`, and the meshes that are slow to drag.
+fn corpus(rounds: usize) {
+    let read = ReadOptions { smoothing_angle: 30.0 };
+    let (mut fast, mut full, mut triangles) = (Duration::ZERO, Duration::ZERO, 0);
+    for path in measure::models(Path::new(measure::FOLDER)) {
+        let Ok(document) = format::read(&path, &read) else { continue };
+        for source in document.meshes() {
+            let mesh = source.mesh.as_mesh();
+            let time = |verify| {
+                let width = Width::PercentOfExtent(CORPUS_PERCENT);
+                let options = Options { width, verify, ..Options::default() };
+                median(rounds, || drop(black_box(chamfer(&mesh, &options))))
+            };
+            let [own_fast, own_full] = [Verify::Fast, Verify::Full].map(time);
+            let count = mesh.indices.len() / 3;
+            if own_fast > LONGEST_DRAG && count <= MOST_DRAGGED {
+                let name = path.file_name().unwrap_or_default().to_string_lossy();
+                let times = [own_fast, own_full].map(|time| time.as_secs_f64() * 1e3);
+                println!(
+                    "{name}: {count} triangles, fast {:.1} ms, full {:.1} ms",
+                    times[0], times[1]
+                );
+            }
+            fast += own_fast;
+            full += own_full;
+            triangles += count;
+        }
+    }
+    println!(
+        "corpus: {triangles} triangles, fast {:.0} ms, full {:.0} ms: {:.2} x",
+        fast.as_secs_f64() * 1e3,
+        full.as_secs_f64() * 1e3,
+        full.as_secs_f64() / fast.as_secs_f64().max(f64::MIN_POSITIVE),
+    );
 }
 
 fn value_of<'a>(arguments: &'a [String], name: &str) -> Option<&'a str> {
@@ -58,6 +113,10 @@ fn table(name: &str, mesh: &MeshBuffers, verify: Verify, rounds: usize) {
     let whole = |options| median(rounds, || drop(black_box(chamfer(&mesh.as_mesh(), &options))));
     row("chamfer, one thread", whole(one), remap);
     row("chamfer, two threads", whole(two), remap);
+    if let Ok(prepared) = Prepared::new(&mesh.as_mesh()) {
+        let again = median(rounds, || drop(black_box(prepared.chamfer(&one))));
+        row("another width, prepared", again, remap);
+    }
     let runs: Vec<_> = (0..rounds).map(|_| stage_times(mesh, &one)).collect();
     for (place, (stage, _)) in runs[0].iter().enumerate() {
         let mut times: Vec<Duration> = runs.iter().map(|run| run[place].1).collect();

@@ -33,6 +33,12 @@ pub struct Blend {
 }
 
 impl Blend {
+    /// Three source vertices with their weights, in single precision. No weight is a negative zero,
+    /// which machines do not agree on.
+    pub fn new(vertices: [u32; 3], weights: [f64; 3]) -> Blend {
+        Blend { vertices, weights: weights.map(|weight| weight as f32 + 0.0) }
+    }
+
     /// One source vertex, unblended.
     pub fn one(vertex: u32) -> Blend {
         Blend { vertices: [vertex; 3], weights: [1.0, 0.0, 0.0] }

@@ -42,11 +42,9 @@ impl Foot {
         if to_next.abs().max(to_prev.abs()) > MOST_WEIGHT {
             return Blend::one(plan.view.vertex_at(self.corner).0);
         }
-        Blend {
-            vertices: [self.corner, self.corner.next(), self.corner.prev()]
-                .map(|corner| plan.view.vertex_at(corner).0),
-            weights: [1.0 - to_next - to_prev, to_next, to_prev].map(|weight| weight as f32),
-        }
+        let corners = [self.corner, self.corner.next(), self.corner.prev()];
+        let vertices = corners.map(|corner| plan.view.vertex_at(corner).0);
+        Blend::new(vertices, [1.0 - to_next - to_prev, to_next, to_prev])
     }
 }
 

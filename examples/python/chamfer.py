@@ -10,6 +10,7 @@ are in the header; the result's arrays are copies, so nothing has to be freed.
 import ctypes
 import os
 import sys
+import weakref
 from ctypes import POINTER, byref, c_char, c_float, c_int32, c_uint32, c_void_p, sizeof
 from dataclasses import dataclass, field
 
@@ -22,7 +23,7 @@ NO_ELEMENT = 0xFFFFFFFF
 
 WIDTH_UNITS = {"mesh": 0, "percent": 1}
 VERIFY = {"fast": 0, "full": 1}
-SUBMESH_OWNER, SUBMESH_OWN, SUBMESH_GIVEN = 0, 1, 2
+SUBMESH_MODES, SUBMESH_GIVEN = {"owner": 0, "own": 1}, 2
 OUTCOMES = ("full", "narrowed", "skipped")
 
 
@@ -49,6 +50,27 @@ class Mesh:
     tangents: np.ndarray = None  # vertices by 4: a unit vector and the handedness
     colors: np.ndarray = None  # vertices by 4: red, green, blue, alpha
     uvs: dict = field(default_factory=dict)  # channel (0 to 7): vertices by 2 to 4
+
+
+@dataclass
+class Options:
+    """How to chamfer a mesh."""
+
+    width: float = 1.0  # the distance between an old edge and the pulled one
+    width_unit: str = "percent"  # of the largest side of the mesh's box, or "mesh" units
+    verify: str = "full"  # or "fast": then a part may cut through itself
+    submesh: object = "owner"  # of the face beside a chamfer; "own": a new one; or a number
+    threads: int = 1  # 0 for as many as there are cores; the result is the same
+
+    def fill(self, options):
+        """Writes them into the struct of the library."""
+        options.width, options.threads = self.width, self.threads
+        options.width_unit = WIDTH_UNITS[self.width_unit]
+        options.verify = VERIFY[self.verify]
+        if self.submesh in SUBMESH_MODES:
+            options.submesh_mode = SUBMESH_MODES[self.submesh]
+        else:
+            options.submesh_mode, options.submesh = SUBMESH_GIVEN, self.submesh
 
 
 @dataclass
@@ -133,51 +155,29 @@ class Library:
 
     def __init__(self, path=None):
         """Loads a file: `path`, or what CHAMFER_LIBRARY names, or the one beside this module."""
-        self._c = ctypes.CDLL(os.fspath(path or _default_path()))
+        path = os.fspath(path or _default_path())
+        # Windows finds a file by its whole path only; a bare name is the system's to find.
+        self._c = ctypes.CDLL(os.path.abspath(path) if os.path.exists(path) else path)
         self._declare()
         found = self._c.chamfer_abi_version()
         if found != ABI_VERSION:
             raise ImportError(f"the library has ABI version {found}, this module {ABI_VERSION}")
 
-    def chamfer(
-        self,
-        mesh,
-        width=1.0,
-        width_unit="percent",
-        verify="full",
-        submesh="owner",
-        threads=1,
-        progress=None,
-    ):
+    def chamfer(self, mesh, progress=None, **options):
         """Chamfers all hard edges of a mesh.
 
-        `width` is in percent of the largest side of the mesh's box, or in mesh units ("mesh").
-        New triangles go to the submesh of their chart ("owner"), to a new one ("own"), or to the
-        one of the given number. `progress` is called with the share done, 0 to 1; when it returns
-        True, or raises, the call ends: with Cancelled, or with that exception.
+        The options are those of `Options`. `progress` is called with the share done, 0 to 1; when
+        it returns True, or raises, the call ends: with Cancelled, or with that exception.
         """
-        options = _sized(_Options)
-        self._check(self._c.chamfer_options_init(byref(options)))
-        options.width, options.threads = width, threads
-        options.width_unit, options.verify = WIDTH_UNITS[width_unit], VERIFY[verify]
-        if isinstance(submesh, int):
-            options.submesh_mode, options.submesh = SUBMESH_GIVEN, submesh
-        else:
-            options.submesh_mode = {"owner": SUBMESH_OWNER, "own": SUBMESH_OWN}[submesh]
-        callback, raised = _callback(progress)
         view = _View(mesh)
+        return self._run(self._c.chamfer_run, byref(view.mesh), progress, options)
 
-        def call(out, error):
-            return self._c.chamfer_run(
-                byref(view.mesh), byref(options), callback, None, out, error
-            )
-
-        try:
-            return self._result(call)
-        except Cancelled:
-            if raised:
-                raise raised[0]
-            raise
+    def prepare(self, mesh):
+        """Finds out once what does not depend on the width: to chamfer one mesh several times."""
+        view, prepared, error = _View(mesh), c_void_p(), _sized(_Error)
+        status = self._c.chamfer_prepare(byref(view.mesh), byref(prepared), byref(error))
+        self._raise_for(status, error)
+        return Prepared(self, prepared)
 
     def split_by_angle(self, mesh, degrees):
         """The mesh with normals by smoothing angle, its vertices split where they differ."""
@@ -193,15 +193,19 @@ class Library:
         return self._c.chamfer_reason_string(number).decode()
 
     def _declare(self):
-        c, out = self._c, POINTER(c_void_p)
-        mesh, error, count = POINTER(_Mesh), POINTER(_Error), POINTER(c_uint32)
+        c, out, count = self._c, POINTER(c_void_p), POINTER(c_uint32)
+        mesh, error, options = POINTER(_Mesh), POINTER(_Error), POINTER(_Options)
         c.chamfer_abi_version.restype = c_uint32
         c.chamfer_reason_string.argtypes = [c_uint32]
         c.chamfer_reason_string.restype = ctypes.c_char_p
         c.chamfer_status_string.argtypes = [c_int32]
         c.chamfer_status_string.restype = ctypes.c_char_p
-        c.chamfer_options_init.argtypes = [POINTER(_Options)]
-        c.chamfer_run.argtypes = [mesh, POINTER(_Options), _Progress, c_void_p, out, error]
+        c.chamfer_options_init.argtypes = [options]
+        c.chamfer_run.argtypes = [mesh, options, _Progress, c_void_p, out, error]
+        c.chamfer_prepare.argtypes = [mesh, out, error]
+        c.chamfer_prepared_run.argtypes = [c_void_p, options, _Progress, c_void_p, out, error]
+        c.chamfer_prepared_destroy.argtypes = [c_void_p]
+        c.chamfer_prepared_destroy.restype = None
         c.chamfer_split_by_angle.argtypes = [mesh, c_float, out, error]
         c.chamfer_result_mesh.argtypes = [c_void_p, mesh]
         c.chamfer_result_totals.argtypes = [c_void_p, POINTER(_Totals)]
@@ -214,13 +218,29 @@ class Library:
         if status != 0:
             raise ChamferError(status, NO_ELEMENT, self._c.chamfer_status_string(status).decode())
 
-    def _result(self, call):
-        """Calls what makes a result, copies all that it holds, and frees it."""
-        result, error = c_void_p(), _sized(_Error)
-        status = call(byref(result), byref(error))
+    def _raise_for(self, status, error):
         if status != 0:
             kind = Cancelled if status == CANCELLED else ChamferError
             raise kind(status, error.element, error.message.decode())
+
+    def _run(self, function, source, progress, wishes):
+        options = _sized(_Options)
+        self._check(self._c.chamfer_options_init(byref(options)))
+        Options(**wishes).fill(options)
+        callback, raised = _callback(progress)
+        try:
+            return self._result(
+                lambda out, error: function(source, byref(options), callback, None, out, error)
+            )
+        except Cancelled:
+            if raised:
+                raise raised[0]
+            raise
+
+    def _result(self, call):
+        """Calls what makes a result, copies all that it holds, and frees it."""
+        result, error = c_void_p(), _sized(_Error)
+        self._raise_for(call(byref(result), byref(error)), error)
         try:
             mesh, totals = _sized(_Mesh), _sized(_Totals)
             self._check(self._c.chamfer_result_mesh(result, byref(mesh)))
@@ -242,6 +262,21 @@ class Library:
         if not count.value:
             return np.empty(0, dtype)
         return np.frombuffer(ctypes.string_at(start, count.value * dtype.itemsize), dtype)
+
+
+class Prepared:
+    """A mesh of which only the width is open. Any number of threads may chamfer it."""
+
+    def __init__(self, library, prepared):
+        self._library = library
+        self._prepared = prepared
+        destroy = library._c.chamfer_prepared_destroy
+        self._finalizer = weakref.finalize(self, destroy, prepared)
+
+    def chamfer(self, progress=None, **options):
+        """As `Library.chamfer` of the mesh that was prepared."""
+        function = self._library._c.chamfer_prepared_run
+        return self._library._run(function, self._prepared, progress, options)
 
 
 class _View:

@@ -48,8 +48,8 @@ pub fn nearest(plan: &Plan, sectors: &[Sector], point: DVec3) -> Blend {
             let Some([a, b]) = weights(arms, point - at) else { continue };
             let distance = (at + arms[0] * a + arms[1] * b).distance(point);
             if distance < best.0 * EQUALLY_NEAR {
-                let weights = [1.0 - a - b, a, b].map(|weight| weight as f32);
-                best = (distance, Blend { vertices: [corner.0, one.0, other.0], weights });
+                let blend = Blend::new([corner.0, one.0, other.0], [1.0 - a - b, a, b]);
+                best = (distance, blend);
             }
         }
     }

@@ -273,8 +273,7 @@ pub fn corner_lay(
     let vertices = [corner, corner.next(), corner.prev()].map(|c| plan.view.vertex_at(c).0);
     let blend = |at: &[f64; 2]| {
         let [to_next, to_prev] = [0, 1].map(|k| size * (at[k] - least[k]));
-        let weights = [1.0 - to_next - to_prev, to_next, to_prev].map(|weight| weight as f32);
-        Blend { vertices, weights }
+        Blend::new(vertices, [1.0 - to_next - to_prev, to_next, to_prev])
     };
     let mut blends = flat.iter().map(blend);
     Lay { feet: blends.by_ref().take(ring).enumerate().collect(), middles: blends.collect() }

@@ -47,7 +47,8 @@ assert np.isclose(np.abs(mesh.positions[:, 0]).min(), 0.1 / 2**0.5)
 assert result.totals["hard_edges"] == result.totals["chamfered"] == 1
 assert np.isclose(result.totals["width"], 0.1)
 [verdict] = result.verdicts
-assert chamfer.OUTCOMES[verdict["outcome"]] == "full" and library.reason(verdict["reason"]) == "none"
+assert chamfer.OUTCOMES[verdict["outcome"]] == "full"
+assert library.reason(verdict["reason"]) == "none"
 assert np.allclose(verdict["widths"], 0.1)
 assert result.triangle_sources["kind"].tolist().count(1) == 2
 surface = result.vertex_sources["surface"]
@@ -58,6 +59,16 @@ assert np.allclose(rebuilt, mesh.positions, atol=1e-6)
 assert len(library.chamfer(mesh, verify="fast").mesh.positions) >= count
 own = library.chamfer(roof(), submesh="own")
 assert [len(indices) for indices in own.mesh.submeshes] == [2, 2, 2]
+
+# A prepared mesh gives the same as the mesh itself, for each width, and takes any option.
+prepared = library.prepare(roof())
+for width in (0.05, 0.1):
+    once = library.chamfer(roof(), width=width, width_unit="mesh").mesh
+    again = prepared.chamfer(width=width, width_unit="mesh").mesh
+    assert np.array_equal(once.positions, again.positions)
+raised(chamfer.Cancelled, lambda: prepared.chamfer(progress=lambda done: True))
+raised(TypeError, lambda: prepared.chamfer(widht=0.1))
+del prepared
 
 # Progress rises to 1 and can cancel; what a callback raises comes out of the call.
 shares = []
