@@ -54,6 +54,9 @@
 /// The angle is not between 0 and 180 degrees.
 #define CHAMFER_STATUS_BAD_ANGLE 107
 
+/// The place for the result or for the error lies in the mesh. Neither is written.
+#define CHAMFER_STATUS_OVERLAP 108
+
 /// The mesh has no normals.
 #define CHAMFER_STATUS_MISSING_NORMALS 200
 

@@ -64,18 +64,21 @@ fn holes(points: &[DVec3]) -> SmallVec<[Few<usize>; 1]> {
     if are_distinct(points) {
         return smallvec![(0..points.len()).collect()];
     }
+    let names = names(points);
+    // By name: where the path stands there.
+    let mut stands: Few<Option<usize>> = smallvec![None; points.len()];
     let mut holes = SmallVec::new();
     let mut path: Few<usize> = Few::new();
     for place in 0..points.len() {
-        if let Some(met) = path.iter().position(|&other| points[other] == points[place]) {
+        if let Some(met) = stands[names[place]] {
             let hole: Few<usize> = path.drain(met..).collect();
-            path.push(place);
+            hole.iter().for_each(|&left| stands[names[left]] = None);
             if hole.len() >= 3 {
                 holes.push(hole);
             }
-        } else {
-            path.push(place);
         }
+        stands[names[place]] = Some(path.len());
+        path.push(place);
     }
     if path.len() >= 3 {
         holes.push(path);
@@ -83,13 +86,34 @@ fn holes(points: &[DVec3]) -> SmallVec<[Few<usize>; 1]> {
     holes
 }
 
+/// `#points`: a place that stands for all at that position.
+fn names(points: &[DVec3]) -> Few<usize> {
+    if points.len() <= FEW_POINTS {
+        let first = |place: usize| points.iter().position(|point| *point == points[place]);
+        return (0..points.len()).map(|place| first(place).unwrap_or(place)).collect();
+    }
+    let mut sorted: Vec<usize> = (0..points.len()).collect();
+    sorted.sort_unstable_by_key(|&place| (bits(points[place]), place));
+    let mut names: Few<usize> = (0..points.len()).collect();
+    for pair in sorted.windows(2) {
+        if points[pair[0]] == points[pair[1]] {
+            names[pair[1]] = names[pair[0]];
+        }
+    }
+    names
+}
+
+/// The same for -0 and 0.
+fn bits(point: DVec3) -> [u64; 3] {
+    point.to_array().map(|along| (along + 0.0).to_bits())
+}
+
 fn are_distinct(points: &[DVec3]) -> bool {
     if points.len() <= FEW_POINTS {
         let mut pairs = (1..points.len()).flat_map(|k| points[..k].iter().map(move |p| (p, k)));
         return pairs.all(|(point, k)| *point != points[k]);
     }
-    let mut sorted: Vec<[u64; 3]> =
-        points.iter().map(|point| point.to_array().map(|along| (along + 0.0).to_bits())).collect();
+    let mut sorted: Vec<[u64; 3]> = points.iter().copied().map(bits).collect();
     sorted.sort_unstable();
     sorted.windows(2).all(|pair| pair[0] != pair[1])
 }
@@ -243,6 +267,40 @@ mod tests {
         let filled = flat(&l).unwrap();
         assert!(filled.middles.is_empty());
         assert_eq!(filled.triangles.len(), 4);
+    }
+
+    /// On a steep saddle all sides face outwards, each another way, and a vertex in the middle would
+    /// face nowhere.
+    #[test]
+    fn normals_that_cancel_out_give_no_middle() {
+        let steep = |[x, y]: [f64; 2]| DVec3::new(x, y, x * x - y * y);
+        let octagon = [[1.0, 0.0], [0.7, 0.7], [0.0, 1.0], [-0.7, 0.7]];
+        let outwards = [[-1.0, 0.0], [-0.7, 0.7], [0.0, 1.0], [0.7, 0.7]];
+        let half = |sign: f64| octagon.map(|point| steep(point.map(|along| sign * along)));
+        let normals = |sign: f64| outwards.map(|[x, y]| DVec3::new(sign * x, sign * y, 0.0));
+        let filled = fill(
+            &[half(1.0), half(-1.0)].concat(),
+            &[normals(1.0), normals(-1.0)].concat(),
+            HEIGHT,
+        );
+        assert!(filled.is_none_or(|fill| fill.middles.is_empty()));
+    }
+
+    #[test]
+    fn a_long_ring_that_is_pinched_has_as_many_holes() {
+        // Ten triangles around one point.
+        let points = |k: usize| {
+            let (sin, cos) = (f64::from(k as u32 / 3) * 0.6).sin_cos();
+            match k % 3 {
+                0 => [0.0; 2],
+                1 => [cos, sin],
+                _ => [cos - 0.3 * sin, sin + 0.3 * cos],
+            }
+        };
+        let fan = flat(&(0..30).map(points).collect::<Vec<_>>()).unwrap();
+        let mut triangles = fan.triangles.to_vec();
+        triangles.iter_mut().for_each(|triangle| triangle.sort_unstable());
+        assert_eq!(triangles, (0..10).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect::<Vec<_>>());
     }
 
     #[test]

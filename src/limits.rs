@@ -113,22 +113,30 @@ fn apply(plan: &Plan, limits: &mut Limits, round: usize, shrunk: &mut Vec<Sector
     if round >= SHRINK_ROUNDS {
         spread_over_rings(plan, limits, shrunk);
     }
+    let mut least = (Ring::NONE, 0.0);
     for &sector in shrunk.iter() {
         let share = limits.placement.share[sector];
         let smaller = match round.cmp(&SHRINK_ROUNDS) {
             Ordering::Less => share * SHRINK,
-            Ordering::Equal => least_in_ring(plan, &limits.placement, sector),
+            Ordering::Equal => {
+                // They come ring by ring. Anew for each sector, a large ring would take quadratic
+                // time.
+                let ring = plan.sectors.fans[sector].ring;
+                if least.0 != ring {
+                    least = (ring, least_in_ring(plan, &limits.placement, ring));
+                }
+                least.1
+            }
             Ordering::Greater => 0.0,
         };
         limits.placement.set(plan, sector, smaller);
     }
 }
 
-/// The smallest share that a sector or another one of its ring has, of those that moved.
-fn least_in_ring(plan: &Plan, placement: &Placement, sector: Sector) -> f64 {
-    let ring = plan.sectors.ring(plan.sectors.fans[sector].ring);
-    let shares = ring.iter().map(|&other| placement.share[other]).filter(|&share| share > 0.0);
-    shares.fold(placement.share[sector], f64::min)
+/// The smallest share in a ring, of those that moved.
+fn least_in_ring(plan: &Plan, placement: &Placement, ring: Ring) -> f64 {
+    let shares = plan.sectors.ring(ring).iter().map(|&sector| placement.share[sector]);
+    shares.filter(|&share| share > 0.0).fold(1.0, f64::min)
 }
 
 /// Adds to the sectors all others of their rings that have moved, for the same reason.

@@ -80,6 +80,10 @@ pub fn split_by_angle(positions: &[[f32; 3]], indices: &[u32], angle_degrees: f3
     smoothed
 }
 
+/// With more normals at one vertex than this, as at the tip of a huge cone, not all are compared:
+/// two that are equal then may get a vertex each.
+const MOST_COMPARED: usize = 64;
+
 /// No unit normal looks like this.
 const UNSET: [f32; 3] = [0.0; 3];
 
@@ -128,7 +132,7 @@ impl Variants {
     /// The vertex with this normal: the source vertex if it has none yet, or a copy.
     fn of(&mut self, source: Vertex, normal: [f32; 3], smoothed: &mut Smoothed) -> Vertex {
         let mut vertex = source;
-        loop {
+        for _ in 0..MOST_COMPARED {
             let stored = &mut smoothed.normals[vertex.index()];
             if *stored == UNSET {
                 *stored = normal;
@@ -145,8 +149,8 @@ impl Variants {
         let copy = Vertex::new(smoothed.normals.len());
         smoothed.normals.push(normal);
         smoothed.source_of.push(source.0);
+        self.next.push(self.next[vertex.index()]);
         self.next[vertex.index()] = copy;
-        self.next.push(Vertex::NONE);
         copy
     }
 }

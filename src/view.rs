@@ -12,7 +12,7 @@ use crate::options::{ChamferSubmesh, Options, Width};
 use crate::threads::Threads;
 
 /// New elements are fewer than eight for each source corner, so ids stay within 32 bits.
-const MAX_CORNERS: usize = u32::MAX as usize / 8;
+pub const MAX_CORNERS: usize = u32::MAX as usize / 8;
 
 /// Positions are single precision: two points closer than this many steps of the largest
 /// coordinate cannot be told apart reliably.

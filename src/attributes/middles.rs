@@ -17,6 +17,9 @@ use crate::report::{Blend, VertexSource};
 /// whatever the last bits say.
 const EQUALLY_NEAR: f64 = 0.999;
 
+/// So many neighbours are tried in pairs: of more, as around the tip of a huge cone, every so manyth.
+const MOST_TRIED: usize = 64;
+
 /// Adds a vertex at the mean of some of a ring's points.
 pub fn add(
     plan: &Plan,
@@ -40,7 +43,9 @@ pub fn nearest(plan: &Plan, sectors: &[Sector], point: DVec3) -> Blend {
     let firsts = || sectors.iter().map(|&sector| plan.sectors.fans[sector].first);
     let corner = plan.view.vertex_at(plan.sectors.fans[sectors[0]].first);
     let at = base(plan, sectors[0]);
-    let neighbours: Few<Vertex> = firsts().map(|first| plan.view.vertex_at(first.next())).collect();
+    let step = sectors.len().div_ceil(MOST_TRIED);
+    let neighbours: Few<Vertex> =
+        firsts().step_by(step).map(|first| plan.view.vertex_at(first.next())).collect();
     let mut best = (at.distance(point), Blend::one(corner.0));
     for (k, &one) in neighbours.iter().enumerate() {
         for &other in &neighbours[k + 1..] {

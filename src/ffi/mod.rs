@@ -7,6 +7,7 @@ mod guard;
 mod input;
 mod normals;
 mod output;
+mod overlap;
 mod prepared;
 mod sized;
 mod status;
@@ -21,7 +22,7 @@ use sized::{StatesSize, check_pointer};
 use status::Failure;
 use types::*;
 
-use crate::{Chamfered, chamfer_with_progress};
+use crate::{Chamfered, Mesh, chamfer_with_progress};
 
 /// What a call made: a mesh, where each of its elements came from, and a verdict for each hard
 /// edge. It never changes, so any number of threads may read it at once.
@@ -89,14 +90,13 @@ pub unsafe extern "C" fn chamfer_run(
     error: *mut chamfer_error,
 ) -> i32 {
     // SAFETY: the caller's pointers are NULL or valid, as `chamfer.h` asks.
-    let body = || unsafe {
-        let mesh = input::borrow_mesh(mesh)?;
+    let body = |mesh: Mesh| unsafe {
         let options = input::read_options(options)?;
         let result = chamfer_with_progress(&mesh, &options, &mut reporting(progress, user))?;
         Ok(chamfer_result(result))
     };
     // SAFETY: as above.
-    unsafe { produce(out, error, body) }
+    unsafe { produce_from(mesh, out, error, body) }
 }
 
 /// Gives a mesh normals by smoothing angle: faces joined by edges of at most `angle_degrees` (0 to
@@ -111,13 +111,9 @@ pub unsafe extern "C" fn chamfer_split_by_angle(
     out: *mut *mut chamfer_result,
     error: *mut chamfer_error,
 ) -> i32 {
+    let body = |mesh: Mesh| Ok(chamfer_result(normals::with_normals(&mesh, angle_degrees)?));
     // SAFETY: the caller's pointers are NULL or valid, as `chamfer.h` asks.
-    let body = || {
-        let mesh = unsafe { input::borrow_mesh(mesh) }?;
-        Ok(chamfer_result(normals::with_normals(&mesh, angle_degrees)?))
-    };
-    // SAFETY: as above.
-    unsafe { produce(out, error, body) }
+    unsafe { produce_from(mesh, out, error, body) }
 }
 
 /// Views the result's mesh. Set `struct_size` of `mesh` first.
@@ -210,6 +206,25 @@ unsafe fn reporting(
         Some(call) if unsafe { call(user, done) } != 0 => ControlFlow::Break(()),
         _ => ControlFlow::Continue(()),
     }
+}
+
+/// As [`produce`], of a mesh that `out` and `error` must not lie in.
+///
+/// # Safety
+/// `mesh` as for [`input::borrow_mesh`]; the others as for [`produce`].
+unsafe fn produce_from<T>(
+    mesh: *const chamfer_mesh,
+    out: *mut *mut T,
+    error: *mut chamfer_error,
+    make: impl FnOnce(Mesh) -> Result<T, Failure>,
+) -> i32 {
+    // SAFETY: as this function's.
+    let apart = caught(|| unsafe { overlap::check_apart(mesh, out, error) });
+    if let Err(failure) = apart.and_then(|apart| apart) {
+        return failure.status;
+    }
+    // SAFETY: as this function's, and what is written is not what is read.
+    unsafe { produce(out, error, || make(input::borrow_mesh(mesh)?)) }
 }
 
 /// Runs `make` and hands what it made to the caller.

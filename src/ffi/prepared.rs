@@ -5,8 +5,9 @@ use libc::c_void;
 use super::guard::caught;
 use super::sized::check_pointer;
 use super::types::{chamfer_error, chamfer_mesh, chamfer_options, chamfer_progress};
-use super::{chamfer_result, input, produce, reporting};
-use crate::mesh::MeshBuffers;
+use super::{chamfer_result, input, produce, produce_from, reporting};
+use crate::memory;
+use crate::mesh::{Mesh, MeshBuffers};
 use crate::pipeline::Prepared;
 use crate::plan::Shape;
 
@@ -30,14 +31,12 @@ pub unsafe extern "C" fn chamfer_prepare(
     out: *mut *mut chamfer_prepared,
     error: *mut chamfer_error,
 ) -> i32 {
-    // SAFETY: the caller's pointers are NULL or valid, as `chamfer.h` asks.
-    let body = || {
-        let mesh = unsafe { input::borrow_mesh(mesh) }?;
+    let body = |mesh: Mesh| {
         let shape = Prepared::new(&mesh)?.into_shape();
         Ok(chamfer_prepared { mesh: mesh.to_buffers(), shape })
     };
-    // SAFETY: as above.
-    unsafe { produce(out, error, body) }
+    // SAFETY: the caller's pointers are NULL or valid, as `chamfer.h` asks.
+    unsafe { produce_from(mesh, out, error, body) }
 }
 
 /// As `chamfer_run` of the mesh that was prepared, to the byte.
@@ -56,6 +55,8 @@ pub unsafe extern "C" fn chamfer_prepared_run(
         check_pointer(prepared, "prepared")?;
         let chamfer_prepared { mesh, shape } = &*prepared;
         let options = input::read_options(options)?;
+        // Before anything is copied, as no copy may fail.
+        memory::check(&mesh.as_mesh(), options.verify)?;
         let prepared = Prepared::of_shape(mesh.as_mesh(), shape.clone());
         let result = prepared.chamfer_with_progress(&options, &mut reporting(progress, user))?;
         Ok(chamfer_result(result))

@@ -33,6 +33,8 @@ pub const CHAMFER_STATUS_BAD_OPTION: i32 = 105;
 pub const CHAMFER_STATUS_SUBMESH_RANGE: i32 = 106;
 /// The angle is not between 0 and 180 degrees.
 pub const CHAMFER_STATUS_BAD_ANGLE: i32 = 107;
+/// The place for the result or for the error lies in the mesh. Neither is written.
+pub const CHAMFER_STATUS_OVERLAP: i32 = 108;
 
 /// The mesh has no normals.
 pub const CHAMFER_STATUS_MISSING_NORMALS: i32 = 200;

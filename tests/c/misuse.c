@@ -100,6 +100,22 @@ static void check_told(int32_t status, int32_t expected, chamfer_result *result,
     chamfer_result_destroy(result);
 }
 
+/* The same by way of a prepared mesh: what is wrong is told by one call or the other. */
+static void run_prepared(int32_t expected, const chamfer_mesh *on, const chamfer_options *how) {
+    chamfer_error error = {.struct_size = sizeof error};
+    chamfer_prepared *prepared = (chamfer_prepared *)(void *)garbage;
+    chamfer_result *result = garbage;
+    int32_t status = chamfer_prepare(on, &prepared, &error);
+    CHECK(error.status == status);
+    CHECK((prepared == NULL) == (status != CHAMFER_STATUS_OK));
+    if (prepared != NULL) {
+        status = chamfer_prepared_run(prepared, how, NULL, NULL, &result, &error);
+        check_told(status, expected, result, &error);
+    }
+    CHECK(status == expected);
+    chamfer_prepared_destroy(prepared);
+}
+
 static void run(int32_t expected, const chamfer_mesh *on, const chamfer_options *how) {
     static struct model before;
     chamfer_error error = {.struct_size = sizeof error};
@@ -108,6 +124,7 @@ static void run(int32_t expected, const chamfer_mesh *on, const chamfer_options 
     memcpy(&before, &model, sizeof model);
     status = chamfer_run(on, how, NULL, NULL, &result, &error);
     check_told(status, expected, result, &error);
+    run_prepared(expected, on, how);
     CHECK(memcmp(&before, &model, sizeof model) == 0);
 }
 
@@ -128,6 +145,12 @@ static chamfer_result *good_result(void) {
     chamfer_result *result = NULL;
     CHECK(chamfer_run(&mesh, &options, NULL, NULL, &result, NULL) == CHAMFER_STATUS_OK);
     return result;
+}
+
+static chamfer_prepared *good_prepared(void) {
+    chamfer_prepared *prepared = NULL;
+    CHECK(chamfer_prepare(&mesh, &prepared, NULL) == CHAMFER_STATUS_OK);
+    return prepared;
 }
 
 /* All getters, each with all its places or without one; none may write. */
@@ -154,13 +177,19 @@ static void getters(int32_t expected, const chamfer_result *result, int shift, i
 
 static void null_structs(int32_t expected) {
     chamfer_error error = {.struct_size = sizeof error};
-    chamfer_result *result = good_result();
+    chamfer_result *result = good_result(), *nothing = garbage;
     const chamfer_edge_verdict *verdicts = NULL;
+    chamfer_prepared *prepared = good_prepared();
+    CHECK(chamfer_prepare(&mesh, NULL, NULL) == expected);
+    CHECK(chamfer_prepared_run(prepared, &options, NULL, NULL, NULL, NULL) == expected);
+    chamfer_prepared_destroy(prepared);
     run(expected, NULL, &options);
     split(expected, NULL, 30.0f);
     CHECK(chamfer_run(&mesh, &options, NULL, NULL, NULL, &error) == expected);
     CHECK(error.status == expected);
     CHECK(chamfer_split_by_angle(&mesh, 30.0f, NULL, NULL) == expected);
+    CHECK(chamfer_prepared_run(NULL, NULL, NULL, NULL, &nothing, NULL) == expected);
+    CHECK(nothing == NULL);
     CHECK(chamfer_options_init(NULL) == expected && chamfer_mesh_init(NULL) == expected);
     getters(expected, NULL, 0, 1);
     getters(expected, result, 0, 0);
@@ -250,7 +279,10 @@ static void misaligned_structs(int32_t expected) {
     run(expected, &mesh, (const chamfer_options *)(void *)options_by_two);
     CHECK(chamfer_run(&mesh, &options, NULL, NULL, (chamfer_result **)(void *)out_by_one, NULL) ==
           expected);
+    CHECK(chamfer_prepare(&mesh, (chamfer_prepared **)(void *)out_by_one, NULL) == expected);
     CHECK(out[0] == garbage && out[1] == garbage);
+    CHECK(chamfer_prepared_run((const chamfer_prepared *)(void *)out_by_one, NULL, NULL, NULL, out,
+                               NULL) == expected);
     CHECK(chamfer_options_init((chamfer_options *)(void *)options_by_two) == expected);
     CHECK(chamfer_mesh_init((chamfer_mesh *)(void *)mesh_by_four) == expected);
     getters(expected, result, 1, 1);
@@ -459,6 +491,34 @@ static void shared_arrays(int32_t expected) {
     run(expected, &mesh, &options);
 }
 
+/* At the start and in the middle of an array, and in the mesh struct: nothing is written. */
+static void overlapping_places(int32_t expected) {
+    static struct model before;
+    static struct {
+        chamfer_mesh mesh;
+        char room[sizeof(chamfer_error)];
+    } own;
+    char *const places[] = {(char *)model.positions, (char *)model.uvs[7], (char *)model.indices,
+                            (char *)&own.mesh};
+    chamfer_error error = {.struct_size = sizeof error}, *within;
+    chamfer_result *result = garbage, **out;
+    size_t i;
+    memset(&own, 0, sizeof own);
+    own.mesh = mesh;
+    memcpy(&before, &model, sizeof model);
+    for (i = 0; i < sizeof places / sizeof *places; ++i) {
+        within = (chamfer_error *)(void *)places[i];
+        out = (chamfer_result **)(void *)(places[i] + (8 - (size_t)places[i] % 8) % 8);
+        CHECK(chamfer_run(&own.mesh, &options, NULL, NULL, out, &error) == expected);
+        CHECK(chamfer_run(&own.mesh, &options, NULL, NULL, &result, within) == expected);
+        CHECK(chamfer_split_by_angle(&own.mesh, 30.0f, out, NULL) == expected);
+        CHECK(chamfer_prepare(&own.mesh, (chamfer_prepared **)(void *)out, NULL) == expected);
+    }
+    CHECK(result == garbage && error.status == 0);
+    CHECK(memcmp(&before, &model, sizeof model) == 0);
+    CHECK(memcmp(&own.mesh, &mesh, sizeof mesh) == 0);
+}
+
 /* Address space without memory: whoever looks there is ended by the system. */
 static void *out_of_bounds(size_t bytes) {
     void *space = mmap(NULL, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
@@ -544,6 +604,29 @@ static void many_threads(int32_t expected) {
     chamfer_result_destroy(result);
 }
 
+static void *run_often(void *user) {
+    int round;
+    for (round = 0; round < 20; ++round) {
+        chamfer_result *result = NULL;
+        CHECK(chamfer_prepared_run(user, NULL, NULL, NULL, &result, NULL) == CHAMFER_STATUS_OK);
+        chamfer_result_destroy(result);
+    }
+    return NULL;
+}
+
+static void many_threads_of_prepared(int32_t expected) {
+    pthread_t threads[4];
+    chamfer_prepared *prepared = good_prepared();
+    size_t i;
+    for (i = 0; i < 4; ++i) {
+        CHECK(pthread_create(&threads[i], NULL, run_often, prepared) == 0);
+    }
+    for (i = 0; i < 4; ++i) {
+        CHECK(pthread_join(threads[i], NULL) == expected);
+    }
+    chamfer_prepared_destroy(prepared);
+}
+
 static void unknown_numbers(int32_t expected) {
     CHECK(strcmp(chamfer_status_string(-5), "unknown status") == expected);
     CHECK(strcmp(chamfer_status_string(0x7FFFFFFF), "unknown status") == expected);
@@ -557,6 +640,8 @@ static void destroyed_twice(int32_t expected) {
     result = NULL;
     chamfer_result_destroy(result);
     chamfer_result_destroy(result);
+    chamfer_prepared_destroy(NULL);
+    chamfer_prepared_destroy(NULL);
 }
 
 struct row {
@@ -568,8 +653,8 @@ struct row {
 #define ROW(misuse, name, try_it) {misuse, #name, CHAMFER_STATUS_##name, try_it}
 
 static const struct row rows[] = {
-    ROW("`mesh`, `out`, a getter's `result` or a place to write to is NULL", NULL_POINTER,
-        null_structs),
+    ROW("`mesh`, `prepared`, `out`, a getter's `result` or a place to write to is NULL",
+        NULL_POINTER, null_structs),
     ROW("`options`, `progress`, `error` is NULL", OK, null_extras),
     ROW("`positions`, `indices`, `submesh_index_counts`, or the values of a UV channel with "
         "components, is NULL while its count is not 0",
@@ -601,12 +686,16 @@ static const struct row rows[] = {
         wrong_totals),
     ROW("a UV channel of 1 or more than 4 components", UV_COMPONENTS, wrong_uv_widths),
     ROW("arrays of the mesh that overlap each other", OK, shared_arrays),
+    ROW("`out` or `error` within the mesh struct or one of its arrays", OVERLAP,
+        overlapping_places),
     ROW("more than 2^29 vertices or indices", TOO_LARGE, past_32_bits),
     ROW("a progress callback that stops, at any of its calls", CANCELLED, cancelled),
     ROW("one result looked at by several threads at once", OK, many_threads),
+    ROW("one prepared mesh run by several threads at once", OK, many_threads_of_prepared),
     ROW("an unknown number for `chamfer_status_string`, `chamfer_reason_string`", OK,
         unknown_numbers),
-    ROW("`chamfer_result_destroy(NULL)`, any number of times", OK, destroyed_twice),
+    ROW("`chamfer_result_destroy(NULL)`, `chamfer_prepared_destroy(NULL)`, any number of times", OK,
+        destroyed_twice),
 };
 
 int main(void) {
