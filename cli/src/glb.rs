@@ -1,5 +1,7 @@
 //! A binary glTF of one mesh, for models that come from formats without normals or materials.
 
+use std::collections::HashMap;
+
 use anyhow::Result;
 use chamfer::{MeshBuffers, UvBuffer};
 use serde_json::{Value, json};
@@ -49,15 +51,17 @@ struct Group<'a> {
 /// In the order of first use; groups without triangles are left out.
 fn by_material<'a>(mesh: &MeshBuffers, materials: &'a [Option<String>]) -> Vec<Group<'a>> {
     let mut groups: Vec<Group> = Vec::new();
+    let mut group_of = HashMap::new();
     let mut rest = mesh.indices.as_slice();
     for (submesh, &count) in mesh.submesh_index_counts.iter().enumerate() {
         let (indices, after) = rest.split_at((count as usize).min(rest.len()));
         rest = after;
         let material = materials.get(submesh).and_then(Option::as_deref);
-        match groups.iter_mut().find(|group| group.material == material) {
-            Some(group) => group.indices.extend(indices),
-            None => groups.push(Group { material, indices: indices.to_vec() }),
+        let group = *group_of.entry(material).or_insert(groups.len());
+        if group == groups.len() {
+            groups.push(Group { material, indices: Vec::new() });
         }
+        groups[group].indices.extend(indices);
     }
     groups.retain(|group| !group.indices.is_empty());
     groups
