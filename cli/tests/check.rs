@@ -1,14 +1,19 @@
 //! `chamfer check` on files: each kind of defect, planted in a file, is found.
 
+#[path = "support/run.rs"]
+mod run;
+
 use std::fs;
 use std::path::PathBuf;
-use std::process::{Command, Output};
+use std::process::Command;
 
 use chamfer::shapes;
 use chamfer::{Chamfered, MeshBuffers, Options, TriangleKind, Width, chamfer};
 use chamfer_cli::glb;
 use serde_json::Value;
 use tempfile::TempDir;
+
+use run::Run;
 
 const WIDTH: f32 = 0.05;
 
@@ -52,24 +57,6 @@ impl Folder {
         let run = self.run(&format!("check before.glb after.glb --report r.json{more}"));
         let report = serde_json::from_slice(&fs::read(self.path("r.json")).unwrap()).unwrap();
         (run.0.status.code().unwrap(), report)
-    }
-}
-
-struct Run(Output);
-
-impl Run {
-    #[track_caller]
-    fn exits(self, code: i32) -> Run {
-        assert_eq!(self.0.status.code(), Some(code), "{}{}", self.out(), self.err());
-        self
-    }
-
-    fn out(&self) -> String {
-        String::from_utf8_lossy(&self.0.stdout).into_owned()
-    }
-
-    fn err(&self) -> String {
-        String::from_utf8_lossy(&self.0.stderr).into_owned()
     }
 }
 

@@ -1,11 +1,16 @@
 //! Runs the built `chamfer` on files that the tests write.
 
+#[path = "support/run.rs"]
+mod run;
+
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::Command;
 
 use serde_json::Value;
 use tempfile::TempDir;
+
+use run::Run;
 
 const CUBE_OBJ: &str = "\
 # a cube
@@ -103,24 +108,6 @@ fn list(root: &Path, folder: &Path, files: &mut Vec<String>) {
         } else {
             files.push(path.strip_prefix(root).unwrap().to_str().unwrap().replace('\\', "/"));
         }
-    }
-}
-
-struct Run(Output);
-
-impl Run {
-    #[track_caller]
-    fn exits(self, code: i32) -> Run {
-        assert_eq!(self.0.status.code(), Some(code), "{}{}", self.out(), self.err());
-        self
-    }
-
-    fn out(&self) -> String {
-        String::from_utf8_lossy(&self.0.stdout).into_owned()
-    }
-
-    fn err(&self) -> String {
-        String::from_utf8_lossy(&self.0.stderr).into_owned()
     }
 }
 
