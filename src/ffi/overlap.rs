@@ -6,15 +6,16 @@
 use std::ops::Range;
 
 use super::input;
+use super::sized::{self, StatesSize, check_pointer};
 use super::status::Failure;
 use super::types::{CHAMFER_STATUS_OVERLAP, chamfer_error, chamfer_mesh};
 use crate::mesh::Mesh;
 use crate::view::MAX_CORNERS;
 
-/// Refuses an `out` or `error` that overlaps the mesh.
+/// Refuses an `out` or `error` that overlaps the mesh, or one the other.
 ///
 /// # Safety
-/// As [`input::borrow_mesh`]; `out` and `error` may be anything.
+/// As [`input::borrow_mesh`]; `error` as for a call; `out` may be anything.
 pub unsafe fn check_apart<T>(
     mesh: *const chamfer_mesh,
     out: *const *mut T,
@@ -30,18 +31,33 @@ pub unsafe fn check_apart<T>(
         return Ok(());
     }
     let mut read = ranges(&borrowed);
-    read.push(range(mesh, 1));
-    let written = [range(out, 1), range(error, 1)];
-    let meet = |one: &Range<usize>, other: &Range<usize>| {
-        one.start < other.end && other.start < one.end && !one.is_empty()
-    };
-    if read.iter().any(|one| written.iter().any(|other| meet(one, other))) {
+    // SAFETY: as this function's.
+    let (mesh, error) = unsafe { (struct_range(mesh), struct_range(error)) };
+    // Nothing is written to a pointer that is refused.
+    let out = if check_pointer(out, "out").is_ok() { range(out, 1) } else { 0..0 };
+    read.push(mesh);
+    if meet(&out, &error) || read.iter().any(|one| meet(one, &out) || meet(one, &error)) {
         return Err(Failure::new(
             CHAMFER_STATUS_OVERLAP,
-            "out or error lies in the mesh: give them memory of their own".into(),
+            "out and error lie in the mesh or in each other: give each memory of its own".into(),
         ));
     }
     Ok(())
+}
+
+/// The addresses of as much of a struct as it states to have: nothing behind is looked at. Of a
+/// struct that is refused for its size, that size.
+///
+/// # Safety
+/// As [`sized::stated_size`].
+unsafe fn struct_range<T: StatesSize>(pointer: *const T) -> Range<usize> {
+    // SAFETY: as this function's.
+    let size = unsafe { sized::stated_size(pointer, "struct") }.unwrap_or(size_of::<u32>());
+    range(pointer.cast::<u8>(), size)
+}
+
+fn meet(one: &Range<usize>, other: &Range<usize>) -> bool {
+    one.start.max(other.start) < one.end.min(other.end)
 }
 
 /// The addresses that each array takes.

@@ -75,7 +75,7 @@ pub fn status_text(status: i32) -> &'static CStr {
         CHAMFER_STATUS_BAD_OPTION => c"an option holds an unknown value",
         CHAMFER_STATUS_SUBMESH_RANGE => c"the submesh for chamfers does not exist",
         CHAMFER_STATUS_BAD_ANGLE => c"the angle is not between 0 and 180 degrees",
-        CHAMFER_STATUS_OVERLAP => c"a place to write to lies in the mesh",
+        CHAMFER_STATUS_OVERLAP => c"places to write to lie in the mesh or in each other",
         CHAMFER_STATUS_MISSING_NORMALS => c"the mesh has no normals",
         CHAMFER_STATUS_STREAM_LENGTH => c"a stream has the wrong length",
         CHAMFER_STATUS_UV_COMPONENTS => c"a UV channel is not 2 to 4 wide",

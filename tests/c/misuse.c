@@ -514,11 +514,29 @@ static void overlapping_places(int32_t expected) {
         CHECK(chamfer_split_by_angle(&own.mesh, 30.0f, out, NULL) == expected);
         CHECK(chamfer_prepare(&own.mesh, (chamfer_prepared **)(void *)out, NULL) == expected);
     }
+    out = (chamfer_result **)(void *)((char *)&error + 8);
+    CHECK(chamfer_run(&mesh, &options, NULL, NULL, out, &error) == expected);
     CHECK(result == garbage && error.status == 0);
     CHECK(memcmp(&before, &model, sizeof model) == 0);
     /* Not all of its bytes, as some are padding. */
     CHECK(own.mesh.struct_size == sizeof mesh && own.mesh.vertex_count == VERTICES);
     CHECK(own.mesh.positions == mesh.positions && own.mesh.normals == mesh.normals);
+}
+
+/* What lies behind a struct that states a size too small is not a part of it. */
+static void mesh_behind_a_short_error(int32_t expected) {
+    static struct {
+        uint32_t struct_size;
+        uint32_t apart;
+        float positions[3 * VERTICES];
+    } memory;
+    chamfer_result *result = garbage;
+    memory.struct_size = 4;
+    memcpy(memory.positions, model.positions, sizeof memory.positions);
+    mesh.positions = memory.positions;
+    CHECK(chamfer_run(&mesh, &options, NULL, NULL, &result, (chamfer_error *)(void *)&memory) ==
+          expected);
+    CHECK(result == NULL);
 }
 
 /* Address space without memory: whoever looks there is ended by the system. */
@@ -688,8 +706,10 @@ static const struct row rows[] = {
         wrong_totals),
     ROW("a UV channel of 1 or more than 4 components", UV_COMPONENTS, wrong_uv_widths),
     ROW("arrays of the mesh that overlap each other", OK, shared_arrays),
-    ROW("`out` or `error` within the mesh struct or one of its arrays", OVERLAP,
+    ROW("`out` or `error` within the mesh struct, one of its arrays, or each other", OVERLAP,
         overlapping_places),
+    ROW("an error struct that states too small a size, right before an array", STRUCT_SIZE,
+        mesh_behind_a_short_error),
     ROW("more than 2^29 vertices or indices", TOO_LARGE, past_32_bits),
     ROW("a progress callback that stops, at any of its calls", CANCELLED, cancelled),
     ROW("one result looked at by several threads at once", OK, many_threads),
