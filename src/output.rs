@@ -99,14 +99,20 @@ impl Surface<'_> {
 
     fn strip(&self, edge: Edge) -> Option<StripLay> {
         let (plan, cut) = (self.plan, self.cuts[edge]);
-        let (owner, hard) = (self.owners.side[edge], &plan.edges.hard[edge]);
-        let lay =
-            || seams::strip_lay(plan, &self.limits.placement, &self.attributes, owner, (hard, cut));
+        let lay = || {
+            seams::strip_lay(
+                plan,
+                &self.limits.placement,
+                &self.attributes,
+                &self.owners,
+                (edge, cut),
+            )
+        };
         (cut != Cut::Closed).then(lay)
     }
 
     fn add_strip(&mut self, edge: Edge, lay: &StripLay) {
-        let face = self.plan.edges.hard[edge].sides[self.owners.side[edge]].triangle();
+        let face = self.plan.edges.hard[edge].sides[self.owners.of(edge)].triangle();
         let vertices = lay.vertices(self.plan, &mut self.attributes.streams, &mut self.copies);
         let source = TriangleSource { kind: TriangleKind::Edge, index: edge.0 };
         for triangle in self.cuts[edge].triangles() {

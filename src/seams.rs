@@ -56,7 +56,7 @@ mod tests {
         let cuts = strips(&plan, &placement);
         let owners = owners(&plan, &placement, &cuts, &attributes(&plan, &placement));
         for edge in plan.edges.hard.ids() {
-            let owner = plan.edges.hard[edge].sides[owners.side[edge]].triangle();
+            let owner = plan.edges.hard[edge].sides[owners.of(edge)].triangle();
             assert!(owner < Triangle(24), "the side of the cylinder comes first");
         }
     }

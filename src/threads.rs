@@ -74,6 +74,20 @@ impl Threads {
         IdVec::from_vec((0..count).map(|index| value(&mut scratch, index)).collect())
     }
 
+    /// The value for each item, in their order.
+    pub fn map_each<I: Sync, T: Send>(
+        &self,
+        items: &[I],
+        value: impl Fn(&I) -> T + Sync + Send,
+    ) -> Vec<T> {
+        #[cfg(feature = "parallel")]
+        if let Some(pool) = self.pool.as_ref().filter(|_| items.len() >= LEAST_WORK) {
+            use rayon::prelude::*;
+            return pool.install(|| items.par_iter().map(value).collect());
+        }
+        items.iter().map(value).collect()
+    }
+
     /// The ids that are such, in ascending order.
     pub fn filter<I: Id + Send>(
         &self,

@@ -87,8 +87,11 @@ pub fn band_foot(
         Spread::Whole => end.2 as f64,
     };
     let foot = on_edge(plan, at.half_edge, share);
+    if depth == Depth::Band {
+        return Some(foot);
+    }
     let [band, strip] = at.widths(plan, placement);
-    if depth == Depth::Band || strip >= band {
+    if strip >= band {
         return Some(foot);
     }
     let [from, to] = ends(plan, at.half_edge);

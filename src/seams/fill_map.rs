@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::density::{Facing, MOST_STRETCH, misfit};
+use super::density::{Facing, Lie, MOST_STRETCH, misfit};
 use super::feet::{Lay, Wings, corner_lay, is_broken, kite};
 use super::ground::Ground;
 use super::{Owners, channels_of, place_of};
@@ -49,6 +49,8 @@ pub struct FillMap<'a> {
     sectors: &'a [Sector],
     fill: &'a Fill,
     points: Few<DVec3>,
+    /// `#triangles`: twice their areas.
+    areas: Few<f64>,
     /// `#sectors`: their output vertices.
     vertices: Few<u32>,
 }
@@ -66,8 +68,10 @@ impl<'a> FillMap<'a> {
         let mut points: Few<DVec3> = sectors.iter().map(|&s| placement.point[s]).collect();
         let middles: Few<DVec3> = fill.middles.iter().map(|at| middle(&points, at)).collect();
         points.extend(middles);
+        let area = |triangle: &[usize; 3]| area_vector(triangle.map(|k| points[k])).length();
+        let areas = fill.triangles.iter().map(area).collect();
         let vertices = sectors.iter().map(own).collect();
-        FillMap { plan, placement, sectors, fill, points, vertices }
+        FillMap { plan, placement, sectors, fill, points, areas, vertices }
     }
 
     /// The first way, and the first owner in rank, that fits in all channels that cannot run on; or
@@ -158,9 +162,8 @@ impl<'a> FillMap<'a> {
     fn misfit_on(&self, channel: usize, owner: usize, facing: Facing, uvs: &[DVec2]) -> f64 {
         let corners = [self.first(owner)];
         let ground = Ground::new(self.plan, channel, &corners);
-        let triangles = self.fill.triangles.iter();
-        let triangles = triangles.map(|t| (t.map(|k| self.points[k]), t.map(|k| uvs[k])));
-        misfit(self.plan, self.first(owner), facing, channel, &ground, triangles)
+        let lie = Lie { triangles: &self.fill.triangles, areas: &self.areas, uvs };
+        misfit(self.plan, self.first(owner), facing, channel, &ground, &lie)
     }
 
     /// One seam unfolds the faces around a closed ring; around an open one the border does.
@@ -187,7 +190,7 @@ impl<'a> FillMap<'a> {
         let fan = &plan.sectors.fans[sector];
         let owns = |side: &Corner| {
             let edge: Edge = plan.edges.chamfered_at[*side];
-            edge.is_some() && plan.edges.hard[edge].sides[owners.side[edge]] == *side
+            edge.is_some() && plan.edges.hard[edge].sides[owners.of(edge)] == *side
         };
         let owned = [fan.first, fan.last.prev()].iter().filter(|side| owns(side)).count();
         let at = base(plan, sector);
