@@ -161,7 +161,9 @@ impl Surface<'_> {
         }
         for (places, foot) in fill.middles.iter().zip(&lay.middles) {
             let middle = middles::add(plan, &self.limits.placement, streams, sectors, places);
-            streams.rechart(plan, middle, foot, *channels);
+            if *channels != 0 {
+                streams.rechart(plan, middle, foot, *channels);
+            }
             vertices.push(copies.settle(streams, cluster));
         }
         let at = plan.view.vertex_at(first(0));
