@@ -10,6 +10,7 @@ mod feet;
 mod fill_map;
 mod ground;
 mod owners;
+mod patch;
 mod strip_map;
 
 use glam::DVec2;
@@ -20,9 +21,10 @@ use crate::report::Blend;
 
 use density::uv_point;
 
-pub use fill_map::{FillLay, FillMap};
+pub use fill_map::add_fill;
 pub use owners::{Owners, owners};
-pub use strip_map::{StripLay, strip_lay};
+pub use patch::{Joint, Middle, Parts, Patches, Taken};
+pub use strip_map::add_strip;
 
 /// The UV channels that a mesh has.
 fn channels_of(plan: &Plan) -> impl Iterator<Item = usize> + use<> {

@@ -5,15 +5,15 @@ use glam::{DVec2, DVec3};
 use super::density::{Facing, Lie, MOST_STRETCH, misfit};
 use super::feet::{Depth, Spread, band_foot, corner_lay, inside};
 use super::ground::Ground;
+use super::patch::{Joint, Patches, Taken};
 use super::{Owners, channels_of, place_of};
 use crate::attributes::{Attributes, Streams};
 use crate::edges::HardEdge;
 use crate::ids::{Corner, Edge, Few};
 use crate::math::{area_vector, unit};
-use crate::output::Copies;
 use crate::placement::Placement;
 use crate::plan::Plan;
-use crate::report::Blend;
+use crate::report::{Blend, TriangleKind, TriangleSource};
 use crate::strips::{self, Cut};
 
 /// A way to lay a strip on the texture. Owners are places in the edge's sides.
@@ -119,8 +119,8 @@ impl<'a> StripMap<'a> {
         let normal = unit(areas.sum());
         let lay = corner_lay(self.plan, self.edge.sides[owner], &points, points.len(), normal);
         let mut feet = [None; 4];
-        for (k, foot) in lay.feet {
-            feet[places[k]] = Some(foot);
+        for (k, foot) in lay.feet.into_iter().enumerate() {
+            feet[places[k]] = foot;
         }
         feet
     }
@@ -203,23 +203,16 @@ fn far_places(owner: usize) -> [usize; 2] {
     if owner == 0 { [2, 3] } else { [0, 1] }
 }
 
-/// Where a strip lies on the texture: for its corners b1, a1, a2, b2.
-pub struct StripLay {
-    vertices: [u32; 4],
-    feet: Feet,
-    /// The channels, as bits, that each takes from its foot.
-    channels: [u8; 4],
-}
-
 /// Lays a strip into the owner's chart where its own is another, or folds or ends under the
 /// chamfer.
-pub fn strip_lay(
+pub fn add_strip(
     plan: &Plan,
     placement: &Placement,
     attributes: &Attributes,
     owners: &Owners,
     (edge, cut): (Edge, Cut),
-) -> StripLay {
+    patches: &mut Patches,
+) {
     let (hard, owner) = (&plan.edges.hard[edge], owners.of(edge));
     let map = StripMap::new(plan, placement, attributes, hard, cut);
     let (mut taken, mut channels): (Feet, [u8; 4]) = ([None; 4], [0; 4]);
@@ -235,17 +228,12 @@ pub fn strip_lay(
             channels[place] |= 1 << channel;
         }
     }
-    StripLay { vertices: map.vertices, feet: taken, channels }
-}
-
-impl StripLay {
-    /// The output vertices of the corners.
-    pub fn vertices(&self, plan: &Plan, streams: &mut Streams, copies: &mut Copies) -> [u32; 4] {
-        std::array::from_fn(|place| match &self.feet[place] {
-            Some(foot) => {
-                copies.get(plan, streams, self.vertices[place], foot, self.channels[place])
-            }
-            None => self.vertices[place],
-        })
-    }
+    let corners = strips::corners(hard);
+    let joints = (0..4).map(|k| Joint {
+        corner: corners[k],
+        taken: taken[k].map(|place| Taken { channels: channels[k], place }),
+    });
+    let source = TriangleSource { kind: TriangleKind::Edge, index: edge.0 };
+    let face = hard.sides[owner].triangle();
+    patches.push(source, (face, 0), joints, [], cut.triangles());
 }
