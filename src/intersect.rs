@@ -12,11 +12,13 @@ mod crowds;
 use glam::DVec3;
 use robust::{Coord, Coord3D, orient2d, orient3d};
 
-use crate::bvh::{Aabb, Bvh};
+use crate::bvh::{Aabb, Bounds, Forest};
 
 use crowds::crowds;
 
-type Triangle = [[f32; 3]; 3];
+pub(crate) use crowds::Around;
+
+pub(crate) type Triangle = [[f32; 3]; 3];
 
 /// The pairs of triangles that cut each other, the smaller number first, in ascending order.
 ///
@@ -27,51 +29,30 @@ pub(crate) fn self_intersections(
     triangles: &[[u32; 3]],
     part_of: &[u32],
 ) -> Vec<(u32, u32)> {
-    let mut pairs = Vec::new();
-    let soup = Soup::new(positions, triangles);
-    let may_cut = |a: u32, b: u32| part_of[a as usize] == part_of[b as usize];
-    soup.visit_cuts(|_| false, may_cut, |a, b| pairs.push((a.min(b), a.max(b))));
+    let corners = |t: u32| triangles[t as usize].map(|v| positions[v as usize]);
+    let numbers: Vec<u32> = (0..triangles.len() as u32).collect();
+    let boxes: Vec<Aabb> = numbers.iter().map(|&t| bounds(&corners(t))).collect();
+    let kin = crowds(triangles.len(), corners).unwrap_or_default();
+    let forest = Forest::new(numbers, &[triangles.len() as u32], &boxes);
+    let tree = forest.tree(0);
+    let at = |t: &u32| *t as usize;
+    let boxes = tree.order.iter().map(|t| boxes[at(t)]).collect();
+    let kin = tree.order.iter().filter_map(|t| kin.get(at(t)).copied()).collect();
+    let bounds = Bounds::new(tree, boxes, kin);
+    let mut pairs: Vec<(u32, u32)> = tree
+        .pairs(&bounds)
+        .map(|(a, b)| (tree.order[a], tree.order[b]))
+        .filter(|&(a, b)| part_of[a as usize] == part_of[b as usize])
+        .filter(|&(a, b)| cut_each_other(&corners(a), &corners(b)))
+        .map(|(a, b)| (a.min(b), a.max(b)))
+        .collect();
     pairs.sort_unstable();
     pairs
 }
 
-/// Triangles to be searched, more than once if need be.
-pub(crate) struct Soup<'a> {
-    positions: &'a [[f32; 3]],
-    triangles: &'a [[u32; 3]],
-    tree: Bvh,
-}
-
-impl Soup<'_> {
-    /// `positions` are `#vertices by 3`, finite; `triangles` `#triangles by 3`, in range.
-    pub fn new<'a>(positions: &'a [[f32; 3]], triangles: &'a [[u32; 3]]) -> Soup<'a> {
-        let corners = |t: u32| triangles[t as usize].map(|v| positions[v as usize]);
-        let boxes: Vec<Aabb> = (0..triangles.len() as u32).map(|t| bounds(&corners(t))).collect();
-        let kin = crowds(triangles.len(), corners);
-        Soup { positions, triangles, tree: Bvh::new(&boxes, kin.as_deref()) }
-    }
-
-    /// Calls `found` for each pair that `may_cut` and does, but for those with something to `skip`:
-    /// what that is may grow on the way, so that a search can end early.
-    pub fn visit_cuts(
-        &self,
-        skip: impl Fn(u32) -> bool,
-        may_cut: impl Fn(u32, u32) -> bool,
-        mut found: impl FnMut(u32, u32),
-    ) {
-        let corners = |t: u32| self.triangles[t as usize].map(|v| self.positions[v as usize]);
-        self.tree.visit_overlapping_pairs(&skip, |a, b| {
-            let is_skipped = skip(a) || skip(b);
-            if !is_skipped && may_cut(a, b) && cut_each_other(&corners(a), &corners(b)) {
-                found(a, b);
-            }
-        });
-    }
-}
-
 /// A triangle with two corners at one place cuts nothing, so it meets nothing: otherwise many at
 /// one place would all be compared.
-fn bounds(triangle: &Triangle) -> Aabb {
+pub(crate) fn bounds(triangle: &Triangle) -> Aabb {
     let [a, b, c] = triangle;
     if a == b || b == c || c == a { Aabb::EMPTY } else { Aabb::around(triangle) }
 }
@@ -326,17 +307,9 @@ mod tests {
     }
 
     #[test]
-    fn only_what_may_cut_is_found() {
+    fn only_pairs_in_one_part_are_found() {
         let positions = [FLOOR, [[1.0, 1.0, -1.0], [2.0, 1.0, -1.0], [1.0, 1.0, 1.0]]].concat();
         let triangles = [[0, 1, 2], [3, 4, 5]];
-        let found = |skip: fn(u32) -> bool, may_cut: fn(u32, u32) -> bool| {
-            let mut pairs = Vec::new();
-            Soup::new(&positions, &triangles).visit_cuts(skip, may_cut, |a, b| pairs.push((a, b)));
-            pairs.len()
-        };
-        assert_eq!(found(|_| false, |_, _| true), 1);
-        assert_eq!(found(|triangle| triangle == 0, |_, _| true), 0);
-        assert_eq!(found(|_| false, |_, _| false), 0);
         assert_eq!(self_intersections(&positions, &triangles, &[0, 0]), [(0, 1)]);
         assert!(self_intersections(&positions, &triangles, &[0, 1]).is_empty());
     }
