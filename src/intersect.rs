@@ -7,6 +7,7 @@
 //! (Shewchuk's predicates), in the manner of Guigue and Devillers, *Fast and Robust
 //! Triangle-Triangle Overlap Test Using Orientation Predicates* (2003).
 
+mod apart;
 mod crowds;
 
 use glam::DVec3;
@@ -14,6 +15,7 @@ use robust::{Coord, Coord3D, orient2d, orient3d};
 
 use crate::bvh::{Aabb, Bounds, Forest};
 
+use apart::{are_apart, are_apart_but_for_corner};
 use crowds::crowds;
 
 pub(crate) use crowds::Around;
@@ -59,9 +61,18 @@ pub(crate) fn bounds(triangle: &Triangle) -> Aabb {
 
 /// Whether the insides of two triangles cross. Triangles without area have none.
 pub(crate) fn cut_each_other(a: &Triangle, b: &Triangle) -> bool {
-    if let Some(neighbours) = Neighbours::of(a, b) {
-        return neighbours.lie_on_each_other() && overlap_in_plane(a, b);
+    match Common::of(a, b) {
+        Common::None => !are_apart(a, b) && cross(a, b),
+        Common::Corner([at_a, at_b]) => {
+            let [a, b] = [turned(a, at_a), turned(b, at_b)];
+            !are_apart_but_for_corner(&a, &b) && cross(&a, &b)
+        }
+        Common::Side(neighbours) => neighbours.lie_on_each_other() && overlap_in_plane(a, b),
+        Common::More => cross(a, b),
     }
+}
+
+fn cross(a: &Triangle, b: &Triangle) -> bool {
     let b_sides = b.map(|point| side(a, point));
     if b_sides == [0; 3] {
         return overlap_in_plane(a, b);
@@ -73,6 +84,42 @@ pub(crate) fn cut_each_other(a: &Triangle, b: &Triangle) -> bool {
     straddle(a_sides) && overlap_on_line(*a, a_sides, *b, b_sides)
 }
 
+/// The triangle with another corner first.
+fn turned(triangle: &Triangle, first: usize) -> Triangle {
+    [0, 1, 2].map(|k| triangle[(first + k) % 3])
+}
+
+/// What corners two triangles have in common.
+enum Common {
+    None,
+    /// One: its number in each.
+    Corner([usize; 2]),
+    Side(Neighbours),
+    /// All, or some more than once.
+    More,
+}
+
+impl Common {
+    fn of(a: &Triangle, b: &Triangle) -> Common {
+        let is_same = |i: usize, j: usize| {
+            let ([ax, ay, az], [bx, by, bz]) = (a[i], b[j]);
+            (ax == bx) & (ay == by) & (az == bz)
+        };
+        // Bit `3 i + j` where corner i of one is corner j of the other.
+        let bit = |k: usize| u32::from(is_same(k / 3, k % 3)) << k;
+        let same = (0..9).fold(0, |same, k| same | bit(k));
+        match same.count_ones() {
+            0 => Common::None,
+            1 => {
+                let place = same.trailing_zeros() as usize;
+                Common::Corner([place / 3, place % 3])
+            }
+            2 => Neighbours::of(a, b, same).map_or(Common::More, Common::Side),
+            _ => Common::More,
+        }
+    }
+}
+
 /// Two triangles with a side in common: most pairs that meet are such, and they have nothing else
 /// in common unless one is folded flat onto the other.
 struct Neighbours {
@@ -82,15 +129,16 @@ struct Neighbours {
 }
 
 impl Neighbours {
-    fn of(a: &Triangle, b: &Triangle) -> Option<Neighbours> {
-        let other = |triangle: &Triangle, than: &Triangle| {
-            let mut lone = triangle.iter().filter(|point| !than.contains(point));
-            lone.next().copied().filter(|_| lone.next().is_none())
+    /// From two bits of which corners are the same; none if one triangle has two corners there.
+    fn of(a: &Triangle, b: &Triangle, same: u32) -> Option<Neighbours> {
+        let (rows, columns) = ([7, 7 << 3, 7 << 6], [0b1001001, 0b1001001 << 1, 0b1001001 << 2]);
+        let lone = |lines: [u32; 3]| {
+            let mut lone = (0..3).filter(|&k| same & lines[k] == 0);
+            lone.next().filter(|_| lone.next().is_none())
         };
-        let apexes = [other(a, b)?, other(b, a)?];
-        let place = a.iter().position(|point| *point == apexes[0])?;
-        let side = [a[(place + 1) % 3], a[(place + 2) % 3]];
-        (side[0] != side[1]).then_some(Neighbours { side, apexes })
+        let [at_a, at_b] = [lone(rows)?, lone(columns)?];
+        let side = [a[(at_a + 1) % 3], a[(at_a + 2) % 3]];
+        Some(Neighbours { side, apexes: [a[at_a], b[at_b]] })
     }
 
     fn lie_on_each_other(&self) -> bool {
