@@ -167,6 +167,32 @@ impl Streams {
         self.sources.relocate(from, to);
     }
 
+    /// Whether a vertex equals, in every stream, a copy of another one with what that takes from
+    /// another chart.
+    pub fn is_copy(&self, plan: &Plan, one: u32, vertex: u32, taken: &Taken) -> bool {
+        let (a, b) = (one as usize, vertex as usize);
+        let v = &self.vertices;
+        let takes = |channel: usize| taken.channels >> channel & 1 == 1;
+        let tangent_at = |b: usize| match takes(0) {
+            true => tangent(plan, &taken.place, wide(v.normals[b])),
+            false => v.tangents[b],
+        };
+        let is_uv = |channel: usize, k: usize| {
+            let (values, components) = (&v.uvs[channel].values, v.uvs[channel].components as usize);
+            let other = match takes(channel) {
+                true => blended_uv(plan, &taken.place, channel, k),
+                false => values[b * components + k],
+            };
+            values[a * components + k] == other
+        };
+        v.positions[a] == v.positions[b]
+            && v.normals[a] == v.normals[b]
+            && (v.colors.is_empty() || v.colors[a] == v.colors[b])
+            && (0..self.uv_end)
+                .all(|channel| (0..v.uvs[channel].components as usize).all(|k| is_uv(channel, k)))
+            && (v.tangents.is_empty() || v.tangents[a] == tangent_at(b))
+    }
+
     /// Whether two output vertices are equal in every stream.
     pub fn are_equal(&self, one: u32, other: u32) -> bool {
         let (a, b) = (one as usize, other as usize);
@@ -229,12 +255,10 @@ impl Streams {
     }
 
     fn set_uv(&mut self, plan: &Plan, place: usize, chart: &Blend, channel: usize) {
-        let source = &plan.view.mesh.uvs[channel];
-        let components = source.components as usize;
-        let target = &mut self.vertices.uvs[channel].values;
+        let uv = &mut self.vertices.uvs[channel];
+        let components = uv.components as usize;
         for k in 0..components {
-            let at = |vertex: u32| source.values[vertex as usize * components + k];
-            target[place * components + k] = blend_value(chart, chart.vertices.map(at));
+            uv.values[place * components + k] = blended_uv(plan, chart, channel, k);
         }
     }
 
@@ -253,6 +277,13 @@ fn copied<T: Copy>(values: &[T], room: usize) -> Vec<T> {
     let mut copy = Vec::with_capacity(values.len() + room);
     copy.extend_from_slice(values);
     copy
+}
+
+/// One component of a UV channel at a place.
+fn blended_uv(plan: &Plan, chart: &Blend, channel: usize, component: usize) -> f32 {
+    let uv = &plan.view.mesh.uvs[channel];
+    let at = |vertex: u32| uv.values[vertex as usize * uv.components as usize + component];
+    blend_value(chart, chart.vertices.map(at))
 }
 
 /// Equal values stay equal to the bit, whatever the weights.

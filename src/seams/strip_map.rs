@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::density::{Facing, Lie, MOST_STRETCH, misfit};
-use super::feet::{Depth, Spread, band_foot, corner_lay, inside};
+use super::feet::{Depth, End, Spread, band_foot, corner_lay, inside};
 use super::ground::Ground;
 use super::patch::{Joint, Patches, Taken};
 use super::{Owners, channels_of, place_of};
@@ -54,12 +54,9 @@ type Feet = [Option<Blend>; 4];
 /// A strip, and what is around it.
 pub struct StripMap<'a> {
     plan: &'a Plan<'a>,
-    placement: &'a Placement,
     edge: &'a HardEdge,
     points: [DVec3; 4],
     cut: Cut,
-    /// Twice the areas of the strip's triangles.
-    areas: [f64; 2],
     /// The strip's own vertices: b1, a1, a2, b2.
     vertices: [u32; 4],
     /// The corners at the edge's ends, on either side.
@@ -69,7 +66,7 @@ pub struct StripMap<'a> {
 impl<'a> StripMap<'a> {
     pub fn new(
         plan: &'a Plan,
-        placement: &'a Placement,
+        placement: &Placement,
         attributes: &Attributes,
         edge: &'a HardEdge,
         cut: Cut,
@@ -78,11 +75,7 @@ impl<'a> StripMap<'a> {
         let points = corners.map(|corner| placement.position_at(plan, corner));
         let vertices = corners.map(|corner| attributes.vertex_at[corner]);
         let ends = edge.sides.map(|side| [side, side.next()]);
-        let mut areas = [0.0; 2];
-        for (area, triangle) in areas.iter_mut().zip(cut.triangles()) {
-            *area = area_vector(triangle.map(|k| points[k])).length();
-        }
-        StripMap { plan, placement, edge, points, cut, areas, vertices, ends }
+        StripMap { plan, edge, points, cut, vertices, ends }
     }
 
     fn feet(&self, way: Way) -> Feet {
@@ -90,26 +83,46 @@ impl<'a> StripMap<'a> {
         match way {
             Way::Own => {}
             Way::Band(owner, spread, depth) => {
-                for (end, place) in far_places(owner).into_iter().enumerate() {
-                    let at = (self.edge, owner, end);
-                    feet[place] = band_foot(self.plan, self.placement, at, spread, depth);
+                for (end, [_, far]) in self.strip_ends(owner).into_iter().zip(places(owner)) {
+                    feet[far] = band_foot(self.plan, &end, spread, depth);
                 }
             }
             Way::Flat(owner) => feet = self.flat(owner),
             Way::Inside(owner) => {
-                for (end, place) in far_places(owner).into_iter().enumerate() {
-                    let [near, far] = inside(self.plan, self.placement, (self.edge, owner, end));
-                    feet[place] = Some(far);
-                    feet[far_places(1 - owner)[1 - end]] = Some(near);
+                for (end, ends) in self.strip_ends(owner).into_iter().zip(places(owner)) {
+                    for (place, foot) in ends.into_iter().zip(inside(self.plan, &end)) {
+                        feet[place] = Some(foot);
+                    }
                 }
             }
         }
-        std::array::from_fn(|place| feet[place].filter(|_| self.is_used(place)))
+        for place in (0..4).filter(|&place| !self.is_used(place)) {
+            feet[place] = None;
+        }
+        feet
+    }
+
+    /// The strip at the start and at the end of the owner's half-edge.
+    fn strip_ends(&self, owner: usize) -> [End; 2] {
+        let half_edge = self.edge.sides[owner];
+        let end = |(place, [near, far]): (f64, [usize; 2])| End {
+            half_edge,
+            place,
+            near: self.points[near],
+            far: self.points[far],
+        };
+        let [start, stop] = places(owner);
+        [(0.0, start), (1.0, stop)].map(end)
     }
 
     /// Whether some triangle has the corner.
     fn is_used(&self, place: usize) -> bool {
-        self.cut.triangles().iter().any(|triangle| triangle.contains(&place))
+        match self.cut {
+            Cut::Closed => false,
+            Cut::OpenAtB => place != 2,
+            Cut::OpenAtA => place != 3,
+            Cut::FromB1 | Cut::FromA1 => true,
+        }
     }
 
     fn flat(&self, owner: usize) -> Feet {
@@ -145,7 +158,7 @@ impl<'a> StripMap<'a> {
 
     fn misfit_on(&self, owner: usize, channel: usize, uvs: [DVec2; 4]) -> f64 {
         let ground = Ground::new(self.plan, channel, &self.ends[owner]);
-        let lie = Lie { triangles: self.cut.triangles(), areas: &self.areas, uvs: &uvs };
+        let lie = Lie { triangles: self.cut.triangles(), points: &self.points, uvs: &uvs };
         misfit(self.plan, self.edge.sides[owner], Facing::AsFace, channel, &ground, &lie)
     }
 
@@ -198,9 +211,10 @@ impl<'a> StripMap<'a> {
     }
 }
 
-/// The places of the far side's corners, at the start and at the end of the owner's half-edge.
-fn far_places(owner: usize) -> [usize; 2] {
-    if owner == 0 { [2, 3] } else { [0, 1] }
+/// The places of the owner's corner and of the far one, at the start and at the end of its
+/// half-edge.
+fn places(owner: usize) -> [[usize; 2]; 2] {
+    if owner == 0 { [[1, 2], [0, 3]] } else { [[3, 0], [2, 1]] }
 }
 
 /// Lays a strip into the owner's chart where its own is another, or folds or ends under the
