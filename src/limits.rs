@@ -239,7 +239,7 @@ fn is_valid(plan: &Plan, placement: &Placement, element: Element) -> bool {
     match element {
         Element::Surface(triangle) => surface_is_valid(plan, placement, triangle),
         Element::Strip(edge) => strip_is_valid(plan, placement, edge),
-        Element::Fill(ring) => fill(plan, placement, ring).is_some(),
+        Element::Fill(ring) => fill_is_valid(plan, placement, ring),
     }
 }
 
@@ -276,6 +276,18 @@ fn strip_is_valid(plan: &Plan, placement: &Placement, edge: Edge) -> bool {
     let quad = strips::quad(plan, placement, edge);
     let [from, to] = [edge.sides[0], edge.sides[0].next()].map(|c| plan.view.position_at(c));
     strips::is_valid(&quad, strips::cut(&quad), unit(to - from), plan.view.resolution)
+}
+
+fn fill_is_valid(plan: &Plan, placement: &Placement, ring: Ring) -> bool {
+    match *plan.sectors.ring(ring) {
+        [a, b, c] => {
+            let sectors = [a, b, c];
+            let points = sectors.map(|sector| placement.point[sector]);
+            let normals = sectors.map(|sector| placement.normals[sector][0]);
+            corners::can_fill(points, normals, plan.view.resolution)
+        }
+        _ => fill(plan, placement, ring).is_some(),
+    }
 }
 
 /// The fill of a ring where its sectors stand now; none if every way to fill it folds.
