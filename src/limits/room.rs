@@ -10,7 +10,7 @@ use std::collections::BinaryHeap;
 
 use glam::DVec3;
 
-use crate::ids::{IdVec, Sector, Triangle};
+use crate::ids::{Corner, Few, IdVec, Sector, Triangle};
 use crate::math::area_vector;
 use crate::plan::Plan;
 
@@ -152,9 +152,14 @@ impl Filling<'_> {
             self.share[sectors[k]] = event.share;
         }
         for k in (0..3).filter(|&k| pressing[k]) {
-            for corner in self.plan.sectors.corners(&self.plan.topology, sectors[k]) {
-                self.later.extend(self.event(corner.triangle(), event.share));
-            }
+            let is_seen = |triangle: Triangle| {
+                let around = self.sectors(triangle);
+                (0..k).any(|seen| pressing[seen] && around.contains(&sectors[seen]))
+            };
+            let corners = self.plan.sectors.corners(&self.plan.topology, sectors[k]);
+            let triangles = corners.map(Corner::triangle).filter(|&triangle| !is_seen(triangle));
+            let events = triangles.filter_map(|triangle| self.event(triangle, event.share));
+            self.later.extend(events.collect::<Few<Event>>());
         }
     }
 }
