@@ -9,11 +9,11 @@ use super::density::uv_point;
 use crate::edges::seam_between;
 
 /// A chamfer that lies past the end of its chart by less than this share of its own length shows
-/// nothing else: textures have a margin there, and UVs are rounded.
-const MARGIN: f64 = 1e-3;
+/// nothing else: that is less than a texel.
+const MARGIN: f64 = 1e-4;
 
-/// Rounding of UVs, as a share of their size.
-const ROUNDING: f64 = 1e-6;
+/// Rounding of UVs to single precision, as a share of their size.
+const ROUNDING: f64 = 1e-7;
 
 /// Where a new triangle is looked at: its corners, the middles of its sides, and between them.
 const SAMPLES: [[f64; 3]; 7] = [
