@@ -261,8 +261,9 @@ typedef struct chamfer_totals {
     /// The width asked for, in mesh units.
     float width;
     /// Mean width of the hard edges, as a share (0 to 1) of the width asked for, weighted by edge
-    /// length; 0 without hard edges. Skipped edges have none; ends at which a chamfer tapers to a
-    /// point, because its edge ends there, do not count.
+    /// length; 0 without hard edges. Skipped edges have none; ends at which both sides stay put
+    /// at any width do not count: where the edge runs out in a smooth area, at a T-junction, or
+    /// where several creases hold the vertex.
     float mean_width;
     /// The skipped edges by reason; places past the last reason are 0.
     uint32_t skipped_by_reason[CHAMFER_REASON_SLOTS];

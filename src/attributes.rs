@@ -13,7 +13,7 @@ use crate::plan::Plan;
 use crate::report::{Blend, VertexSource};
 use crate::resample::{chart_foot, same_chart, surface_foot};
 
-pub use streams::Streams;
+pub use streams::{Channels, Streams};
 
 /// The vertices of the result, as far as source triangles use them.
 pub struct Attributes {

@@ -1,7 +1,8 @@
-//! A tree of boxes over boxes (bounding-volume hierarchy), in one flat array.
+//! Trees of boxes over boxes (bounding-volume hierarchies), in flat arrays.
 //!
 //! Each node halves its boxes at the median of their middles along the longest axis. The build is
-//! the same on every run: equal middles are told apart by number.
+//! the same on every run: equal middles are told apart by number. A tree and what its boxes are
+//! right now are two things, so that boxes can change without a tree being built anew.
 
 /// How many boxes a leaf holds: testing so few one by one costs less than another node.
 const LEAF_SIZE: usize = 4;
@@ -18,19 +19,26 @@ impl Aabb {
     pub const EMPTY: Aabb = Aabb { low: [f32::INFINITY; 3], high: [f32::NEG_INFINITY; 3] };
 
     /// The box around some points.
+    #[inline]
     pub fn around(points: &[[f32; 3]]) -> Aabb {
         points.iter().fold(Aabb::EMPTY, |sum, &point| sum.union(Aabb { low: point, high: point }))
     }
 
-    fn union(self, other: Aabb) -> Aabb {
+    #[inline]
+    pub fn union(self, other: Aabb) -> Aabb {
+        // All numbers are finite: a plain comparison is one instruction, `min` is several.
+        let least = |a: f32, b: f32| if a < b { a } else { b };
+        let most = |a: f32, b: f32| if a > b { a } else { b };
         Aabb {
-            low: [0, 1, 2].map(|axis| self.low[axis].min(other.low[axis])),
-            high: [0, 1, 2].map(|axis| self.high[axis].max(other.high[axis])),
+            low: [0, 1, 2].map(|axis| least(self.low[axis], other.low[axis])),
+            high: [0, 1, 2].map(|axis| most(self.high[axis], other.high[axis])),
         }
     }
 
-    fn overlaps(&self, other: &Aabb) -> bool {
-        (0..3).all(|axis| self.low[axis] <= other.high[axis] && other.low[axis] <= self.high[axis])
+    #[inline]
+    pub fn overlaps(&self, other: &Aabb) -> bool {
+        let along = |k: usize| (self.low[k] <= other.high[k]) & (other.low[k] <= self.high[k]);
+        along(0) & along(1) & along(2)
     }
 
     /// Halved first, so that it cannot overflow.
@@ -68,139 +76,225 @@ impl Kin {
     }
 }
 
+#[derive(Clone, Copy)]
 struct Node {
-    bounds: Aabb,
     /// The node after this one and all below it.
     next: u32,
-    /// The first of its boxes in the order of the tree.
+    /// The first of its places in the order of the tree.
     first: u32,
-    /// How many boxes it has itself: none but in a leaf.
+    /// How many places it has itself: none but in a leaf.
     count: u32,
 }
 
-/// The tree over a slice of boxes.
-pub(crate) struct Bvh {
-    /// Depth first: the children of a node follow it.
+/// Trees over groups of boxes, one after the other.
+pub(crate) struct Forest {
     nodes: Vec<Node>,
-    /// `#boxes`: their numbers, leaf by leaf.
+    /// `#places`: the numbers of the boxes, tree by tree and leaf by leaf.
     order: Vec<u32>,
-    /// `#boxes`: the boxes themselves, in the same order.
-    boxes: Vec<Aabb>,
-    /// Their kin, and that of the nodes; none where there is no crowd.
-    crowds: Option<Crowds>,
+    /// `#trees + 1`: where the nodes and the places of each begin.
+    starts: Vec<[u32; 2]>,
 }
 
-struct Crowds {
-    /// `#boxes`, in the order of the tree.
-    of_box: Vec<Kin>,
+impl Forest {
+    /// A tree over each group. `order` has the numbers of the boxes, group by group; `ends:
+    /// #groups` tells where each group ends there.
+    pub fn new(mut order: Vec<u32>, ends: &[u32], boxes: &[Aabb]) -> Forest {
+        let mut nodes = Vec::with_capacity(order.len());
+        let mut starts = vec![[0; 2]];
+        let mut from = 0;
+        for &end in ends {
+            let root = nodes.len();
+            if from < end {
+                build(&mut nodes, root, &mut order[from as usize..end as usize], 0, boxes);
+            }
+            starts.push([nodes.len() as u32, end]);
+            from = end;
+        }
+        Forest { nodes, order, starts }
+    }
+
+    pub fn len(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    pub fn tree(&self, number: usize) -> Tree<'_> {
+        let [from, to] = [self.starts[number], self.starts[number + 1]];
+        let [nodes, order] = [0, 1].map(|k| from[k] as usize..to[k] as usize);
+        Tree { nodes: &self.nodes[nodes], order: &self.order[order] }
+    }
+}
+
+/// One tree: its places and nodes count from 0.
+#[derive(Clone, Copy)]
+pub(crate) struct Tree<'a> {
+    /// Depth first: the children of a node follow it.
+    nodes: &'a [Node],
+    /// `#places`: the number of the box at each.
+    pub order: &'a [u32],
+}
+
+/// What the boxes of a tree are right now.
+#[derive(Default)]
+pub(crate) struct Bounds {
+    /// `#places`.
+    pub boxes: Vec<Aabb>,
+    /// `#places`: where each lies as seen from what it has in common with others; empty where
+    /// there is no crowd.
+    pub kin: Vec<Kin>,
     /// `#nodes`: of all that is below.
-    of_node: Vec<Kin>,
+    node_boxes: Vec<Aabb>,
+    node_kin: Vec<Kin>,
 }
 
-impl Bvh {
-    /// Builds the tree over `boxes`, with the kin of each (`#boxes`) if there are crowds.
-    pub fn new(boxes: &[Aabb], kin: Option<&[Kin]>) -> Bvh {
-        let mut order: Vec<u32> = (0..boxes.len() as u32).collect();
-        let mut nodes = Vec::with_capacity(boxes.len());
-        if !boxes.is_empty() {
-            build(&mut nodes, &mut order, 0, boxes);
-        }
-        let boxes = order.iter().map(|&number| boxes[number as usize]).collect();
-        let crowds = kin.map(|kin| Crowds::new(&nodes, &order, kin));
-        Bvh { nodes, order, boxes, crowds }
+impl Bounds {
+    /// Fits a tree to the boxes at its places, and to their kin if there are crowds.
+    pub fn new(tree: Tree, boxes: Vec<Aabb>, kin: Vec<Kin>) -> Bounds {
+        let mut bounds = Bounds { boxes, kin, ..Bounds::default() };
+        tree.fit(&mut bounds);
+        bounds
     }
 
-    /// Calls `visit` once for each two boxes that have at least a point in common and are not told
-    /// apart by their kin. Where `skip` holds for all boxes of a leaf by the time that it is its
-    /// turn, pairs with what comes behind are left out.
-    pub fn visit_overlapping_pairs(
-        &self,
-        skip: impl Fn(u32) -> bool,
-        mut visit: impl FnMut(u32, u32),
-    ) {
-        for (place, leaf) in self.nodes.iter().enumerate().filter(|(_, node)| node.count > 0) {
-            if leaf.places().all(|place| skip(self.order[place])) {
-                continue;
-            }
-            let mut visit_places = |a: usize, b: usize| {
-                let of_box = |crowds: &Crowds| crowds.of_box[a].is_apart(&crowds.of_box[b]);
-                if self.boxes[a].overlaps(&self.boxes[b])
-                    && !self.crowds.as_ref().is_some_and(of_box)
-                {
-                    visit(self.order[a], self.order[b]);
-                }
-            };
-            for a in leaf.places() {
-                (a + 1..leaf.places().end).for_each(|b| visit_places(a, b));
-            }
-            // Only leaves behind this one: those before have met it already.
-            self.visit_leaves_behind(place, |other| {
-                for a in leaf.places() {
-                    other.places().for_each(|b| visit_places(a, b));
-                }
-            });
-        }
+    /// Whether two boxes have no point in common, or are told apart by their kin.
+    #[inline]
+    pub fn are_apart(&self, a: usize, b: usize) -> bool {
+        !self.boxes[a].overlaps(&self.boxes[b])
+            || (!self.kin.is_empty() && self.kin[a].is_apart(&self.kin[b]))
     }
 
-    /// Calls `visit` for each leaf behind `leaf`, in the order of the tree, that overlaps it.
-    fn visit_leaves_behind(&self, leaf: usize, mut visit: impl FnMut(&Node)) {
-        let bounds = &self.nodes[leaf].bounds;
-        let mut place = self.nodes[leaf].next as usize;
-        while let Some(node) = self.nodes.get(place) {
-            let of_node = |crowds: &Crowds| crowds.of_node[leaf].is_apart(&crowds.of_node[place]);
-            let overlaps =
-                node.bounds.overlaps(bounds) && !self.crowds.as_ref().is_some_and(of_node);
-            if overlaps && node.count > 0 {
-                visit(node);
-            }
-            place = if overlaps { place + 1 } else { node.next as usize };
-        }
+    #[inline]
+    fn nodes_are_apart(&self, a: usize, b: usize) -> bool {
+        !self.node_boxes[a].overlaps(&self.node_boxes[b])
+            || (!self.node_kin.is_empty() && self.node_kin[a].is_apart(&self.node_kin[b]))
     }
 }
 
-impl Crowds {
-    fn new(nodes: &[Node], order: &[u32], kin: &[Kin]) -> Crowds {
-        let of_box: Vec<Kin> = order.iter().map(|&number| kin[number as usize]).collect();
-        let mut of_node = vec![Kin::NONE; nodes.len()];
+impl Tree<'_> {
+    /// Fits all nodes to the boxes and the kin at the places.
+    pub fn fit(self, bounds: &mut Bounds) {
+        bounds.node_boxes.clear();
+        bounds.node_boxes.resize(self.nodes.len(), Aabb::EMPTY);
+        bounds.node_kin.clear();
+        if !bounds.kin.is_empty() {
+            bounds.node_kin.resize(self.nodes.len(), Kin::NONE);
+        }
         // Children follow their node, so from behind they are known first.
-        for (place, node) in nodes.iter().enumerate().rev() {
-            of_node[place] = if node.count > 0 {
-                let own = &of_box[node.places()];
-                own[1..].iter().fold(own[0], |all, &kin| all.union(kin))
-            } else {
-                let first = place + 1;
-                of_node[first].union(of_node[nodes[first].next as usize])
-            };
+        for node in (0..self.nodes.len()).rev() {
+            self.fit_node(bounds, node);
         }
-        Crowds { of_box, of_node }
+    }
+
+    /// As [`Tree::fit`], where only some places changed; in ascending order.
+    pub fn refit(self, bounds: &mut Bounds, changed: &[u32]) {
+        if !changed.is_empty() {
+            self.refit_below(bounds, 0, changed);
+        }
+    }
+
+    fn refit_below(self, bounds: &mut Bounds, node: usize, changed: &[u32]) {
+        if self.nodes[node].count == 0 {
+            let [low, high] = self.children(node);
+            let (below, above) =
+                changed.split_at(changed.partition_point(|&place| place < self.nodes[high].first));
+            for (child, changed) in [(low, below), (high, above)] {
+                if !changed.is_empty() {
+                    self.refit_below(bounds, child, changed);
+                }
+            }
+        }
+        self.fit_node(bounds, node);
+    }
+
+    fn children(self, node: usize) -> [usize; 2] {
+        [node + 1, self.nodes[node + 1].next as usize]
+    }
+
+    /// Fits a node to what is directly below it.
+    fn fit_node(self, bounds: &mut Bounds, node: usize) {
+        let Bounds { boxes, kin, node_boxes, node_kin } = bounds;
+        if self.nodes[node].count > 0 {
+            let own = self.places(node);
+            node_boxes[node] =
+                boxes[own.clone()].iter().fold(Aabb::EMPTY, |all, &each| all.union(each));
+            if let Some((first, others)) = kin.get(own).and_then(<[Kin]>::split_first) {
+                node_kin[node] = others.iter().fold(*first, |all, &each| all.union(each));
+            }
+        } else {
+            let [low, high] = self.children(node);
+            node_boxes[node] = node_boxes[low].union(node_boxes[high]);
+            if !node_kin.is_empty() {
+                node_kin[node] = node_kin[low].union(node_kin[high]);
+            }
+        }
+    }
+
+    /// The numbers of the leaves.
+    pub fn leaves(self) -> impl Iterator<Item = usize> {
+        (0..self.nodes.len()).filter(move |&node| self.nodes[node].count > 0)
+    }
+
+    /// The places of a leaf.
+    pub fn places(self, leaf: usize) -> std::ops::Range<usize> {
+        let Node { first, count, .. } = self.nodes[leaf];
+        first as usize..(first + count) as usize
+    }
+
+    /// The leaves from a node on that may meet a leaf, in the order of the tree.
+    pub fn leaves_near(
+        self,
+        bounds: &Bounds,
+        leaf: usize,
+        from: usize,
+    ) -> impl Iterator<Item = usize> {
+        let mut node = from;
+        std::iter::from_fn(move || {
+            while node < self.nodes.len() {
+                let met = node;
+                let is_apart = bounds.nodes_are_apart(leaf, met);
+                node = if is_apart { self.nodes[met].next as usize } else { met + 1 };
+                if !is_apart && self.nodes[met].count > 0 {
+                    return Some(met);
+                }
+            }
+            None
+        })
+    }
+
+    /// The pairs of places that are not apart, each once.
+    pub fn pairs(self, bounds: &Bounds) -> impl Iterator<Item = (usize, usize)> {
+        self.leaves()
+            .flat_map(move |leaf| {
+                // Only leaves from this one on: those before have met it already.
+                self.leaves_near(bounds, leaf, leaf).flat_map(move |other| {
+                    let pair = move |a| {
+                        let from = if other == leaf { a + 1 } else { self.places(other).start };
+                        (from..self.places(other).end).map(move |b| (a, b))
+                    };
+                    self.places(leaf).flat_map(pair)
+                })
+            })
+            .filter(|&(a, b)| !bounds.are_apart(a, b))
     }
 }
 
-impl Node {
-    /// Where its boxes stand in the order of the tree.
-    fn places(&self) -> std::ops::Range<usize> {
-        self.first as usize..(self.first + self.count) as usize
-    }
-}
-
-/// Appends the node over `order`, which stands at `first` in the whole, and all below it.
-fn build(nodes: &mut Vec<Node>, order: &mut [u32], first: usize, boxes: &[Aabb]) {
-    let bounds = order.iter().fold(Aabb::EMPTY, |sum, &number| sum.union(boxes[number as usize]));
+/// Appends the node over `order`, which stands at `first` in its tree, and all below it.
+fn build(nodes: &mut Vec<Node>, root: usize, order: &mut [u32], first: usize, boxes: &[Aabb]) {
     let place = nodes.len();
     let is_leaf = order.len() <= LEAF_SIZE;
     let count = if is_leaf { order.len() as u32 } else { 0 };
-    nodes.push(Node { bounds, next: 0, first: first as u32, count });
+    nodes.push(Node { next: 0, first: first as u32, count });
     if !is_leaf {
         let half = order.len() / 2;
+        let bounds =
+            order.iter().fold(Aabb::EMPTY, |sum, &number| sum.union(boxes[number as usize]));
         let axis = longest_axis(&bounds);
         let middle = |number: u32| boxes[number as usize].middle(axis);
         order
             .select_nth_unstable_by(half, |&a, &b| middle(a).total_cmp(&middle(b)).then(a.cmp(&b)));
         let (low, high) = order.split_at_mut(half);
-        build(nodes, low, first, boxes);
-        build(nodes, high, first + half, boxes);
+        build(nodes, root, low, first, boxes);
+        build(nodes, root, high, first + half, boxes);
     }
-    nodes[place].next = nodes.len() as u32;
+    nodes[place].next = (nodes.len() - root) as u32;
 }
 
 fn longest_axis(bounds: &Aabb) -> usize {
@@ -213,21 +307,29 @@ mod tests {
     use super::*;
 
     fn pairs(boxes: &[Aabb]) -> Vec<(u32, u32)> {
-        let mut pairs = Vec::new();
-        Bvh::new(boxes, None)
-            .visit_overlapping_pairs(|_| false, |a, b| pairs.push((a.min(b), a.max(b))));
+        let numbers: Vec<u32> = (0..boxes.len() as u32).collect();
+        let forest = Forest::new(numbers, &[boxes.len() as u32], boxes);
+        let tree = forest.tree(0);
+        let boxes = tree.order.iter().map(|&number| boxes[number as usize]).collect();
+        let bounds = Bounds::new(tree, boxes, Vec::new());
+        let named = |(a, b): (usize, usize)| (tree.order[a], tree.order[b]);
+        let mut pairs: Vec<(u32, u32)> =
+            tree.pairs(&bounds).map(named).map(|(a, b)| (a.min(b), a.max(b))).collect();
         pairs.sort_unstable();
         pairs
     }
 
+    fn scattered(size: f32) -> Vec<Aabb> {
+        let each = |step| {
+            let [x, y, z] = [37, 53, 71].map(|stride| (step * stride % 97) as f32);
+            Aabb::around(&[[x, y, z], [x + size, y + 1.5 * size, z + size / 2.0]])
+        };
+        (0..200).map(each).collect()
+    }
+
     #[test]
     fn finds_each_overlapping_pair_once() {
-        let boxes: Vec<Aabb> = (0..200)
-            .map(|step| {
-                let [x, y, z] = [37, 53, 71].map(|stride| (step * stride % 97) as f32);
-                Aabb::around(&[[x, y, z], [x + 20.0, y + 30.0, z + 10.0]])
-            })
-            .collect();
+        let boxes = scattered(20.0);
         let expected: Vec<(u32, u32)> = (0..200u32)
             .flat_map(|a| (a + 1..200).map(move |b| (a, b)))
             .filter(|&(a, b)| boxes[a as usize].overlaps(&boxes[b as usize]))
@@ -248,5 +350,22 @@ mod tests {
         let point = Aabb::around(&[[0.0; 3]]);
         assert_eq!(pairs(&[point; 30]).len(), 30 * 29 / 2);
         assert_eq!(pairs(&[]), []);
+    }
+
+    #[test]
+    fn refitted_nodes_are_those_of_a_new_fit() {
+        let (small, large) = (scattered(5.0), scattered(30.0));
+        let forest = Forest::new((0..200).collect(), &[80, 200], &small);
+        let tree = forest.tree(1);
+        let boxes = tree.order.iter().map(|&number| small[number as usize]).collect();
+        let mut bounds = Bounds::new(tree, boxes, Vec::new());
+        let changed = [3, 50, 51, 119];
+        for place in changed {
+            bounds.boxes[place as usize] = large[tree.order[place as usize] as usize];
+        }
+        tree.refit(&mut bounds, &changed);
+        let refitted = bounds.node_boxes.clone();
+        tree.fit(&mut bounds);
+        assert_eq!(refitted, bounds.node_boxes);
     }
 }

@@ -7,16 +7,20 @@
 //! (Shewchuk's predicates), in the manner of Guigue and Devillers, *Fast and Robust
 //! Triangle-Triangle Overlap Test Using Orientation Predicates* (2003).
 
+mod apart;
 mod crowds;
 
 use glam::DVec3;
 use robust::{Coord, Coord3D, orient2d, orient3d};
 
-use crate::bvh::{Aabb, Bvh};
+use crate::bvh::{Aabb, Bounds, Forest};
 
+use apart::{are_apart, are_apart_but_for_corner};
 use crowds::crowds;
 
-type Triangle = [[f32; 3]; 3];
+pub(crate) use crowds::Around;
+
+pub(crate) type Triangle = [[f32; 3]; 3];
 
 /// The pairs of triangles that cut each other, the smaller number first, in ascending order.
 ///
@@ -27,60 +31,48 @@ pub(crate) fn self_intersections(
     triangles: &[[u32; 3]],
     part_of: &[u32],
 ) -> Vec<(u32, u32)> {
-    let mut pairs = Vec::new();
-    let soup = Soup::new(positions, triangles);
-    let may_cut = |a: u32, b: u32| part_of[a as usize] == part_of[b as usize];
-    soup.visit_cuts(|_| false, may_cut, |a, b| pairs.push((a.min(b), a.max(b))));
+    let corners = |t: u32| triangles[t as usize].map(|v| positions[v as usize]);
+    let numbers: Vec<u32> = (0..triangles.len() as u32).collect();
+    let boxes: Vec<Aabb> = numbers.iter().map(|&t| bounds(&corners(t))).collect();
+    let kin = crowds(triangles.len(), corners).unwrap_or_default();
+    let forest = Forest::new(numbers, &[triangles.len() as u32], &boxes);
+    let tree = forest.tree(0);
+    let at = |t: &u32| *t as usize;
+    let boxes = tree.order.iter().map(|t| boxes[at(t)]).collect();
+    let kin = tree.order.iter().filter_map(|t| kin.get(at(t)).copied()).collect();
+    let bounds = Bounds::new(tree, boxes, kin);
+    let mut pairs: Vec<(u32, u32)> = tree
+        .pairs(&bounds)
+        .map(|(a, b)| (tree.order[a], tree.order[b]))
+        .filter(|&(a, b)| part_of[a as usize] == part_of[b as usize])
+        .filter(|&(a, b)| cut_each_other(&corners(a), &corners(b)))
+        .map(|(a, b)| (a.min(b), a.max(b)))
+        .collect();
     pairs.sort_unstable();
     pairs
 }
 
-/// Triangles to be searched, more than once if need be.
-pub(crate) struct Soup<'a> {
-    positions: &'a [[f32; 3]],
-    triangles: &'a [[u32; 3]],
-    tree: Bvh,
-}
-
-impl Soup<'_> {
-    /// `positions` are `#vertices by 3`, finite; `triangles` `#triangles by 3`, in range.
-    pub fn new<'a>(positions: &'a [[f32; 3]], triangles: &'a [[u32; 3]]) -> Soup<'a> {
-        let corners = |t: u32| triangles[t as usize].map(|v| positions[v as usize]);
-        let boxes: Vec<Aabb> = (0..triangles.len() as u32).map(|t| bounds(&corners(t))).collect();
-        let kin = crowds(triangles.len(), corners);
-        Soup { positions, triangles, tree: Bvh::new(&boxes, kin.as_deref()) }
-    }
-
-    /// Calls `found` for each pair that `may_cut` and does, but for those with something to `skip`:
-    /// what that is may grow on the way, so that a search can end early.
-    pub fn visit_cuts(
-        &self,
-        skip: impl Fn(u32) -> bool,
-        may_cut: impl Fn(u32, u32) -> bool,
-        mut found: impl FnMut(u32, u32),
-    ) {
-        let corners = |t: u32| self.triangles[t as usize].map(|v| self.positions[v as usize]);
-        self.tree.visit_overlapping_pairs(&skip, |a, b| {
-            let is_skipped = skip(a) || skip(b);
-            if !is_skipped && may_cut(a, b) && cut_each_other(&corners(a), &corners(b)) {
-                found(a, b);
-            }
-        });
-    }
-}
-
 /// A triangle with two corners at one place cuts nothing, so it meets nothing: otherwise many at
 /// one place would all be compared.
-fn bounds(triangle: &Triangle) -> Aabb {
+pub(crate) fn bounds(triangle: &Triangle) -> Aabb {
     let [a, b, c] = triangle;
     if a == b || b == c || c == a { Aabb::EMPTY } else { Aabb::around(triangle) }
 }
 
 /// Whether the insides of two triangles cross. Triangles without area have none.
 pub(crate) fn cut_each_other(a: &Triangle, b: &Triangle) -> bool {
-    if let Some(neighbours) = Neighbours::of(a, b) {
-        return neighbours.lie_on_each_other() && overlap_in_plane(a, b);
+    match Common::of(a, b) {
+        Common::None => !are_apart(a, b) && cross(a, b),
+        Common::Corner([at_a, at_b]) => {
+            let [a, b] = [turned(a, at_a), turned(b, at_b)];
+            !are_apart_but_for_corner(&a, &b) && cross(&a, &b)
+        }
+        Common::Side(neighbours) => neighbours.lie_on_each_other() && overlap_in_plane(a, b),
+        Common::More => cross(a, b),
     }
+}
+
+fn cross(a: &Triangle, b: &Triangle) -> bool {
     let b_sides = b.map(|point| side(a, point));
     if b_sides == [0; 3] {
         return overlap_in_plane(a, b);
@@ -92,6 +84,42 @@ pub(crate) fn cut_each_other(a: &Triangle, b: &Triangle) -> bool {
     straddle(a_sides) && overlap_on_line(*a, a_sides, *b, b_sides)
 }
 
+/// The triangle with another corner first.
+fn turned(triangle: &Triangle, first: usize) -> Triangle {
+    [0, 1, 2].map(|k| triangle[(first + k) % 3])
+}
+
+/// What corners two triangles have in common.
+enum Common {
+    None,
+    /// One: its number in each.
+    Corner([usize; 2]),
+    Side(Neighbours),
+    /// All, or some more than once.
+    More,
+}
+
+impl Common {
+    fn of(a: &Triangle, b: &Triangle) -> Common {
+        let is_same = |i: usize, j: usize| {
+            let ([ax, ay, az], [bx, by, bz]) = (a[i], b[j]);
+            (ax == bx) & (ay == by) & (az == bz)
+        };
+        // Bit `3 i + j` where corner i of one is corner j of the other.
+        let bit = |k: usize| u32::from(is_same(k / 3, k % 3)) << k;
+        let same = (0..9).fold(0, |same, k| same | bit(k));
+        match same.count_ones() {
+            0 => Common::None,
+            1 => {
+                let place = same.trailing_zeros() as usize;
+                Common::Corner([place / 3, place % 3])
+            }
+            2 => Neighbours::of(a, b, same).map_or(Common::More, Common::Side),
+            _ => Common::More,
+        }
+    }
+}
+
 /// Two triangles with a side in common: most pairs that meet are such, and they have nothing else
 /// in common unless one is folded flat onto the other.
 struct Neighbours {
@@ -101,15 +129,16 @@ struct Neighbours {
 }
 
 impl Neighbours {
-    fn of(a: &Triangle, b: &Triangle) -> Option<Neighbours> {
-        let other = |triangle: &Triangle, than: &Triangle| {
-            let mut lone = triangle.iter().filter(|point| !than.contains(point));
-            lone.next().copied().filter(|_| lone.next().is_none())
+    /// From two bits of which corners are the same; none if one triangle has two corners there.
+    fn of(a: &Triangle, b: &Triangle, same: u32) -> Option<Neighbours> {
+        let (rows, columns) = ([7, 7 << 3, 7 << 6], [0b1001001, 0b1001001 << 1, 0b1001001 << 2]);
+        let lone = |lines: [u32; 3]| {
+            let mut lone = (0..3).filter(|&k| same & lines[k] == 0);
+            lone.next().filter(|_| lone.next().is_none())
         };
-        let apexes = [other(a, b)?, other(b, a)?];
-        let place = a.iter().position(|point| *point == apexes[0])?;
-        let side = [a[(place + 1) % 3], a[(place + 2) % 3]];
-        (side[0] != side[1]).then_some(Neighbours { side, apexes })
+        let [at_a, at_b] = [lone(rows)?, lone(columns)?];
+        let side = [a[(at_a + 1) % 3], a[(at_a + 2) % 3]];
+        Some(Neighbours { side, apexes: [a[at_a], b[at_b]] })
     }
 
     fn lie_on_each_other(&self) -> bool {
@@ -326,17 +355,9 @@ mod tests {
     }
 
     #[test]
-    fn only_what_may_cut_is_found() {
+    fn only_pairs_in_one_part_are_found() {
         let positions = [FLOOR, [[1.0, 1.0, -1.0], [2.0, 1.0, -1.0], [1.0, 1.0, 1.0]]].concat();
         let triangles = [[0, 1, 2], [3, 4, 5]];
-        let found = |skip: fn(u32) -> bool, may_cut: fn(u32, u32) -> bool| {
-            let mut pairs = Vec::new();
-            Soup::new(&positions, &triangles).visit_cuts(skip, may_cut, |a, b| pairs.push((a, b)));
-            pairs.len()
-        };
-        assert_eq!(found(|_| false, |_, _| true), 1);
-        assert_eq!(found(|triangle| triangle == 0, |_, _| true), 0);
-        assert_eq!(found(|_| false, |_, _| false), 0);
         assert_eq!(self_intersections(&positions, &triangles, &[0, 0]), [(0, 1)]);
         assert!(self_intersections(&positions, &triangles, &[0, 1]).is_empty());
     }

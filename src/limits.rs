@@ -5,7 +5,9 @@
 //! leave, build strips and fills, shrink the sectors of whatever fails, and give back what is safe.
 //! A ring that still fails keeps its old position, so the result is never worse than the source.
 
+mod cells;
 mod collisions;
+mod parts;
 mod room;
 
 use std::cmp::Ordering;
@@ -21,6 +23,8 @@ use crate::plan::Plan;
 use crate::report::Reason;
 use crate::strips;
 use crate::validity::{stays_line, survives};
+
+pub use parts::Parts;
 
 /// How much a sector that takes part in something bad keeps in each round.
 const SHRINK: f64 = 0.5;
@@ -80,8 +84,9 @@ enum Element {
     Fill(Ring),
 }
 
-/// Shrinks what is bad, and then what is bad around what has shrunk.
-fn shrink(plan: &Plan, limits: &mut Limits, mut bad: Vec<Element>) {
+/// Shrinks what is bad, and then what is bad around what has shrunk; tells all that has.
+fn shrink(plan: &Plan, limits: &mut Limits, mut bad: Vec<Element>) -> Vec<Sector> {
+    let mut all = Vec::new();
     for round in 0.. {
         let mut shrunk = Vec::new();
         for element in bad {
@@ -92,11 +97,13 @@ fn shrink(plan: &Plan, limits: &mut Limits, mut bad: Vec<Element>) {
             blame(plan, limits, element, reason, &mut shrunk);
         }
         if shrunk.is_empty() {
-            return;
+            break;
         }
         apply(plan, limits, round, &mut shrunk);
         bad = bad_around(plan, &limits.placement, &shrunk);
+        all.extend(shrunk);
     }
+    all
 }
 
 /// All that depends on the sectors and is bad.

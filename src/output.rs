@@ -9,14 +9,13 @@ mod copies;
 mod submeshes;
 
 use crate::attributes::{Attributes, Streams, middles};
-use crate::corners::Fill;
 use crate::ids::{Edge, IdVec, Ring};
 use crate::limits::{self, Limits};
 use crate::mesh::MeshBuffers;
 use crate::options::ChamferSubmesh;
 use crate::plan::Plan;
 use crate::report::{Chamfered, TriangleKind, TriangleSource};
-use crate::seams::{self, FillLay, FillMap, Owners, StripLay};
+use crate::seams::{self, Joint, Middle, Owners, Parts, Patches, Taken};
 use crate::strips::Cut;
 use crate::verdicts::{totals, verdicts};
 use crate::view::View;
@@ -72,98 +71,77 @@ struct Surface<'a> {
     submeshes: Submeshes,
 }
 
-/// Strips and fills are laid out so many at a time, by all threads, and then added by one: more
-/// would only need more memory.
-const BATCH: usize = 8192;
-
-/// A fill that is laid out.
-struct LaidFill {
-    fill: Fill,
-    lay: FillLay,
-}
-
 impl Surface<'_> {
     fn add_strips(&mut self) {
-        let count = self.plan.edges.hard.len();
-        for start in (0..count).step_by(BATCH) {
-            let size = BATCH.min(count - start);
-            let lay = |place: Edge| self.strip(Edge(start as u32 + place.0));
-            let laid = self.plan.view.threads.map(size, lay);
-            for (edge, lay) in (start as u32..).map(Edge).zip(laid.iter()) {
-                if let Some(lay) = lay {
-                    self.add_strip(edge, lay);
-                }
-            }
-        }
-    }
-
-    fn strip(&self, edge: Edge) -> Option<StripLay> {
-        let (plan, cut) = (self.plan, self.cuts[edge]);
-        let (owner, hard) = (self.owners.side[edge], &plan.edges.hard[edge]);
-        let lay =
-            || seams::strip_lay(plan, &self.limits.placement, &self.attributes, owner, (hard, cut));
-        (cut != Cut::Closed).then(lay)
-    }
-
-    fn add_strip(&mut self, edge: Edge, lay: &StripLay) {
-        let face = self.plan.edges.hard[edge].sides[self.owners.side[edge]].triangle();
-        let vertices = lay.vertices(self.plan, &mut self.attributes.streams, &mut self.copies);
-        let source = TriangleSource { kind: TriangleKind::Edge, index: edge.0 };
-        for triangle in self.cuts[edge].triangles() {
-            self.submeshes.add(face, triangle.map(|place| vertices[place]), source);
-        }
+        let (threads, count) = (&self.plan.view.threads, self.cuts.len());
+        threads.blocks_then(count, self, Surface::lay_strip, Surface::add);
     }
 
     fn add_fills(&mut self) {
-        let count = self.plan.sectors.rings.len();
-        for start in (0..count).step_by(BATCH) {
-            let size = BATCH.min(count - start);
-            let lay = |place: Ring| self.fill(Ring(start as u32 + place.0));
-            let laid = self.plan.view.threads.map(size, lay);
-            for (ring, laid) in (start as u32..).map(Ring).zip(laid.iter()) {
-                if let Some(laid) = laid {
-                    self.add_fill(ring, laid);
-                }
-            }
+        let (threads, count) = (&self.plan.view.threads, self.plan.sectors.rings.len());
+        threads.blocks_then(count, self, Surface::lay_fill, Surface::add);
+    }
+
+    fn lay_strip(&self, edge: Edge, patches: &mut Patches) {
+        let cut = self.cuts[edge];
+        if cut != Cut::Closed {
+            let (placement, attributes) = (&self.limits.placement, &self.attributes);
+            let strip = (edge, cut);
+            seams::add_strip(self.plan, placement, attributes, &self.owners, strip, patches);
         }
     }
 
-    fn fill(&self, ring: Ring) -> Option<LaidFill> {
-        let (plan, placement) = (self.plan, &self.limits.placement);
+    fn lay_fill(&self, ring: Ring, patches: &mut Patches) {
+        let (placement, attributes) = (&self.limits.placement, &self.attributes);
         // Limits end with fills that are valid, or with rings that did not move.
-        let fill = limits::fill(plan, placement, ring).unwrap_or_default();
-        if fill.triangles.is_empty() {
-            return None;
+        if let Some(fill) = limits::fill(self.plan, placement, ring)
+            && !fill.triangles.is_empty()
+        {
+            let fill = (ring, &fill);
+            seams::add_fill(self.plan, placement, attributes, &self.owners, fill, patches);
         }
-        let map = FillMap::new(plan, placement, &self.attributes, ring, &fill);
-        let lay = map.lay(&self.attributes.streams, &self.owners);
-        Some(LaidFill { fill, lay })
     }
 
-    fn add_fill(&mut self, ring: Ring, LaidFill { fill, lay }: &LaidFill) {
-        let (plan, copies) = (self.plan, &mut self.copies);
-        let streams = &mut self.attributes.streams;
-        let sectors = plan.sectors.ring(ring);
-        let first = |place: usize| plan.sectors.fans[sectors[place]].first;
-        let cluster = plan.topology.cluster_at[first(0)];
-        let FillLay { owner, vertices, channels, lay } = lay;
-        let mut vertices = vertices.clone();
-        if *channels != 0 {
-            for (place, foot) in &lay.feet {
-                vertices[*place] = copies.get(plan, streams, vertices[*place], foot, *channels);
+    fn add(&mut self, patches: &mut Patches) {
+        let mut vertices = Vec::new();
+        for parts in patches.iter() {
+            let own = |joint: &Joint| self.attributes.vertex_at[joint.corner];
+            vertices.clear();
+            vertices.extend(parts.joints.iter().map(own));
+            self.copy(&parts, &mut vertices);
+            for middle in parts.middles {
+                vertices.push(self.add_middle(&parts, middle));
+            }
+            for triangle in parts.triangles {
+                let vertices = triangle.map(|place| vertices[place as usize]);
+                self.submeshes.add(parts.patch.face, vertices, parts.patch.source);
             }
         }
-        for (places, foot) in fill.middles.iter().zip(&lay.middles) {
-            let middle = middles::add(plan, &self.limits.placement, streams, sectors, places);
-            streams.rechart(plan, middle, foot, *channels);
-            vertices.push(copies.settle(streams, cluster));
+        patches.clear();
+    }
+
+    /// Puts copies in the place of vertices that take something from another chart.
+    fn copy(&mut self, Parts { patch, joints, .. }: &Parts, vertices: &mut [u32]) {
+        let begin = patch.begin as usize;
+        for place in (begin..joints.len()).chain(0..begin) {
+            if let Joint { corner, taken: Some(taken) } = &joints[place] {
+                let cluster = self.plan.topology.cluster_at[*corner];
+                let streams = &mut self.attributes.streams;
+                vertices[place] =
+                    self.copies.get(self.plan, streams, cluster, vertices[place], taken);
+            }
         }
-        let at = plan.view.vertex_at(first(0));
-        let source = TriangleSource { kind: TriangleKind::Corner, index: at.0 };
-        for triangle in &fill.triangles {
-            let vertices = triangle.map(|place| vertices[place]);
-            self.submeshes.add(first(*owner).triangle(), vertices, source);
+    }
+
+    fn add_middle(&mut self, parts: &Parts, middle: &Middle) -> u32 {
+        let (plan, streams) = (self.plan, &mut self.attributes.streams);
+        let corner = parts.joints[0].corner;
+        let sectors = plan.sectors.ring(plan.sectors.fans[plan.sectors.sector_of[corner]].ring);
+        let vertex = middles::add(plan, &self.limits.placement, streams, sectors, &middle.joints);
+        if let Some(Taken { channels, place }) = &middle.taken {
+            streams.rechart(plan, vertex, place, *channels);
         }
+        self.copies.settle(streams, plan.topology.cluster_at[corner])
     }
 
     fn finish(self) -> Chamfered {

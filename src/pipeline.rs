@@ -1,6 +1,7 @@
 //! The stages in their order: the only file that knows it.
 
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
 use crate::attributes::attributes;
 use crate::edges::{edges, may_be_hard};
@@ -196,14 +197,14 @@ pub(crate) fn shape(view: &View, weld: Weld, done: &mut Done) -> Result<Shape, E
         faces: faces.into(),
         edges: edges.into(),
         sectors: sectors.into(),
+        parts: Arc::default(),
     })
 }
 
 /// All that is known before the limits.
 pub(crate) fn plan<'a>(view: View<'a>, shape: &Shape) -> Plan<'a> {
-    let Shape { weld, topology, faces, edges, sectors } = shape.clone();
-    let offsets = offsets(&view, &topology, &faces, &sectors);
-    Plan { view, weld, topology, faces, edges, sectors, offsets }
+    let offsets = offsets(&view, &shape.topology, &shape.faces, &shape.sectors);
+    Plan::new(view, shape, offsets)
 }
 
 /// The stages that depend on the width.

@@ -1,10 +1,11 @@
 //! Plan: all that is known of a mesh before the limits decide how much of it is done.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use crate::edges::Edges;
 use crate::faces::Faces;
 use crate::ids::{IdVec, Sector};
+use crate::limits::Parts;
 use crate::offsets::Offset;
 use crate::sectors::Sectors;
 use crate::topology::Topology;
@@ -19,6 +20,8 @@ pub struct Shape {
     pub faces: Arc<Faces>,
     pub edges: Arc<Edges>,
     pub sectors: Arc<Sectors>,
+    /// Only looked for once collisions are.
+    pub parts: Arc<OnceLock<Parts>>,
 }
 
 /// The values of the stages up to the offsets.
@@ -29,8 +32,22 @@ pub struct Plan<'a> {
     pub faces: Arc<Faces>,
     pub edges: Arc<Edges>,
     pub sectors: Arc<Sectors>,
+    parts: Arc<OnceLock<Parts>>,
     /// `#sectors`: the move at full width.
     pub offsets: IdVec<Sector, Offset>,
+}
+
+impl<'a> Plan<'a> {
+    /// What is known of a mesh, with the moves at one width.
+    pub fn new(view: View<'a>, shape: &Shape, offsets: IdVec<Sector, Offset>) -> Plan<'a> {
+        let Shape { weld, topology, faces, edges, sectors, parts } = shape.clone();
+        Plan { view, weld, topology, faces, edges, sectors, parts, offsets }
+    }
+
+    /// The parts with chamfered edges, which no width has a say in either.
+    pub fn parts(&self) -> &Parts {
+        self.parts.get_or_init(|| Parts::new(self))
+    }
 }
 
 #[cfg(test)]

@@ -209,7 +209,8 @@ pub struct Totals {
     /// Those left as they were, by reason (indexed by [`Reason`] as a number).
     pub skipped: [u32; Reason::ALL.len()],
     /// Mean width of the hard edges, as a share (0 to 1) of the width asked for, weighted by edge
-    /// length; 0 without hard edges. Skipped edges have none; ends at which a chamfer tapers to a
-    /// point, because its edge ends there, do not count.
+    /// length; 0 without hard edges. Skipped edges have none; ends at which both sides stay put
+    /// at any width do not count: where the edge runs out in a smooth area, at a T-junction, or
+    /// where several creases hold the vertex.
     pub mean_width: f32,
 }

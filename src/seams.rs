@@ -10,6 +10,7 @@ mod feet;
 mod fill_map;
 mod ground;
 mod owners;
+mod patch;
 mod strip_map;
 
 use glam::DVec2;
@@ -20,9 +21,10 @@ use crate::report::Blend;
 
 use density::uv_point;
 
-pub use fill_map::{FillLay, FillMap};
+pub use fill_map::add_fill;
 pub use owners::{Owners, owners};
-pub use strip_map::{StripLay, strip_lay};
+pub use patch::{Joint, Middle, Parts, Patches, Taken};
+pub use strip_map::add_strip;
 
 /// The UV channels that a mesh has.
 fn channels_of(plan: &Plan) -> impl Iterator<Item = usize> + use<> {
@@ -56,7 +58,7 @@ mod tests {
         let cuts = strips(&plan, &placement);
         let owners = owners(&plan, &placement, &cuts, &attributes(&plan, &placement));
         for edge in plan.edges.hard.ids() {
-            let owner = plan.edges.hard[edge].sides[owners.side[edge]].triangle();
+            let owner = plan.edges.hard[edge].sides[owners.of(edge)].triangle();
             assert!(owner < Triangle(24), "the side of the cylinder comes first");
         }
     }

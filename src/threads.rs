@@ -9,6 +9,9 @@ use crate::ids::{Id, IdVec};
 #[cfg(feature = "parallel")]
 const LEAST_WORK: usize = 4096;
 
+/// So many ids make notes that stay in the nearest caches.
+const BLOCK: usize = 256;
+
 /// Up to so many threads, one for each core, however many are asked for.
 #[cfg(feature = "parallel")]
 const MOST_THREADS: usize = 64;
@@ -72,6 +75,53 @@ impl Threads {
         }
         let mut scratch = scratch();
         IdVec::from_vec((0..count).map(|index| value(&mut scratch, index)).collect())
+    }
+
+    /// Looks at each id in the light of a state, block by block, and takes what was noted of the
+    /// blocks into the state, in ascending order.
+    pub fn blocks_then<I: Id, S: Sync, T: Default + Send>(
+        &self,
+        count: usize,
+        state: &mut S,
+        note: impl Fn(&S, I, &mut T) + Sync + Send,
+        take: impl Fn(&mut S, &mut T),
+    ) {
+        let note_block = |state: &S, start: usize, notes: &mut T| {
+            let block = start..count.min(start + BLOCK);
+            block.map(I::new).for_each(|id| note(state, id, notes));
+        };
+        #[cfg(feature = "parallel")]
+        if let Some(pool) = &self.pool {
+            use rayon::prelude::*;
+            let mut blocks: Vec<T> = Vec::new();
+            blocks.resize_with(LEAST_WORK / BLOCK, T::default);
+            for start in (0..count).step_by(LEAST_WORK) {
+                let work = blocks.par_iter_mut().enumerate();
+                let note = |(k, notes)| note_block(state, start + k * BLOCK, notes);
+                pool.install(|| work.for_each(note));
+                blocks.iter_mut().for_each(|notes| take(state, notes));
+            }
+            return;
+        }
+        let mut notes = T::default();
+        for start in (0..count).step_by(BLOCK) {
+            note_block(state, start, &mut notes);
+            take(state, &mut notes);
+        }
+    }
+
+    /// The value for each item, in their order.
+    pub fn map_each<I: Sync, T: Send>(
+        &self,
+        items: &[I],
+        value: impl Fn(&I) -> T + Sync + Send,
+    ) -> Vec<T> {
+        #[cfg(feature = "parallel")]
+        if let Some(pool) = self.pool.as_ref().filter(|_| items.len() >= LEAST_WORK) {
+            use rayon::prelude::*;
+            return pool.install(|| items.par_iter().map(value).collect());
+        }
+        items.iter().map(value).collect()
     }
 
     /// The ids that are such, in ascending order.

@@ -289,6 +289,11 @@ fn provenance_that_points_nowhere() {
         let rules = broken(&shapes::cube(1.0), |after| after.vertex_sources[3].chart = blend);
         assert_eq!(rules, [Rule::Origins]);
     }
+    let continues_nothing = |after: &mut Chamfered| {
+        let source = &mut after.vertex_sources[3];
+        (source.owner, source.owner_channels) = (Blend::one(7), 0);
+    };
+    assert_eq!(broken(&shapes::cube(1.0), continues_nothing), [Rule::Origins]);
     assert_eq!(
         broken(&shapes::cube(1.0), |after| after.vertex_sources.truncate(20)),
         [Rule::Origins]

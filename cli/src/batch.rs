@@ -13,8 +13,8 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::args::Args;
 use crate::console::{say, warn};
+use crate::jobs::{Job, jobs};
 use crate::pictures::{self, MOST_ROWS, Portrait};
-use crate::plan::{Job, plan};
 use crate::process::{Processed, Settings, Taken, process};
 use crate::report::{FileReport, Report};
 use crate::write;
@@ -26,7 +26,7 @@ const STEPS: u64 = 1000;
 
 /// Chamfers the files that the arguments name.
 pub fn run(args: &Args) -> ExitCode {
-    let jobs = match plan(args) {
+    let jobs = match jobs(args) {
         Ok(jobs) => jobs,
         Err(error) => {
             warn(format_args!("error: {error:#}"));

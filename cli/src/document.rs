@@ -56,8 +56,10 @@ pub trait Document {
     /// What became of the normals of each mesh (`#meshes`).
     fn normals(&self) -> &[NormalsRead];
 
-    /// Where the meshes stand in the scene.
-    fn instances(&self) -> Vec<Instance>;
+    /// Where the meshes stand in the scene: each once and where it is, if the format has none.
+    fn instances(&self) -> Vec<Instance> {
+        (0..self.meshes().len()).map(|mesh| Instance { mesh, transform: IDENTITY }).collect()
+    }
 
     /// What the user should know of what was read or will be lost: a sentence each.
     fn notes(&self) -> Vec<String> {

@@ -12,7 +12,7 @@ use chamfer::{Chamfered, Options, chamfer_with_progress};
 
 use crate::document::{Document, OutputFile, ReadOptions, SourceMesh};
 use crate::format;
-use crate::plan::{Job, identity};
+use crate::jobs::{Job, identity};
 use crate::report::MeshReport;
 use crate::write;
 

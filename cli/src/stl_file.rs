@@ -9,9 +9,7 @@ use std::path::Path;
 use anyhow::{Context, Result, bail};
 use chamfer::{Chamfered, MeshBuffers, split_by_angle};
 
-use crate::document::{
-    Document, IDENTITY, Instance, NormalsRead, OutputFile, ReadOptions, SourceMesh,
-};
+use crate::document::{Document, NormalsRead, OutputFile, ReadOptions, SourceMesh};
 use crate::format::Format;
 use crate::glb;
 
@@ -49,10 +47,6 @@ impl Document for StlDocument {
 
     fn normals(&self) -> &[NormalsRead] {
         std::slice::from_ref(&self.normals)
-    }
-
-    fn instances(&self) -> Vec<Instance> {
-        vec![Instance { mesh: 0, transform: IDENTITY }]
     }
 
     fn encode(&self, output: &Path, chamfered: &[Chamfered]) -> Result<Vec<OutputFile>> {

@@ -150,20 +150,47 @@ fuzz_target!(|input: Input| {
     let mesh = wish.mesh.of(mesh.pointer::<chamfer_mesh>().cast_const());
     let before = memory.hash();
     run(&input, mesh);
+    run_prepared(&input, mesh);
     split(&input, mesh);
     assert_eq!(memory.hash(), before, "the library wrote to its input");
 });
 
 fn run(input: &Input, mesh: *const chamfer_mesh) {
+    run_with(input, |options, user, out, error| {
+        // SAFETY: memory is there; all else is for the library to check.
+        unsafe { chamfer_run(mesh, options, Some(note), user, out, error) }
+    });
+}
+
+fn run_prepared(input: &Input, mesh: *const chamfer_mesh) {
+    let mut prepared: *mut chamfer_prepared = ptr::null_mut();
+    // SAFETY: as above.
+    let status = unsafe { chamfer_prepare(mesh, &mut prepared, ptr::null_mut()) };
+    assert!(is_known(status) && status != CHAMFER_STATUS_INTERNAL, "{status}");
+    assert_eq!(prepared.is_null(), status != CHAMFER_STATUS_OK);
+    run_with(input, |options, user, out, error| {
+        // SAFETY: as above; it is NULL where nothing could be prepared.
+        unsafe { chamfer_prepared_run(prepared, options, Some(note), user, out, error) }
+    });
+    // SAFETY: it is given up here.
+    unsafe { chamfer_prepared_destroy(prepared) };
+}
+
+fn run_with(
+    input: &Input,
+    run: impl FnOnce(
+        *const chamfer_options,
+        *mut c_void,
+        *mut *mut chamfer_result,
+        *mut chamfer_error,
+    ) -> i32,
+) {
     let mut options = Placed::new(&raw_options(&input.options), &input.options_size);
     let options = input.pointers.options.of(options.pointer::<chamfer_options>().cast_const());
     let cancel_after = input.cancel_after.map_or(u32::MAX, |calls| u32::from(calls % 8) + 1);
     let mut progress = Progress { calls: 0, cancel_after };
     let user = (&raw mut progress).cast();
-    call(input, |out, error| {
-        // SAFETY: memory is there; all else is for the library to check.
-        unsafe { chamfer_run(mesh, options, Some(note), user, out, error) }
-    });
+    call(input, |out, error| run(options, user, out, error));
 }
 
 fn split(input: &Input, mesh: *const chamfer_mesh) {

@@ -33,7 +33,8 @@ impl<'a> Origins<'a> {
         let source_vertices = before.positions.len() as u32;
         for (vertex, source) in after.vertex_sources.iter().enumerate() {
             let blends = [source.surface, source.chart, source.owner];
-            if !blends.iter().all(|blend| is_valid(blend, source_vertices)) {
+            let continues = source.owner_channels != 0 || source.owner == source.chart;
+            if !continues || !blends.iter().all(|blend| is_valid(blend, source_vertices)) {
                 findings.note(Rule::Origins, Element::Vertex(vertex as u32));
             }
         }

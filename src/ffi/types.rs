@@ -215,8 +215,9 @@ pub struct chamfer_totals {
     /// The width asked for, in mesh units.
     pub width: f32,
     /// Mean width of the hard edges, as a share (0 to 1) of the width asked for, weighted by edge
-    /// length; 0 without hard edges. Skipped edges have none; ends at which a chamfer tapers to a
-    /// point, because its edge ends there, do not count.
+    /// length; 0 without hard edges. Skipped edges have none; ends at which both sides stay put
+    /// at any width do not count: where the edge runs out in a smooth area, at a T-junction, or
+    /// where several creases hold the vertex.
     pub mean_width: f32,
     /// The skipped edges by reason; places past the last reason are 0.
     pub skipped_by_reason: [u32; CHAMFER_REASON_SLOTS],

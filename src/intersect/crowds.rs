@@ -4,12 +4,14 @@
 //! each. But two triangles are convex: where they have more in common than a corner, they have a
 //! way from that corner in common. So they can only cut where the arcs overlap that they draw on a
 //! small sphere around it; and around a common side, where their other corners lie the same way.
-//! Boxes around these arcs tell nearly all of a crowd apart.
+//! Boxes around these arcs tell nearly all of a crowd apart. The same holds around any other point
+//! or line, such as where a corner was before it was pulled apart.
 
 use std::collections::HashMap;
 use std::hash::{BuildHasher, BuildHasherDefault, DefaultHasher};
 
 use glam::DVec3;
+use smallvec::SmallVec;
 
 use crate::bvh::{Aabb, Kin};
 
@@ -46,10 +48,13 @@ pub fn crowds(count: usize, corners: impl Fn(u32) -> Triangle) -> Option<Vec<Kin
         let triangle = corners(triangle);
         let crowded_side = (0..3).find(|&k| at_side.has(&side(triangle, k)));
         match (crowded_side, at_place.most_crowded(triangle)) {
-            (Some(k), _) => Kin::new(names.of(side(triangle, k)), seen_from_side(triangle, k)),
+            (Some(k), _) => {
+                let around = Around::line([triangle[k], triangle[(k + 1) % 3]]);
+                Kin::new(names.of(side(triangle, k)), around.seen(&triangle))
+            }
             (None, Some(k)) => {
                 let place = place(triangle[k]);
-                Kin::new(names.of([place, place]), seen_from_corner(triangle, k))
+                Kin::new(names.of([place, place]), Around::point(triangle[k]).seen(&triangle))
             }
             (None, None) => Kin::NONE,
         }
@@ -112,34 +117,58 @@ impl Names {
     }
 }
 
-/// A box around the arc that a triangle draws on the unit sphere around one of its corners.
-fn seen_from_corner(triangle: Triangle, k: usize) -> Aabb {
-    let [at, one, other] = wide(triangle, k);
-    let ways = [one - at, other - at].map(DVec3::normalize_or_zero);
-    // An arc reaches past its chord by so much.
-    let half_cosine = ((1.0 + ways[0].dot(ways[1])) / 2.0).max(0.0).sqrt();
-    around(&ways, 1.0 - half_cosine + SLACK)
+/// What a crowd gathers around: a point, or the line through two.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Around {
+    points: [[f32; 3]; 2],
+    /// Along the line; zero for a point.
+    along: DVec3,
 }
 
-/// A box around the way from one of a triangle's sides, square to it, to the third corner.
-fn seen_from_side(triangle: Triangle, k: usize) -> Aabb {
-    let [at, to, apex] = wide(triangle, k);
-    let (along, way) = ((to - at).normalize_or_zero(), apex - at);
-    let across = way - along * way.dot(along);
-    if across.length() <= LEAST_ACROSS * way.length() {
-        return around(&[DVec3::ZERO], 1.0 + SLACK);
+impl Around {
+    pub fn point(at: [f32; 3]) -> Around {
+        Around { points: [at; 2], along: DVec3::ZERO }
     }
-    around(&[across.normalize()], SLACK)
+
+    pub fn line(points: [[f32; 3]; 2]) -> Around {
+        let [from, to] = points.map(wide);
+        Around { points, along: (to - from).normalize_or_zero() }
+    }
+
+    /// A box around all directions in which a triangle is seen from there.
+    pub fn seen(&self, triangle: &Triangle) -> Aabb {
+        let own = |point: &&[f32; 3]| !self.points.contains(point);
+        let ways: Option<SmallVec<[DVec3; 3]>> =
+            triangle.iter().filter(own).map(|&point| self.way_to(point)).collect();
+        let ways = ways.unwrap_or_default();
+        if ways.is_empty() {
+            return around(&[DVec3::ZERO], 1.0 + SLACK);
+        }
+        // The directions between some reach past their hull by what the hull comes nearer to the
+        // center: of two, half of the way between them; of three, a third.
+        let pairs = (1..ways.len()).flat_map(|k| ways[..k].iter().map(move |way| (way, k)));
+        let least = pairs.map(|(way, k)| way.dot(ways[k])).fold(1.0, f64::min);
+        let square = 1.0 - (1.0 - least) * (ways.len() - 1) as f64 / ways.len() as f64;
+        around(&ways, 1.0 - square.max(0.0).sqrt() + SLACK)
+    }
+
+    /// Of unit length; none where it is mostly rounding.
+    fn way_to(&self, point: [f32; 3]) -> Option<DVec3> {
+        let way = wide(point) - wide(self.points[0]);
+        let across = way - self.along * way.dot(self.along);
+        (across.length() > LEAST_ACROSS * way.length()).then(|| across.normalize())
+    }
 }
 
-/// The corners from one on, in double precision.
-fn wide(triangle: Triangle, k: usize) -> [DVec3; 3] {
-    [0, 1, 2].map(|step| DVec3::from(triangle[(k + step) % 3].map(f64::from)))
+fn wide(point: [f32; 3]) -> DVec3 {
+    DVec3::from(point.map(f64::from))
 }
 
 fn around(points: &[DVec3], slack: f64) -> Aabb {
     let corners = points.iter().flat_map(|&point| [point - slack, point + slack]);
-    Aabb::around(&corners.map(|corner| corner.as_vec3().to_array()).collect::<Vec<_>>())
+    let corners: SmallVec<[[f32; 3]; 6]> =
+        corners.map(|corner| corner.as_vec3().to_array()).collect();
+    Aabb::around(&corners)
 }
 
 #[cfg(test)]
@@ -153,6 +182,23 @@ mod tests {
             [turns.cos() as f32, 0.0, turns.sin() as f32]
         };
         (0..count).map(|step| [[0.0, 1.0, 0.0], rim(step), rim((step + 1) % count)]).collect()
+    }
+
+    /// Directions that end at the same place, mixed in all ways, stay within the box.
+    #[test]
+    fn all_that_is_seen_of_a_triangle_is_in_the_box() {
+        let triangle = [[1.0, 0.2, -0.3], [-0.2, 1.5, 0.1], [0.4, -0.3, 2.0]];
+        for around in [Around::point([0.0; 3]), Around::line([[0.0; 3], [0.0, 0.1, 3.0]])] {
+            let seen = around.seen(&triangle);
+            for step in 0..=100 {
+                let [a, b] = [step % 11, step / 11].map(|share| f64::from(share) / 20.0);
+                let [p, q, r] = triangle.map(wide);
+                let way = p + (q - p) * a + (r - p) * b;
+                let across = (way - around.along * way.dot(around.along)).normalize();
+                let at = Aabb::around(&[across.as_vec3().to_array()]);
+                assert!(seen.overlaps(&at), "{across} from {around:?}");
+            }
+        }
     }
 
     fn kin_of(triangles: &[Triangle]) -> Option<Vec<Kin>> {

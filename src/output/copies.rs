@@ -6,7 +6,7 @@
 use crate::attributes::{Attributes, Streams};
 use crate::ids::{Cluster, IdVec, Vertex};
 use crate::plan::Plan;
-use crate::report::Blend;
+use crate::seams::Taken;
 
 /// The end of a list.
 const NONE: u32 = u32::MAX;
@@ -17,8 +17,6 @@ pub struct Copies {
     first: IdVec<Cluster, u32>,
     /// `#output vertices`: the one that follows in the list.
     next: Vec<u32>,
-    /// `#output vertices`.
-    cluster_of: Vec<Cluster>,
 }
 
 impl Copies {
@@ -28,19 +26,19 @@ impl Copies {
         let mut copies = Copies {
             first: IdVec::filled(NONE, plan.weld.first_vertex.len()),
             next: vec![NONE; sources],
-            cluster_of: plan.weld.cluster_of.iter().copied().collect(),
         };
         // From the last to the first: each list begins with its first vertex.
         for vertex in (0..sources as u32).rev() {
-            copies.next[vertex as usize] = copies.enter(vertex);
+            let cluster = plan.weld.cluster_of[Vertex(vertex)];
+            copies.next[vertex as usize] = copies.enter(vertex, cluster);
         }
         copies.join_appended(plan, attributes);
         copies
     }
 
-    /// Puts a vertex at the head of its list, and tells what follows.
-    fn enter(&mut self, vertex: u32) -> u32 {
-        std::mem::replace(&mut self.first[self.cluster_of[vertex as usize]], vertex)
+    /// Puts a vertex at the head of a cluster's list, and tells what follows.
+    fn enter(&mut self, vertex: u32, cluster: Cluster) -> u32 {
+        std::mem::replace(&mut self.first[cluster], vertex)
     }
 
     fn join_appended(&mut self, plan: &Plan, attributes: &mut Attributes) {
@@ -82,23 +80,22 @@ impl Copies {
     /// Lists the vertex behind all that are listed so far.
     fn list(&mut self, cluster: Cluster) {
         let vertex = self.next.len() as u32;
-        self.cluster_of.push(cluster);
-        let following = self.enter(vertex);
+        let following = self.enter(vertex, cluster);
         self.next.push(following);
     }
 
-    /// An output vertex with the given channels taken from a place in another chart.
+    /// A vertex of a cluster with what it takes from a place in another chart.
     pub fn get(
         &mut self,
         plan: &Plan,
         streams: &mut Streams,
+        cluster: Cluster,
         vertex: u32,
-        chart: &Blend,
-        channels: u8,
+        taken: &Taken,
     ) -> u32 {
         let copy = streams.append(Vertex(vertex));
-        streams.rechart(plan, copy, chart, channels);
-        self.settle(streams, self.cluster_of[vertex as usize])
+        streams.rechart(plan, copy, &taken.place, taken.channels);
+        self.settle(streams, cluster)
     }
 
     /// Takes back the vertex that was appended last if it equals another one of the cluster; gives

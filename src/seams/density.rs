@@ -1,6 +1,6 @@
 //! Density: how much texture a triangle shows for its area.
 
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
 use super::ground::Ground;
 use crate::ids::{Corner, Id, Triangle};
@@ -37,15 +37,40 @@ pub fn density(plan: &Plan, triangle: Triangle, channel: usize) -> f64 {
 /// Whether rounding its UVs can make a triangle's area vanish: models that are coloured by single
 /// texels have all of a face at one place.
 fn is_line(points: [DVec2; 3]) -> bool {
-    let [a, b, c] = points;
-    let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
-    let size = points.iter().fold(0.0, |size: f64, point| size.max(point.abs().max_element()));
-    texture_area(points).abs() <= longest * size * ROUNDING
+    texture_area(points).abs() <= longest_side(points) * size(points) * ROUNDING
 }
 
 /// Twice the area on the texture.
 fn texture_area([a, b, c]: [DVec2; 3]) -> f64 {
     (b - a).perp_dot(c - a)
+}
+
+/// The length of a triangle's longest side on the texture.
+pub fn longest_side([a, b, c]: [DVec2; 3]) -> f64 {
+    let longest = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a));
+    longest.sqrt()
+}
+
+/// The largest coordinate of a triangle on the texture.
+pub fn size([a, b, c]: [DVec2; 3]) -> f64 {
+    a.abs().max(b.abs()).max(c.abs()).max_element()
+}
+
+/// A chamfer as it lies on the texture.
+pub struct Lie<'a> {
+    /// `#triangles`: places in the points.
+    pub triangles: &'a [[usize; 3]],
+    /// `#triangles`: twice their areas in space.
+    pub areas: &'a [f64],
+    /// `#points`.
+    pub uvs: &'a [DVec2],
+}
+
+impl Lie<'_> {
+    /// The triangles on the texture.
+    fn texture(&self) -> impl Iterator<Item = [DVec2; 3]> + '_ {
+        self.triangles.iter().map(|triangle| triangle.map(|place| self.uvs[place]))
+    }
 }
 
 /// How a chamfer may lie on the texture.
@@ -59,17 +84,11 @@ pub enum Facing {
 
 /// The factor by which the worst of some triangles lies denser or thinner on the texture than a
 /// face of the given density: 1 at best, infinite where one is mirrored or has no UV area.
-fn stretch(
-    density: f64,
-    facing: Facing,
-    resolution: f64,
-    triangles: impl Iterator<Item = ([DVec3; 3], [DVec2; 3])>,
-) -> f64 {
+fn stretch(density: f64, facing: Facing, resolution: f64, lie: &Lie) -> f64 {
     if density == 0.0 {
         return 1.0;
     }
-    let of_triangle = |(points, uvs): ([DVec3; 3], [DVec2; 3])| {
-        let area = area_vector(points).length();
+    let of_triangle = |(uvs, &area): ([DVec2; 3], &f64)| {
         let signed = texture_area(uvs) / density / area;
         let ratio = if facing == Facing::Either { signed.abs() } else { signed };
         let is_tiny = area <= resolution * resolution;
@@ -79,7 +98,7 @@ fn stretch(
             () => f64::INFINITY,
         }
     };
-    triangles.map(of_triangle).fold(1.0, f64::max)
+    lie.texture().zip(lie.areas).map(of_triangle).fold(1.0, f64::max)
 }
 
 /// How badly a chamfer lies on the texture of a face: as [`stretch`], and many times as much where
@@ -90,12 +109,11 @@ pub fn misfit(
     facing: Facing,
     channel: usize,
     ground: &Ground,
-    triangles: impl Iterator<Item = ([DVec3; 3], [DVec2; 3])> + Clone,
+    lie: &Lie,
 ) -> f64 {
     let density = density(plan, face.triangle(), channel);
-    let stretch = stretch(density, facing, plan.view.resolution, triangles.clone());
-    let mut texture = triangles.map(|(_, uvs)| uvs);
-    if stretch.is_finite() && !texture.all(|uvs| ground.covers(uvs)) {
+    let stretch = stretch(density, facing, plan.view.resolution, lie);
+    if stretch.is_finite() && !lie.texture().all(|uvs| ground.covers(uvs)) {
         return stretch * BEYOND;
     }
     stretch
@@ -105,18 +123,21 @@ pub fn misfit(
 mod tests {
     use super::*;
 
-    const FLAT: [DVec3; 3] = [DVec3::ZERO, DVec3::X, DVec3::Y];
     const UVS: [DVec2; 3] = [DVec2::ZERO, DVec2::X, DVec2::Y];
 
     #[test]
     fn thin_and_dense_are_alike_and_mirrored_is_worst() {
-        let of = |uvs: [DVec2; 3]| stretch(1.0, Facing::AsFace, 1e-6, [(FLAT, uvs)].into_iter());
+        let stretch = |facing: Facing, uvs: [DVec2; 3]| {
+            let lie = Lie { triangles: &[[0, 1, 2]], areas: &[1.0], uvs: &uvs };
+            stretch(1.0, facing, 1e-6, &lie)
+        };
+        let of = |uvs| stretch(Facing::AsFace, uvs);
         assert_eq!(of(UVS), 1.0);
         assert_eq!(of(UVS.map(|uv| uv * 2.0)), 4.0);
         assert_eq!(of(UVS.map(|uv| uv * 0.5)), 4.0);
         assert_eq!(of([UVS[0], UVS[2], UVS[1]]), f64::INFINITY);
         assert_eq!(of([UVS[0]; 3]), f64::INFINITY);
-        let either = |uvs| stretch(1.0, Facing::Either, 1e-6, [(FLAT, uvs)].into_iter());
+        let either = |uvs| stretch(Facing::Either, uvs);
         assert_eq!(either([UVS[0], UVS[2], UVS[1]]), 1.0);
     }
 }

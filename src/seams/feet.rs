@@ -2,10 +2,10 @@
 
 use glam::DVec3;
 
+use super::channels_of;
 use crate::edges::{HardEdge, seam_between};
 use crate::ids::{Corner, Few, Sector};
 use crate::math::{area_vector, unit};
-use crate::mesh::UV_CHANNELS;
 use crate::placement::Placement;
 use crate::plan::Plan;
 use crate::report::Blend;
@@ -87,8 +87,11 @@ pub fn band_foot(
         Spread::Whole => end.2 as f64,
     };
     let foot = on_edge(plan, at.half_edge, share);
+    if depth == Depth::Band {
+        return Some(foot);
+    }
     let [band, strip] = at.widths(plan, placement);
-    if depth == Depth::Band || strip >= band {
+    if strip >= band {
         return Some(foot);
     }
     let [from, to] = ends(plan, at.half_edge);
@@ -168,9 +171,12 @@ pub enum Wings {
 }
 
 /// Where a fill lies in its owner's chart.
+#[derive(Default)]
 pub struct Lay {
-    /// Sectors, as places in the ring.
-    pub feet: Few<(usize, Blend)>,
+    /// `#sectors`: none where a vertex stays in its own chart.
+    pub feet: Few<Option<Blend>>,
+    /// The sector whose vertex is copied first: the others follow around the ring.
+    pub begin: usize,
     /// For each vertex in the middle.
     pub middles: Vec<Blend>,
 }
@@ -182,31 +188,43 @@ pub fn kite(
     plan: &Plan,
     placement: &Placement,
     sectors: &[Sector],
-    owner: usize,
-    wings: Wings,
-    middles: usize,
-) -> Lay {
+    (owner, wings, middles): (usize, Wings, usize),
+    lay: &mut Lay,
+) {
     let sector = sectors[owner];
     let [behind, before] = feet_of_wings(plan, placement, sector, wings);
     let fan = &plan.sectors.fans[sector];
     let corner = Blend::one(plan.view.vertex_at(fan.first).0);
-    let share = placement.share[sector] * MIDDLE_SHARE;
     let on_bow = |along: f64| {
         let [from, to] = [1.0 - along, along].map(|share| share * share * share);
-        mixed(&[(behind, from), (corner, 1.0 - from - to), (before, to)])
+        match along {
+            0.0 => behind,
+            1.0 => before,
+            _ => mixed(&[(behind, from), (corner, 1.0 - from - to), (before, to)]),
+        }
     };
-    Lay {
-        feet: on_others(sectors.len(), owner, on_bow),
-        middles: vec![chart_foot(plan, sector, fan.first).blend(plan, share); middles],
-    }
+    let share = placement.share[sector] * MIDDLE_SHARE;
+    let middle = |_| chart_foot(plan, sector, fan.first).blend(plan, share);
+    lay.begin = owner;
+    lay.feet.clear();
+    lay.feet.extend(on_others(sectors.len(), owner, on_bow));
+    lay.middles.clear();
+    lay.middles.extend((0..middles).map(middle));
 }
 
-/// The places of the ring but the owner's, each with what lies at its share of the way from the
-/// owner's last edge to its first.
-fn on_others(count: usize, owner: usize, at: impl Fn(f64) -> Blend) -> Few<(usize, Blend)> {
-    let others = count - 1;
-    let along = |k: usize| k as f64 / (others - 1).max(1) as f64;
-    (0..others).map(|k| ((owner + 1 + k) % count, at(along(k)))).collect()
+/// For each sector of a ring but the owner, what lies at its share of the way from the owner's last
+/// edge to its first.
+fn on_others(
+    count: usize,
+    owner: usize,
+    at: impl Fn(f64) -> Blend,
+) -> impl Iterator<Item = Option<Blend>> {
+    let steps = (count - 2).max(1) as f64;
+    let foot = move |place: usize| match (place + count - owner) % count {
+        0 => None,
+        step => Some(at((step - 1) as f64 / steps)),
+    };
+    (0..count).map(foot)
 }
 
 /// The feet on a sector's last and first edge; the old corner itself where the last one lies in
@@ -234,7 +252,7 @@ fn feet_of_wings(plan: &Plan, placement: &Placement, sector: Sector, wings: Wing
         }
     };
     let before = foot(fan.first);
-    let one_chart = (0..UV_CHANNELS).all(|channel| !is_broken(plan, sector, channel));
+    let one_chart = channels_of(plan).all(|channel| !is_broken(plan, sector, channel));
     if !one_chart {
         return [Blend::one(corner), before];
     }
@@ -276,7 +294,8 @@ pub fn corner_lay(
         Blend::new(vertices, [1.0 - to_next - to_prev, to_next, to_prev])
     };
     let mut blends = flat.iter().map(blend);
-    Lay { feet: blends.by_ref().take(ring).enumerate().collect(), middles: blends.collect() }
+    let feet = blends.by_ref().take(ring).map(Some).collect();
+    Lay { feet, begin: 0, middles: blends.collect() }
 }
 
 /// From one of a ring's points to the next and to the previous one.
@@ -299,7 +318,7 @@ pub fn is_pair(plan: &Plan, sector: Sector) -> bool {
 /// Whether a seam of a channel runs through a sector.
 pub fn is_broken(plan: &Plan, sector: Sector, channel: usize) -> bool {
     let fan = &plan.sectors.fans[sector];
-    seam_between(&plan.view, channel, fan.first, fan.last)
+    fan.first != fan.last && seam_between(&plan.view, channel, fan.first, fan.last)
 }
 
 #[cfg(test)]
@@ -346,7 +365,7 @@ mod tests {
         let lay = corner_lay(&plan, Corner(0), &points, 3, DVec3::Z);
         let [from, next, prev] = [0, 1, 2].map(|corner| plan.view.vertex_at(Corner(corner)).0);
         let weights = |blend: &Blend| [from, next, prev].map(|v| weight_of(blend, v));
-        let feet: Vec<[f32; 3]> = lay.feet.iter().map(|(_, foot)| weights(foot)).collect();
+        let feet: Vec<[f32; 3]> = lay.feet.iter().flatten().map(weights).collect();
         assert_eq!(feet, [[1.0, 0.0, 0.0], [0.5, 0.5, 0.0], [0.5, 0.0, 0.5]]);
         let middle = weights(&lay.middles[0]);
         assert!((middle[0] - 0.8).abs() < 1e-6 && (middle[1] - 0.1).abs() < 1e-6);

@@ -5,7 +5,7 @@ use glam::DVec2;
 use crate::ids::Corner;
 use crate::plan::Plan;
 
-use super::density::uv_point;
+use super::density::{longest_side, size, uv_point};
 use crate::edges::seam_between;
 
 /// A chamfer that lies past the end of its chart by less than this share of its own length shows
@@ -41,48 +41,50 @@ impl<'a> Ground<'a> {
 
     /// Whether a triangle on the texture lies on it.
     pub fn covers(&self, triangle: [DVec2; 3]) -> bool {
-        let [a, b, c] = triangle;
-        let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
-        let size =
-            triangle.iter().fold(0.0, |size: f64, point| size.max(point.abs().max_element()));
-        let near = longest * MARGIN + size * ROUNDING;
+        let near = longest_side(triangle) * MARGIN + size(triangle) * ROUNDING;
         let holds = |points: [DVec2; 3], point: DVec2| distance(point, points) <= near;
-        let mut faces = self.triangles();
-        if faces.any(|points| triangle.into_iter().all(|point| holds(points, point))) {
+        if self.any_face(|points| triangle.iter().all(|&point| holds(points, point))) {
             return true;
         }
         SAMPLES.into_iter().all(|weights| {
             let point = (0..3).map(|k| triangle[k] * weights[k]).sum();
-            self.triangles().any(|points| holds(points, point))
+            self.any_face(|points| holds(points, point))
         })
     }
 
-    fn triangles(&self) -> impl Iterator<Item = [DVec2; 3]> + '_ {
-        let around = |&at: &Corner| self.ahead(at).chain(self.behind(at));
-        self.corners.iter().flat_map(around).map(|corner| self.points(corner))
+    /// Whether one of the triangles is such.
+    fn any_face(&self, is_such: impl Fn([DVec2; 3]) -> bool) -> bool {
+        let is_such = |corner: Corner| is_such(self.points(corner));
+        self.corners.iter().any(|&at| self.any_ahead(at, is_such) || self.any_behind(at, is_such))
     }
 
-    /// The corners from one on, counter-clockwise around its vertex, up to the chart's end.
-    fn ahead(&self, at: Corner) -> impl Iterator<Item = Corner> + '_ {
-        let mut following = Some(at);
-        std::iter::from_fn(move || {
-            let corner = following?;
+    /// Whether one of the corners from one on, counter-clockwise around its vertex up to the
+    /// chart's end, is such.
+    fn any_ahead(&self, at: Corner, is_such: impl Fn(Corner) -> bool) -> bool {
+        let mut corner = at;
+        while !is_such(corner) {
             let side = corner.prev();
-            let next = self.plan.topology.twin[side];
-            following = (self.runs_on(side) && next != at).then_some(next);
-            Some(corner)
-        })
+            corner = self.plan.topology.twin[side];
+            if corner == at || !self.runs_on(side) {
+                return false;
+            }
+        }
+        true
     }
 
-    /// The corners before one, clockwise.
-    fn behind(&self, at: Corner) -> impl Iterator<Item = Corner> + '_ {
-        let mut side = at;
-        std::iter::from_fn(move || {
-            let twin = self.plan.topology.twin[side];
-            let next = self.runs_on(side).then(|| twin.next()).filter(|&corner| corner != at)?;
-            side = next;
-            Some(next)
-        })
+    /// As [`Ground::any_ahead`], of the corners before one, clockwise.
+    fn any_behind(&self, at: Corner, is_such: impl Fn(Corner) -> bool) -> bool {
+        let mut corner = at;
+        while self.runs_on(corner) {
+            corner = self.plan.topology.twin[corner].next();
+            if corner == at {
+                return false;
+            }
+            if is_such(corner) {
+                return true;
+            }
+        }
+        false
     }
 
     /// Whether the chart goes on beyond a half-edge.

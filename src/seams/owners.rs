@@ -8,13 +8,23 @@ use crate::placement::Placement;
 use crate::plan::Plan;
 use crate::strips::Cut;
 
-/// `#hard edges`: which of its two sides owns the chamfer.
+/// Who owns the chamfers.
 pub struct Owners {
-    pub side: IdVec<Edge, usize>,
+    /// `#hard edges`: which of its two sides.
+    side: IdVec<Edge, u8>,
+    /// `#hard edges`: how the strip fits onto that side's band: see [`StripMap::band`].
+    pub band: IdVec<Edge, Option<u8>>,
+}
+
+impl Owners {
+    /// Which of a hard edge's sides owns its chamfer.
+    pub fn of(&self, edge: Edge) -> usize {
+        self.side[edge].into()
+    }
 }
 
 /// No side yet.
-const UNDECIDED: usize = usize::MAX;
+const UNDECIDED: u8 = u8::MAX;
 
 /// A whole chain of edges between two smooth regions has one owner, so that the texture does not
 /// zigzag: the region whose band fits more of the strips, or else the one that comes first in the
@@ -25,82 +35,94 @@ pub fn owners(
     cuts: &IdVec<Edge, Cut>,
     attributes: &Attributes,
 ) -> Owners {
+    let threads = &plan.view.threads;
+    let band = |edge: Edge, side: u8| {
+        let hard = &plan.edges.hard[edge];
+        let map = StripMap::new(plan, placement, attributes, hard, cuts[edge]);
+        map.band(&attributes.streams, side.into())
+    };
     let region = regions(plan);
-    let fits = fits(plan, placement, cuts, attributes);
-    let misfits = misfits(plan, &region, &fits);
+    let side = sides_in_order(plan, &region);
+    let own = threads.map(side.len(), |edge| band(edge, side[edge]));
+    let mut owners = Owners { side, band: own };
+    let contested = contested(plan, &region, &owners.band);
+    let claims = threads.map_each(&contested, |&(between, edge)| Claim {
+        between,
+        edge,
+        own: owners.band[edge],
+        other: band(edge, 1 - owners.side[edge]),
+    });
+    settle(&claims, &mut owners);
+    owners
+}
+
+/// The region that comes first in the mesh, or the side that the chain keeps to.
+fn sides_in_order(plan: &Plan, region: &IdVec<Triangle, Triangle>) -> IdVec<Edge, u8> {
     let mut side = IdVec::filled(UNDECIDED, plan.edges.hard.len());
     for edge in plan.edges.hard.ids() {
         let [one, two] = plan.edges.hard[edge].sides.map(|side| region[side.triangle()]);
         if one != two {
-            let between = [one.min(two), one.max(two)];
-            let found = misfits.binary_search_by_key(&between, |misfits| misfits.between);
-            let [first, second] = found.map_or([0; 2], |place| misfits[place].counts);
-            let lower = usize::from(two < one);
-            side[edge] = if second < first { 1 - lower } else { lower };
+            side[edge] = u8::from(two < one);
         } else if side[edge] == UNDECIDED {
-            follow_chain(plan, &region, edge, &mut side);
+            follow_chain(plan, region, edge, &mut side);
         }
     }
-    for edge in plan.edges.hard.ids() {
-        let own = side[edge];
-        if !fits[edge][own] && fits[edge][1 - own] {
-            side[edge] = 1 - own;
-        }
-    }
-    Owners { side }
+    side
 }
 
-/// `#hard edges`: for each side whether the strip fits onto its band.
-fn fits(
-    plan: &Plan,
-    placement: &Placement,
-    cuts: &IdVec<Edge, Cut>,
-    attributes: &Attributes,
-) -> IdVec<Edge, [bool; 2]> {
-    let of_edge = |edge: Edge| {
-        let hard = &plan.edges.hard[edge];
-        let channels = if hard.skipped.is_some() { 0 } else { hard.seams };
-        if channels == 0 {
-            return [true; 2];
-        }
-        let channel = channels.trailing_zeros() as usize;
-        let map = StripMap::new(plan, placement, attributes, hard, cuts[edge]);
-        [0, 1].map(|owner| map.fits(&attributes.streams, channel, owner))
-    };
-    plan.view.threads.map(plan.edges.hard.len(), of_edge)
-}
-
-/// How many of the strips between two regions do not fit onto the bands of the first and of the
-/// second.
-struct Misfits {
-    /// The regions, lower first.
-    between: [Triangle; 2],
-    counts: [u32; 2],
-}
-
-/// For each two regions between which something does not fit, sorted.
-fn misfits(
+/// All edges between two regions that have a strip between them that does not fit, sorted by
+/// regions, of which the lower stands first.
+fn contested(
     plan: &Plan,
     region: &IdVec<Triangle, Triangle>,
-    fits: &IdVec<Edge, [bool; 2]>,
-) -> Vec<Misfits> {
-    let of_edge = |edge: Edge| {
+    band: &IdVec<Edge, Option<u8>>,
+) -> Vec<([Triangle; 2], Edge)> {
+    let between = |edge: Edge| {
         let [one, two] = plan.edges.hard[edge].sides.map(|side| region[side.triangle()]);
-        let lower = usize::from(two < one);
-        let counts = [lower, 1 - lower].map(|side| u32::from(!fits[edge][side]));
-        Misfits { between: [one.min(two), one.max(two)], counts }
+        [one.min(two), one.max(two)]
     };
-    let bad = plan.edges.hard.ids().filter(|&edge| fits[edge] != [true; 2]);
-    let mut misfits: Vec<Misfits> = bad.map(of_edge).collect();
-    misfits.sort_unstable_by_key(|misfits| misfits.between);
-    misfits.dedup_by(|next, sum| {
-        let is_same = next.between == sum.between;
-        if is_same {
-            sum.counts = [0, 1].map(|side| sum.counts[side] + next.counts[side]);
+    let mut bad: Vec<_> = band.ids().filter(|&edge| band[edge].is_none()).map(between).collect();
+    if bad.is_empty() {
+        return Vec::new();
+    }
+    bad.sort_unstable();
+    bad.dedup();
+    let all = band.ids().map(|edge| (between(edge), edge));
+    let mut contested: Vec<_> =
+        all.filter(|(between, _)| bad.binary_search(between).is_ok()).collect();
+    contested.sort_unstable();
+    contested
+}
+
+/// How a contested edge's strip fits onto the bands of the side that has it, and of the other.
+struct Claim {
+    between: [Triangle; 2],
+    edge: Edge,
+    own: Option<u8>,
+    other: Option<u8>,
+}
+
+/// Gives the edges between two regions to the other one where fewer of them do not fit, and single
+/// edges to the side that alone they fit.
+fn settle(claims: &[Claim], owners: &mut Owners) {
+    for between in claims.chunk_by(|one, next| one.between == next.between) {
+        let misfits = |band: fn(&Claim) -> Option<u8>| {
+            between.iter().filter(|claim| band(claim).is_none()).count()
+        };
+        let [one, two] = between[0].between;
+        let is_lost = one != two && misfits(|claim| claim.other) < misfits(|claim| claim.own);
+        for claim in between {
+            let changes = match (claim.own, claim.other) {
+                (None, Some(_)) => true,
+                (Some(_), None) => false,
+                _ => is_lost,
+            };
+            if changes {
+                owners.side[claim.edge] = 1 - owners.side[claim.edge];
+                owners.band[claim.edge] = claim.other;
+            }
         }
-        is_same
-    });
-    misfits
+    }
 }
 
 /// Where one region lies on both sides, the sides keep to the chain: from an edge to the next one
@@ -109,7 +131,7 @@ fn follow_chain(
     plan: &Plan,
     region: &IdVec<Triangle, Triangle>,
     start: Edge,
-    side: &mut IdVec<Edge, usize>,
+    side: &mut IdVec<Edge, u8>,
 ) {
     side[start] = 0;
     let mut front: Vec<Corner> = vec![plan.edges.hard[start].sides[0]];
@@ -125,7 +147,7 @@ fn follow_chain(
                 let sides = plan.edges.hard[edge].sides;
                 let [one, two] = sides.map(|side| region[side.triangle()]);
                 if one == two {
-                    side[edge] = usize::from(sides[1] == half_edge);
+                    side[edge] = u8::from(sides[1] == half_edge);
                     front.push(half_edge);
                 }
             }

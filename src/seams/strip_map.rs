@@ -2,18 +2,18 @@
 
 use glam::{DVec2, DVec3};
 
-use super::density::{Facing, MOST_STRETCH, misfit};
+use super::density::{Facing, Lie, MOST_STRETCH, misfit};
 use super::feet::{Depth, Spread, band_foot, corner_lay, inside};
 use super::ground::Ground;
-use super::{channels_of, place_of};
+use super::patch::{Joint, Patches, Taken};
+use super::{Owners, channels_of, place_of};
 use crate::attributes::{Attributes, Streams};
 use crate::edges::HardEdge;
-use crate::ids::{Corner, Few};
+use crate::ids::{Corner, Edge, Few};
 use crate::math::{area_vector, unit};
-use crate::output::Copies;
 use crate::placement::Placement;
 use crate::plan::Plan;
-use crate::report::Blend;
+use crate::report::{Blend, TriangleKind, TriangleSource};
 use crate::strips::{self, Cut};
 
 /// A way to lay a strip on the texture. Owners are places in the edge's sides.
@@ -40,7 +40,12 @@ const BANDS: [(Spread, Depth); 6] = [
 ];
 
 fn bands(owner: usize) -> impl Iterator<Item = Way> {
-    BANDS.into_iter().map(move |(spread, depth)| Way::Band(owner, spread, depth))
+    (0..BANDS.len()).map(move |band| on_band(owner, band))
+}
+
+fn on_band(owner: usize, band: usize) -> Way {
+    let (spread, depth) = BANDS[band];
+    Way::Band(owner, spread, depth)
 }
 
 /// For the corners b1, a1, a2, b2: a place in the owner's chart, where they take one.
@@ -53,6 +58,8 @@ pub struct StripMap<'a> {
     edge: &'a HardEdge,
     points: [DVec3; 4],
     cut: Cut,
+    /// Twice the areas of the strip's triangles.
+    areas: [f64; 2],
     /// The strip's own vertices: b1, a1, a2, b2.
     vertices: [u32; 4],
     /// The corners at the edge's ends, on either side.
@@ -71,7 +78,11 @@ impl<'a> StripMap<'a> {
         let points = corners.map(|corner| placement.position_at(plan, corner));
         let vertices = corners.map(|corner| attributes.vertex_at[corner]);
         let ends = edge.sides.map(|side| [side, side.next()]);
-        StripMap { plan, placement, edge, points, cut, vertices, ends }
+        let mut areas = [0.0; 2];
+        for (area, triangle) in areas.iter_mut().zip(cut.triangles()) {
+            *area = area_vector(triangle.map(|k| points[k])).length();
+        }
+        StripMap { plan, placement, edge, points, cut, areas, vertices, ends }
     }
 
     fn feet(&self, way: Way) -> Feet {
@@ -108,8 +119,8 @@ impl<'a> StripMap<'a> {
         let normal = unit(areas.sum());
         let lay = corner_lay(self.plan, self.edge.sides[owner], &points, points.len(), normal);
         let mut feet = [None; 4];
-        for (k, foot) in lay.feet {
-            feet[places[k]] = Some(foot);
+        for (k, foot) in lay.feet.into_iter().enumerate() {
+            feet[places[k]] = foot;
         }
         feet
     }
@@ -134,18 +145,27 @@ impl<'a> StripMap<'a> {
 
     fn misfit_on(&self, owner: usize, channel: usize, uvs: [DVec2; 4]) -> f64 {
         let ground = Ground::new(self.plan, channel, &self.ends[owner]);
-        let triangles =
-            self.cut.triangles().iter().map(|t| (t.map(|k| self.points[k]), t.map(|k| uvs[k])));
-        misfit(self.plan, self.edge.sides[owner], Facing::AsFace, channel, &ground, triangles)
+        let lie = Lie { triangles: self.cut.triangles(), areas: &self.areas, uvs: &uvs };
+        misfit(self.plan, self.edge.sides[owner], Facing::AsFace, channel, &ground, &lie)
     }
 
-    /// Whether the strip fits on the band of a side.
-    pub fn fits(&self, streams: &Streams, channel: usize, owner: usize) -> bool {
+    /// The first channel with a seam here; none of the channels where there is no seam.
+    fn first_seam(&self) -> usize {
+        self.edge.seams.trailing_zeros() as usize
+    }
+
+    /// Which of [`BANDS`] is the first on which the strip fits in its first channel with a seam, of
+    /// those of a side; the first where nothing needs to fit.
+    pub fn band(&self, streams: &Streams, owner: usize) -> Option<u8> {
+        if self.edge.skipped.is_some() || self.edge.seams == 0 {
+            return Some(0);
+        }
+        let channel = self.first_seam();
         let fits = |way: Way| {
             let feet = self.feet(way);
             self.misfit(streams, channel, way, &feet) <= MOST_STRETCH
         };
-        bands(owner).any(fits)
+        bands(owner).position(fits).map(|place| place as u8)
     }
 
     /// The feet of the first way that fits, or else of the one that fits best, among those that
@@ -183,43 +203,37 @@ fn far_places(owner: usize) -> [usize; 2] {
     if owner == 0 { [2, 3] } else { [0, 1] }
 }
 
-/// Where a strip lies on the texture: for its corners b1, a1, a2, b2.
-pub struct StripLay {
-    vertices: [u32; 4],
-    feet: Feet,
-    /// The channels, as bits, that each takes from its foot.
-    channels: [u8; 4],
-}
-
 /// Lays a strip into the owner's chart where its own is another, or folds or ends under the
 /// chamfer.
-pub fn strip_lay(
+pub fn add_strip(
     plan: &Plan,
     placement: &Placement,
     attributes: &Attributes,
-    owner: usize,
-    (edge, cut): (&HardEdge, Cut),
-) -> StripLay {
-    let map = StripMap::new(plan, placement, attributes, edge, cut);
+    owners: &Owners,
+    (edge, cut): (Edge, Cut),
+    patches: &mut Patches,
+) {
+    let (hard, owner) = (&plan.edges.hard[edge], owners.of(edge));
+    let map = StripMap::new(plan, placement, attributes, hard, cut);
     let (mut taken, mut channels): (Feet, [u8; 4]) = ([None; 4], [0; 4]);
     for channel in channels_of(plan) {
-        let feet = map.lay(&attributes.streams, channel, owner, &taken);
+        // What the owner was chosen by need not be looked for again.
+        let known = owners.band[edge].filter(|_| map.first_seam() == channel && taken == [None; 4]);
+        let feet = match known {
+            Some(band) => map.feet(on_band(owner, band.into())),
+            None => map.lay(&attributes.streams, channel, owner, &taken),
+        };
         for place in (0..4).filter(|&place| feet[place].is_some()) {
             taken[place] = feet[place];
             channels[place] |= 1 << channel;
         }
     }
-    StripLay { vertices: map.vertices, feet: taken, channels }
-}
-
-impl StripLay {
-    /// The output vertices of the corners.
-    pub fn vertices(&self, plan: &Plan, streams: &mut Streams, copies: &mut Copies) -> [u32; 4] {
-        std::array::from_fn(|place| match &self.feet[place] {
-            Some(foot) => {
-                copies.get(plan, streams, self.vertices[place], foot, self.channels[place])
-            }
-            None => self.vertices[place],
-        })
-    }
+    let corners = strips::corners(hard);
+    let joints = (0..4).map(|k| Joint {
+        corner: corners[k],
+        taken: taken[k].map(|place| Taken { channels: channels[k], place }),
+    });
+    let source = TriangleSource { kind: TriangleKind::Edge, index: edge.0 };
+    let face = hard.sides[owner].triangle();
+    patches.push(source, (face, 0), joints, [], cut.triangles());
 }

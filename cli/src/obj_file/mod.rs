@@ -15,9 +15,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result};
 use chamfer::Chamfered;
 
-use crate::document::{
-    Document, IDENTITY, Instance, NormalsRead, OutputFile, ReadOptions, SourceMesh,
-};
+use crate::document::{Document, NormalsRead, OutputFile, ReadOptions, SourceMesh};
 use crate::format::Format;
 use crate::glb;
 
@@ -64,10 +62,6 @@ impl Document for ObjDocument {
 
     fn normals(&self) -> &[NormalsRead] {
         std::slice::from_ref(&self.normals)
-    }
-
-    fn instances(&self) -> Vec<Instance> {
-        vec![Instance { mesh: 0, transform: IDENTITY }]
     }
 
     fn notes(&self) -> Vec<String> {

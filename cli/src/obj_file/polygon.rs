@@ -8,20 +8,18 @@ use robust::{Coord, orient2d};
 /// The triangles of a polygon, as places in it: always two fewer than corners, and every corner
 /// in one of them. A polygon that crosses itself is cut as well as it can be.
 pub fn triangulate(polygon: &[[f32; 3]]) -> Vec<[usize; 3]> {
-    let points = flatten(polygon);
-    let mut ring: Vec<usize> = (0..polygon.len()).collect();
-    let mut triangles = Vec::with_capacity(polygon.len().saturating_sub(2));
+    let cuts = polygon.len().saturating_sub(2);
+    let mut triangles = Vec::with_capacity(cuts);
+    let mut ring = Ring::new(flatten(polygon));
     // Starting at 1 cuts a convex quad as a fan around its first corner, as most programs do.
     let mut tip = 1;
-    while ring.len() > 3 {
-        tip = next_ear(&points, &ring, tip);
-        triangles.push(around(&ring, tip));
-        ring.remove(tip);
+    for left in (1..=cuts).rev() {
+        // The last three are a triangle whatever they look like, and told from the first of them.
+        tip = if left == 1 { ring.second() } else { ring.next_ear(tip) };
+        triangles.push(ring.around(tip));
+        ring.cut(tip);
         // Past the corner that has just lost area: cutting on at it would make slivers.
-        tip = (tip + 1) % ring.len();
-    }
-    if let [a, b, c] = ring[..] {
-        triangles.push([a, b, c]);
+        tip = ring.after[ring.after[tip]];
     }
     triangles
 }
@@ -46,26 +44,82 @@ fn flatten(polygon: &[[f32; 3]]) -> Vec<Coord<f64>> {
     polygon.iter().map(|point| Coord { x: point[u].into(), y: point[v].into() }).collect()
 }
 
-/// The corner at a place of the ring between its neighbours.
-fn around(ring: &[usize], place: usize) -> [usize; 3] {
-    let before = (place + ring.len() - 1) % ring.len();
-    [ring[before], ring[place], ring[(place + 1) % ring.len()]]
+/// The corners that are left of a polygon.
+struct Ring {
+    points: Vec<Coord<f64>>,
+    /// `#corners`: the one on either side, of those that are left.
+    before: Vec<usize>,
+    after: Vec<usize>,
+    /// `#corners`: whether it is left and does not turn left. Only such a one can lie in an ear.
+    is_suspect: Vec<bool>,
+    /// All corners by `x`, so that those near an ear are found soon.
+    by_x: Vec<usize>,
+    /// The lowest corner that is left.
+    first: usize,
 }
 
-/// The first ear at or after `start`. Where there is none the polygon crosses itself or what is
-/// left of it is a line: then the first corner that is not reflex goes, or any.
-fn next_ear(points: &[Coord<f64>], ring: &[usize], start: usize) -> usize {
-    let places = || (start..ring.len()).chain(0..start);
-    let turn = |place| turn(points, around(ring, place));
-    // Only a corner that is not convex can lie in an ear.
-    let suspects: Vec<usize> =
-        (0..ring.len()).filter(|&p| turn(p) <= 0.0).map(|place| ring[place]).collect();
-    let is_ear = |&place: &usize| {
-        let ear = around(ring, place);
-        turn(place) > 0.0 && !suspects.iter().any(|&corner| is_inside(points, ear, corner))
-    };
-    let fallback = || places().find(|&place| turn(place) >= 0.0);
-    places().find(is_ear).or_else(fallback).unwrap_or(start)
+impl Ring {
+    fn new(points: Vec<Coord<f64>>) -> Ring {
+        let count = points.len();
+        let mut ring = Ring {
+            points,
+            before: (0..count).map(|corner| (corner + count - 1) % count).collect(),
+            after: (0..count).map(|corner| (corner + 1) % count).collect(),
+            is_suspect: Vec::new(),
+            by_x: (0..count).collect(),
+            first: 0,
+        };
+        ring.is_suspect = (0..count).map(|corner| ring.turn(corner) <= 0.0).collect();
+        ring.by_x.sort_by(|&one, &other| ring.points[one].x.total_cmp(&ring.points[other].x));
+        ring
+    }
+
+    /// A corner between its neighbours.
+    fn around(&self, corner: usize) -> [usize; 3] {
+        [self.before[corner], corner, self.after[corner]]
+    }
+
+    /// The one that follows on the lowest that is left.
+    fn second(&self) -> usize {
+        self.after[self.first]
+    }
+
+    /// Positive where the path turns left at a corner.
+    fn turn(&self, corner: usize) -> f64 {
+        turn(&self.points, self.around(corner))
+    }
+
+    /// Takes a corner out.
+    fn cut(&mut self, corner: usize) {
+        let [before, _, after] = self.around(corner);
+        (self.after[before], self.before[after]) = (after, before);
+        if corner == self.first {
+            self.first = after;
+        }
+        self.is_suspect[corner] = false;
+        for neighbour in [before, after] {
+            self.is_suspect[neighbour] = self.turn(neighbour) <= 0.0;
+        }
+    }
+
+    /// The first ear at or after a corner. Where there is none the polygon crosses itself or what
+    /// is left of it is a line: then the first corner that is not reflex goes, or any.
+    fn next_ear(&self, start: usize) -> usize {
+        let others = std::iter::successors(Some(self.after[start]), |&last| Some(self.after[last]));
+        let corners = || std::iter::once(start).chain(others.clone().take_while(|&c| c != start));
+        let fallback = || corners().find(|&corner| self.turn(corner) >= 0.0);
+        corners().find(|&corner| self.is_ear(corner)).or_else(fallback).unwrap_or(start)
+    }
+
+    fn is_ear(&self, corner: usize) -> bool {
+        let ear = self.around(corner);
+        let x = ear.map(|corner| self.points[corner].x);
+        let (least, most) = (x[0].min(x[1]).min(x[2]), x[0].max(x[1]).max(x[2]));
+        let from = self.by_x.partition_point(|&suspect| self.points[suspect].x < least);
+        let near = self.by_x[from..].iter().take_while(|&&at| self.points[at].x <= most);
+        let mut suspects = near.filter(|&&suspect| self.is_suspect[suspect]);
+        self.turn(corner) > 0.0 && !suspects.any(|&at| is_inside(&self.points, ear, at))
+    }
 }
 
 /// Positive where the path turns left.
@@ -133,6 +187,23 @@ mod tests {
         let triangles = triangulate(&square);
         assert_eq!(triangles.len(), 3);
         assert!(triangles.iter().all(|&triangle| area(&square, triangle) > 0.0));
+    }
+
+    /// Twenty thousand corners would take seconds if each cut looked at all of them.
+    #[test]
+    fn a_huge_polygon_is_cut_in_time() {
+        let circle = |at: usize, radius: f32| {
+            let angle = std::f32::consts::TAU * at as f32 / 20_000.0;
+            [radius * angle.cos(), radius * angle.sin()]
+        };
+        let round: Vec<_> = (0..20_000).map(|at| circle(at, 1.0)).collect();
+        let gear: Vec<_> = (0..20_000).map(|at| circle(at, 1.0 + (at % 2) as f32)).collect();
+        for polygon in [round, gear] {
+            let polygon = flat(&polygon);
+            let triangles = triangulate(&polygon);
+            assert_eq!(triangles.len(), 19_998);
+            assert!(triangles.iter().all(|&triangle| area(&polygon, triangle) >= -1e-6));
+        }
     }
 
     #[test]

@@ -28,7 +28,7 @@ struct Found {
 ///
 /// # Errors
 /// Where the arguments leave that open, or results would overwrite inputs or each other.
-pub fn plan(args: &Args) -> Result<Vec<Job>> {
+pub fn jobs(args: &Args) -> Result<Vec<Job>> {
     let single = args.inputs.len() == 1 && !args.inputs[0].is_dir();
     let jobs = if single {
         let input = args.inputs[0].clone();
@@ -180,33 +180,33 @@ mod tests {
         }
 
         /// Plans a command line in which `@` stands for this folder; so it does in the result.
-        fn plan(&self, line: &str) -> Result<Vec<String>> {
+        fn jobs(&self, line: &str) -> Result<Vec<String>> {
             let root = self.0.path().to_str().unwrap();
             let line = format!("chamfer {}", line.replace('@', root));
-            let jobs = plan(&Args::try_parse_from(line.split(' '))?)?;
+            let jobs = jobs(&Args::try_parse_from(line.split(' '))?)?;
             let show = |job: &Job| format!("{}>{}", job.input.display(), job.output.display());
             Ok(jobs.iter().map(|job| show(job).replace(root, "@")).collect())
         }
 
         fn error(&self, line: &str) -> String {
-            format!("{:#}", self.plan(line).unwrap_err())
+            format!("{:#}", self.jobs(line).unwrap_err())
         }
     }
 
     #[test]
     fn a_result_without_a_place_goes_beside_its_input() {
         let folder = Folder::with(&["a.obj", "b.stl"]);
-        assert_eq!(folder.plan("@/a.obj").unwrap(), ["@/a.obj>@/a.chamfered.obj"]);
-        assert_eq!(folder.plan("@/b.stl").unwrap(), ["@/b.stl>@/b.chamfered.glb"]);
+        assert_eq!(folder.jobs("@/a.obj").unwrap(), ["@/a.obj>@/a.chamfered.obj"]);
+        assert_eq!(folder.jobs("@/b.stl").unwrap(), ["@/b.stl>@/b.chamfered.glb"]);
     }
 
     #[test]
     fn a_single_result_goes_to_a_file_or_into_a_folder() {
         let folder = Folder::with(&["a.obj", "b.stl", "out/x.txt"]);
-        assert_eq!(folder.plan("@/a.obj -o @/c.glb").unwrap(), ["@/a.obj>@/c.glb"]);
-        assert_eq!(folder.plan("@/a.obj -o @/out").unwrap(), ["@/a.obj>@/out/a.obj"]);
-        assert_eq!(folder.plan("@/b.stl -o @/new/").unwrap(), ["@/b.stl>@/new/b.glb"]);
-        assert_eq!(folder.plan("@/b.stl -o @/c.stl").unwrap(), ["@/b.stl>@/c.stl"]);
+        assert_eq!(folder.jobs("@/a.obj -o @/c.glb").unwrap(), ["@/a.obj>@/c.glb"]);
+        assert_eq!(folder.jobs("@/a.obj -o @/out").unwrap(), ["@/a.obj>@/out/a.obj"]);
+        assert_eq!(folder.jobs("@/b.stl -o @/new/").unwrap(), ["@/b.stl>@/new/b.glb"]);
+        assert_eq!(folder.jobs("@/b.stl -o @/c.stl").unwrap(), ["@/b.stl>@/c.stl"]);
     }
 
     #[test]
@@ -220,7 +220,7 @@ mod tests {
     fn folders_are_searched_sorted_and_keep_their_shape() {
         let folder = Folder::with(&["in/b.obj", "in/a/z.STL", "in/a/readme.txt", "c.glb"]);
         assert_eq!(
-            folder.plan("@/in @/c.glb -o @/out").unwrap(),
+            folder.jobs("@/in @/c.glb -o @/out").unwrap(),
             ["@/in/a/z.STL>@/out/a/z.glb", "@/in/b.obj>@/out/b.obj", "@/c.glb>@/out/c.glb"]
         );
     }
@@ -228,7 +228,7 @@ mod tests {
     #[test]
     fn earlier_results_below_the_input_folder_are_not_inputs() {
         let folder = Folder::with(&["in/a.obj", "in/out/a.obj"]);
-        assert_eq!(folder.plan("@/in -o @/in/out").unwrap(), ["@/in/a.obj>@/in/out/a.obj"]);
+        assert_eq!(folder.jobs("@/in -o @/in/out").unwrap(), ["@/in/a.obj>@/in/out/a.obj"]);
     }
 
     #[test]
@@ -242,7 +242,7 @@ mod tests {
     #[test]
     fn only_a_name_after_o_may_replace_an_input() {
         let folder = Folder::with(&["a.obj", "b.obj"]);
-        assert_eq!(folder.plan("@/a.obj -o @/a.obj").unwrap(), ["@/a.obj>@/a.obj"]);
+        assert_eq!(folder.jobs("@/a.obj -o @/a.obj").unwrap(), ["@/a.obj>@/a.obj"]);
         assert!(folder.error("@/a.obj -o @/").contains("would overwrite"));
         assert!(folder.error("@/ -o @/").contains("would overwrite"));
     }

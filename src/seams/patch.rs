@@ -1,0 +1,111 @@
+//! Patches: strips and fills as they are to be added to the mesh, many at a time.
+
+use crate::attributes::Channels;
+use crate::ids::{Corner, Few, Triangle};
+use crate::report::{Blend, TriangleSource};
+
+/// Strips and fills one after the other, in flat arrays that can be used again.
+#[derive(Default)]
+pub struct Patches {
+    patches: Vec<Patch>,
+    joints: Vec<Joint>,
+    middles: Vec<Middle>,
+    triangles: Vec<[u32; 3]>,
+}
+
+/// A strip or a fill.
+#[derive(Clone, Copy)]
+pub struct Patch {
+    pub source: TriangleSource,
+    /// The face that it continues, and whose submesh it joins.
+    pub face: Triangle,
+    /// The joint whose vertex is made first: the others follow in turn.
+    pub begin: u32,
+    /// How many of each it has.
+    joints: u32,
+    middles: u32,
+    triangles: u32,
+}
+
+/// Where a patch joins the surface.
+pub struct Joint {
+    pub corner: Corner,
+    /// What its vertex takes from another chart.
+    pub taken: Option<Taken>,
+}
+
+/// A place in a chart that a chamfer continues.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Taken {
+    /// The UV channels that go there.
+    pub channels: Channels,
+    pub place: Blend,
+}
+
+/// A vertex in the middle of a fill.
+pub struct Middle {
+    /// The joints that it lies between.
+    pub joints: Few<usize>,
+    pub taken: Option<Taken>,
+}
+
+/// A patch with its parts.
+pub struct Parts<'a> {
+    pub patch: Patch,
+    pub joints: &'a [Joint],
+    /// Vertices of its own.
+    pub middles: &'a [Middle],
+    /// Places in the joints, and past them in the middles.
+    pub triangles: &'a [[u32; 3]],
+}
+
+impl Patches {
+    pub fn clear(&mut self) {
+        self.patches.clear();
+        self.joints.clear();
+        self.middles.clear();
+        self.triangles.clear();
+    }
+
+    /// Adds a patch.
+    pub fn push(
+        &mut self,
+        source: TriangleSource,
+        (face, begin): (Triangle, u32),
+        joints: impl IntoIterator<Item = Joint>,
+        middles: impl IntoIterator<Item = Middle>,
+        triangles: &[[usize; 3]],
+    ) {
+        let before = [self.joints.len(), self.middles.len()];
+        self.joints.extend(joints);
+        self.middles.extend(middles);
+        self.triangles.extend(triangles.iter().map(|triangle| triangle.map(|place| place as u32)));
+        self.patches.push(Patch {
+            source,
+            face,
+            begin,
+            joints: (self.joints.len() - before[0]) as u32,
+            middles: (self.middles.len() - before[1]) as u32,
+            triangles: triangles.len() as u32,
+        });
+    }
+
+    /// The patches in the order of their coming.
+    pub fn iter(&self) -> impl Iterator<Item = Parts<'_>> {
+        let (mut joints, mut middles) = (&self.joints[..], &self.middles[..]);
+        let mut triangles = &self.triangles[..];
+        self.patches.iter().map(move |&patch| Parts {
+            patch,
+            joints: first(&mut joints, patch.joints),
+            middles: first(&mut middles, patch.middles),
+            triangles: first(&mut triangles, patch.triangles),
+        })
+    }
+}
+
+/// Takes so many items off a list.
+fn first<'a, T>(rest: &mut &'a [T], count: u32) -> &'a [T] {
+    let (first, others) = rest.split_at(count as usize);
+    *rest = others;
+    first
+}
