@@ -63,11 +63,61 @@ impl Streams {
 
     /// Appends a copy of a vertex with what it takes from another chart.
     pub fn append_copy(&mut self, plan: &Plan, vertex: u32, taken: &Taken) -> u32 {
-        let copy = self.count();
-        self.append_values(vertex as usize);
-        self.set_texture(plan, copy as usize, &taken.place, taken.channels);
-        self.sources.push_copy(vertex as usize, taken.place, taken.channels);
-        copy
+        let from = vertex as usize;
+        if !self.vertices.tangents.is_empty() {
+            let tangent = self.tangent_of_copy(plan, from, taken);
+            self.vertices.tangents.push(tangent);
+        }
+        for channel in 0..self.uv_end {
+            for k in 0..self.vertices.uvs[channel].components as usize {
+                let value = self.uv_of_copy(plan, from, taken, channel, k);
+                self.vertices.uvs[channel].values.push(value);
+            }
+        }
+        self.append_shape(from);
+        self.sources.push_copy(from, taken.place, taken.channels);
+        self.count() - 1
+    }
+
+    /// Whether a vertex equals, in every stream, a copy of another one with what that takes from
+    /// another chart.
+    pub fn is_copy(&self, plan: &Plan, one: u32, vertex: u32, taken: &Taken) -> bool {
+        let (a, b) = (one as usize, vertex as usize);
+        let v = &self.vertices;
+        let is_uv = |channel: usize| {
+            let components = v.uvs[channel].components as usize;
+            (0..components).all(|k| {
+                let value = self.uv_of_copy(plan, b, taken, channel, k);
+                v.uvs[channel].values[a * components + k] == value
+            })
+        };
+        v.positions[a] == v.positions[b]
+            && v.normals[a] == v.normals[b]
+            && (v.colors.is_empty() || v.colors[a] == v.colors[b])
+            && (0..self.uv_end).all(is_uv)
+            && (v.tangents.is_empty() || v.tangents[a] == self.tangent_of_copy(plan, b, taken))
+    }
+
+    fn tangent_of_copy(&self, plan: &Plan, vertex: usize, taken: &Taken) -> [f32; 4] {
+        match taken.channels & 1 {
+            0 => self.vertices.tangents[vertex],
+            _ => tangent(plan, &taken.place, wide(self.vertices.normals[vertex])),
+        }
+    }
+
+    fn uv_of_copy(
+        &self,
+        plan: &Plan,
+        vertex: usize,
+        taken: &Taken,
+        channel: usize,
+        component: usize,
+    ) -> f32 {
+        let uv = &self.vertices.uvs[channel];
+        match taken.channels >> channel & 1 {
+            0 => uv.values[vertex * uv.components as usize + component],
+            _ => blended_uv(plan, &taken.place, channel, component),
+        }
     }
 
     /// Appends a vertex with a normal of its own at a place near a blend, with what it takes from
@@ -91,15 +141,21 @@ impl Streams {
         vertex
     }
 
-    fn append_values(&mut self, from: usize) {
+    /// The streams that a copy has from its vertex, whatever it takes from another chart.
+    fn append_shape(&mut self, from: usize) {
         let vertices = &mut self.vertices;
         vertices.positions.push(vertices.positions[from]);
         vertices.normals.push(vertices.normals[from]);
-        if !vertices.tangents.is_empty() {
-            vertices.tangents.push(vertices.tangents[from]);
-        }
         if !vertices.colors.is_empty() {
             vertices.colors.push(vertices.colors[from]);
+        }
+    }
+
+    fn append_values(&mut self, from: usize) {
+        self.append_shape(from);
+        let vertices = &mut self.vertices;
+        if !vertices.tangents.is_empty() {
+            vertices.tangents.push(vertices.tangents[from]);
         }
         for uv in &mut vertices.uvs[..self.uv_end] {
             let components = uv.components as usize;
@@ -165,32 +221,6 @@ impl Streams {
             uv.values.copy_within(from * components..(from + 1) * components, to * components);
         }
         self.sources.relocate(from, to);
-    }
-
-    /// Whether a vertex equals, in every stream, a copy of another one with what that takes from
-    /// another chart.
-    pub fn is_copy(&self, plan: &Plan, one: u32, vertex: u32, taken: &Taken) -> bool {
-        let (a, b) = (one as usize, vertex as usize);
-        let v = &self.vertices;
-        let takes = |channel: usize| taken.channels >> channel & 1 == 1;
-        let tangent_at = |b: usize| match takes(0) {
-            true => tangent(plan, &taken.place, wide(v.normals[b])),
-            false => v.tangents[b],
-        };
-        let is_uv = |channel: usize, k: usize| {
-            let (values, components) = (&v.uvs[channel].values, v.uvs[channel].components as usize);
-            let other = match takes(channel) {
-                true => blended_uv(plan, &taken.place, channel, k),
-                false => values[b * components + k],
-            };
-            values[a * components + k] == other
-        };
-        v.positions[a] == v.positions[b]
-            && v.normals[a] == v.normals[b]
-            && (v.colors.is_empty() || v.colors[a] == v.colors[b])
-            && (0..self.uv_end)
-                .all(|channel| (0..v.uvs[channel].components as usize).all(|k| is_uv(channel, k)))
-            && (v.tangents.is_empty() || v.tangents[a] == tangent_at(b))
     }
 
     /// Whether two output vertices are equal in every stream.

@@ -22,11 +22,13 @@ pub struct Copies {
 impl Copies {
     /// Lists all vertices that there are, and joins the appended ones that equal another one.
     pub fn new(plan: &Plan, attributes: &mut Attributes) -> Copies {
+        let room = attributes.streams.vertices.positions.capacity();
         let sources = plan.weld.cluster_of.len();
         let mut copies = Copies {
             first: IdVec::filled(NONE, plan.weld.first_vertex.len()),
-            next: vec![NONE; sources],
+            next: Vec::with_capacity(room),
         };
+        copies.next.resize(sources, NONE);
         // From the last to the first: each list begins with its first vertex.
         for vertex in (0..sources as u32).rev() {
             let cluster = plan.weld.cluster_of[Vertex(vertex)];

@@ -80,7 +80,7 @@ impl Submeshes {
     /// Adds a new triangle whose owner's face is the given one.
     pub fn add(&mut self, owner: Triangle, vertices: [u32; 3], source: TriangleSource) {
         let submesh = self.of_new(owner);
-        self.parts[submesh].indices.extend(vertices);
+        self.parts[submesh].indices.extend_from_slice(&vertices);
         self.parts[submesh].sources.push(source);
     }
 

@@ -45,6 +45,8 @@ pub enum Depth {
 pub struct End {
     /// The owner's.
     pub half_edge: Corner,
+    /// The old edge, from where that starts.
+    pub edge: [DVec3; 2],
     /// 0 where that starts, 1 where it ends.
     pub place: f64,
     /// The pulled corner of the owner's side, and of the far one.
@@ -54,7 +56,8 @@ pub struct End {
 
 impl End {
     /// The distance from the old edge to the pulled one, and from there to the far side.
-    fn widths(&self, [from, to]: [DVec3; 2]) -> [f64; 2] {
+    fn widths(&self) -> [f64; 2] {
+        let [from, to] = self.edge;
         let along = unit(to - from);
         let across = |way: DVec3| (way - along * way.dot(along)).length();
         [self.near - from, self.far - self.near].map(across)
@@ -67,21 +70,20 @@ fn ends(plan: &Plan, half_edge: Corner) -> [DVec3; 2] {
 
 /// Where one far corner of a strip lands on its owner's band.
 pub fn band_foot(plan: &Plan, end: &End, spread: Spread, depth: Depth) -> Option<Blend> {
-    let edge = ends(plan, end.half_edge);
     let share = match spread {
-        Spread::Far => share_of(edge, end.far),
-        Spread::Near => share_of(edge, end.near),
+        Spread::Far => share_of(end.edge, end.far),
+        Spread::Near => share_of(end.edge, end.near),
         Spread::Whole => end.place,
     };
     let foot = on_edge(plan, end.half_edge, share);
     if depth == Depth::Band {
         return Some(foot);
     }
-    let [band, strip] = end.widths(edge);
+    let [band, strip] = end.widths();
     if strip >= band {
         return Some(foot);
     }
-    let [from, to] = edge;
+    let [from, to] = end.edge;
     let inward = plan.faces.normal[end.half_edge.triangle()].cross(unit(to - from));
     let way = (to - from) * share.clamp(0.0, 1.0) + inward * (band - strip);
     locate(&plan.view, end.half_edge, from, way).map(|foot| foot.blend(plan, 1.0))
@@ -90,13 +92,12 @@ pub fn band_foot(plan: &Plan, end: &End, spread: Spread, depth: Depth) -> Option
 /// The near and the far corner at one end of a strip that is laid into its owner's triangle, as
 /// deep as the strip is wide.
 pub fn inside(plan: &Plan, end: &End) -> [Blend; 2] {
-    let edge = ends(plan, end.half_edge);
-    let [from, to] = edge;
+    let [from, to] = end.edge;
     let apex = plan.view.position_at(end.half_edge.prev());
     let height = (to - from).cross(apex - from).length() / (to - from).length();
-    let [_, strip] = end.widths(edge);
+    let [_, strip] = end.widths();
     let depth = (strip / height).min(DEEPEST);
-    let foot = |pulled: DVec3| on_edge(plan, end.half_edge, share_of(edge, pulled));
+    let foot = |pulled: DVec3| on_edge(plan, end.half_edge, share_of(end.edge, pulled));
     let apex = Blend::one(plan.view.vertex_at(end.half_edge.prev()).0);
     let near = mixed(&[(foot(end.near), 1.0 - depth), (apex, depth)]);
     [near, foot(end.far)]

@@ -7,7 +7,7 @@ use super::feet::{Depth, End, Spread, band_foot, corner_lay, inside};
 use super::ground::Ground;
 use super::patch::{Joint, Patches, Taken};
 use super::{Owners, channels_of, place_of};
-use crate::attributes::{Attributes, Streams};
+use crate::attributes::Attributes;
 use crate::edges::HardEdge;
 use crate::ids::{Corner, Edge, Few};
 use crate::math::{area_vector, unit};
@@ -54,11 +54,12 @@ type Feet = [Option<Blend>; 4];
 /// A strip, and what is around it.
 pub struct StripMap<'a> {
     plan: &'a Plan<'a>,
+    attributes: &'a Attributes,
     edge: &'a HardEdge,
-    points: [DVec3; 4],
     cut: Cut,
-    /// The strip's own vertices: b1, a1, a2, b2.
-    vertices: [u32; 4],
+    points: [DVec3; 4],
+    /// Those of the strip: b1, a1, a2, b2.
+    corners: [Corner; 4],
     /// The corners at the edge's ends, on either side.
     ends: [[Corner; 2]; 2],
 }
@@ -67,15 +68,14 @@ impl<'a> StripMap<'a> {
     pub fn new(
         plan: &'a Plan,
         placement: &Placement,
-        attributes: &Attributes,
+        attributes: &'a Attributes,
         edge: &'a HardEdge,
         cut: Cut,
     ) -> Self {
         let corners = strips::corners(edge);
         let points = corners.map(|corner| placement.position_at(plan, corner));
-        let vertices = corners.map(|corner| attributes.vertex_at[corner]);
         let ends = edge.sides.map(|side| [side, side.next()]);
-        StripMap { plan, edge, points, cut, vertices, ends }
+        StripMap { plan, attributes, edge, cut, points, corners, ends }
     }
 
     fn feet(&self, way: Way) -> Feet {
@@ -105,8 +105,10 @@ impl<'a> StripMap<'a> {
     /// The strip at the start and at the end of the owner's half-edge.
     fn strip_ends(&self, owner: usize) -> [End; 2] {
         let half_edge = self.edge.sides[owner];
+        let edge = [half_edge, half_edge.next()].map(|corner| self.plan.view.position_at(corner));
         let end = |(place, [near, far]): (f64, [usize; 2])| End {
             half_edge,
+            edge,
             place,
             near: self.points[near],
             far: self.points[far],
@@ -139,10 +141,13 @@ impl<'a> StripMap<'a> {
     }
 
     /// How badly the strip lies on a channel in some way: see [`misfit`].
-    fn misfit(&self, streams: &Streams, channel: usize, way: Way, feet: &Feet) -> f64 {
+    fn misfit(&self, channel: usize, way: Way, feet: &Feet) -> f64 {
         let uv = |place: usize| match &feet[place] {
             Some(foot) => place_of(self.plan, channel, foot),
-            None => streams.uv(self.vertices[place], channel),
+            None => {
+                let vertex = self.attributes.vertex_at[self.corners[place]];
+                self.attributes.streams.uv(vertex, channel)
+            }
         };
         let uvs = [0, 1, 2, 3].map(uv);
         match way {
@@ -169,21 +174,21 @@ impl<'a> StripMap<'a> {
 
     /// Which of [`BANDS`] is the first on which the strip fits in its first channel with a seam, of
     /// those of a side; the first where nothing needs to fit.
-    pub fn band(&self, streams: &Streams, owner: usize) -> Option<u8> {
+    pub fn band(&self, owner: usize) -> Option<u8> {
         if self.edge.skipped.is_some() || self.edge.seams == 0 {
             return Some(0);
         }
         let channel = self.first_seam();
         let fits = |way: Way| {
             let feet = self.feet(way);
-            self.misfit(streams, channel, way, &feet) <= MOST_STRETCH
+            self.misfit(channel, way, &feet) <= MOST_STRETCH
         };
         bands(owner).position(fits).map(|place| place as u8)
     }
 
     /// The feet of the first way that fits, or else of the one that fits best, among those that
     /// agree with what other channels have taken.
-    fn lay(&self, streams: &Streams, channel: usize, owner: usize, taken: &Feet) -> Feet {
+    fn lay(&self, channel: usize, owner: usize, taken: &Feet) -> Feet {
         let own = (self.edge.seams >> channel & 1 == 0).then_some(Way::Own);
         let ways = own.into_iter().chain(bands(owner)).chain(bands(1 - owner));
         let sides = [owner, 1 - owner];
@@ -199,7 +204,7 @@ impl<'a> StripMap<'a> {
             if !(0..4).all(agrees) {
                 continue;
             }
-            let misfit = self.misfit(streams, channel, way, &feet);
+            let misfit = self.misfit(channel, way, &feet);
             if misfit < best.0 || is_first {
                 (best, is_first) = ((misfit, feet), false);
             }
@@ -235,16 +240,15 @@ pub fn add_strip(
         let known = owners.band[edge].filter(|_| map.first_seam() == channel && taken == [None; 4]);
         let feet = match known {
             Some(band) => map.feet(on_band(owner, band.into())),
-            None => map.lay(&attributes.streams, channel, owner, &taken),
+            None => map.lay(channel, owner, &taken),
         };
         for place in (0..4).filter(|&place| feet[place].is_some()) {
             taken[place] = feet[place];
             channels[place] |= 1 << channel;
         }
     }
-    let corners = strips::corners(hard);
     let joints = (0..4).map(|k| Joint {
-        corner: corners[k],
+        corner: map.corners[k],
         taken: taken[k].map(|place| Taken { channels: channels[k], place }),
     });
     let source = TriangleSource { kind: TriangleKind::Edge, index: edge.0 };

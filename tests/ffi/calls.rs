@@ -188,6 +188,13 @@ fn each_element_has_a_source() {
 }
 
 #[test]
+fn vertex_sources_are_made_once() {
+    let result = run(&Cube::new().view(), &options());
+    let ask = || array_of(&result, LIBRARY.chamfer_result_vertex_sources).as_ptr();
+    assert_eq!(ask(), ask());
+}
+
+#[test]
 fn a_result_can_be_chamfered_again() {
     let first = run(&Cube::new().view(), &options());
     let second = run(&mesh_of(&first), &options());
