@@ -190,7 +190,14 @@ fn each_element_has_a_source() {
 #[test]
 fn vertex_sources_are_made_once() {
     let result = run(&Cube::new().view(), &options());
-    let ask = || array_of(&result, LIBRARY.chamfer_result_vertex_sources).as_ptr();
+    let ask = || {
+        let (mut sources, mut count) = (ptr::null(), 0);
+        // SAFETY: the result lives, and both places are writable.
+        let status =
+            unsafe { (LIBRARY.chamfer_result_vertex_sources)(result.0, &mut sources, &mut count) };
+        assert_eq!(status, CHAMFER_STATUS_OK);
+        sources
+    };
     assert_eq!(ask(), ask());
 }
 
