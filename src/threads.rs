@@ -164,12 +164,16 @@ mod tests {
             let threads = Threads::new(threads, 100_000);
             let mut taken: Vec<Vertex> = Vec::new();
             let note = |_: &Vec<Vertex>, vertex: Vertex, notes: &mut Vec<Vertex>| {
-                if vertex.0 % 3 != 0 {
+                if !vertex.0.is_multiple_of(3) {
                     notes.push(vertex);
                 }
             };
             threads.blocks_then(10_000, &mut taken, note, |taken, notes| taken.append(notes));
-            assert!(taken.into_iter().eq((0..10_000).filter(|k| k % 3 != 0).map(Vertex)));
+            assert!(
+                taken
+                    .into_iter()
+                    .eq((0..10_000).filter(|k: &u32| !k.is_multiple_of(3)).map(Vertex))
+            );
         }
     }
 }
