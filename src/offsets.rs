@@ -10,10 +10,11 @@
 
 use glam::DVec3;
 
-use crate::edges::is_hard;
+use crate::edges::{is_hard, seam_between};
 use crate::faces::Faces;
-use crate::ids::{Corner, Id, IdVec, Sector, Triangle};
+use crate::ids::{Corner, Id, IdVec, Sector};
 use crate::math::{Turn, area_vector, unit};
+use crate::mesh::UV_CHANNELS;
 use crate::resample::{Foot, locate, uv_at};
 use crate::sectors::{Fan, Sectors};
 use crate::topology::Topology;
@@ -34,6 +35,14 @@ const FLAT_COSINE: f64 = 0.999_998_476_913_288;
 /// Triangles that lean by less than half a degree from each other may lie in one plane: the corners
 /// of a small one are rounded.
 const LEVEL_COSINE: f64 = 0.999_961_923_064_171;
+
+/// They do so if the corners of one are off the plane of the other by no more than this many times
+/// the resolution: four millionths of the largest coordinate, which is what exporters round to.
+const LEVEL_HEIGHT: f64 = 8.0;
+
+/// Past this many times a triangle's sides, rounding of its streams shows in what it tells of a
+/// place: then a larger triangle in its plane is asked.
+const FARTHEST: f64 = 16.0;
 
 /// A vertex slides along a border or crease that is at least this far (as a sine, 5.7 degrees)
 /// from the direction of the chamfered edge; nearer, sliding hardly opens the edge.
@@ -258,31 +267,70 @@ fn crease<'a>(view: &View, faces: &Faces, spread: &'a [Blade]) -> Crease<'a> {
     }
 }
 
-/// The normal of the plane that a triangle lies in: of all that lie in it, the largest knows best.
-fn steady_normal(view: &View, faces: &Faces, spread: &[Blade], triangle: Triangle) -> DVec3 {
-    let own = faces.normal[triangle];
+/// The corner whose triangle tells best in which plane a corner of a fan lies: of all triangles of
+/// its chart whose planes hold the corner's own, the largest.
+fn steadiest(view: &View, faces: &Faces, spread: &[Blade], corner: Corner) -> Corner {
     if spread.len() == 1 {
-        return own;
+        return corner;
     }
-    let area = |triangle: &Triangle| area_vector(view.triangle(*triangle)).length_squared();
-    let is_level = |other: &Triangle| faces.normal[*other].dot(own) > LEVEL_COSINE;
-    let level = spread.iter().map(|blade| blade.corner.triangle()).filter(is_level);
+    let area = |corner: &Corner| area_vector(view.triangle(corner.triangle())).length_squared();
+    let (arms, own) = (arms(view, corner), faces.normal[corner.triangle()]);
+    let holds_own = |other: &Corner| {
+        let normal = faces.normal[other.triangle()];
+        let is_near = |arm: &DVec3| arm.dot(normal).abs() <= view.resolution * LEVEL_HEIGHT;
+        let leans_alike = normal.dot(own) > LEVEL_COSINE;
+        leans_alike && arms.iter().all(is_near) && !faces.is_line(other.triangle())
+    };
+    let level = chart_of(view, spread, corner).filter(holds_own);
     let largest = level.max_by(|one, other| area(one).total_cmp(&area(other)));
-    largest.map_or(own, |largest| faces.normal[largest])
+    largest.filter(|largest| area(largest) > area(&corner)).unwrap_or(corner)
 }
 
-/// The offset in space; none where the corner has no plane.
+/// The corners of a fan from one seam to the next around a corner.
+fn chart_of(view: &View, spread: &[Blade], corner: Corner) -> impl Iterator<Item = Corner> {
+    let is_seam = |one: &Blade, other: &Blade| {
+        let ends = [(one.corner, other.corner), (one.corner.prev(), other.corner.next())];
+        (0..UV_CHANNELS).any(|channel| {
+            ends.into_iter().any(|(one, other)| seam_between(view, channel, one, other))
+        })
+    };
+    let charts = spread.chunk_by(move |one, other| !is_seam(one, other));
+    let holds = move |chart: &&[Blade]| chart.iter().any(|blade| blade.corner == corner);
+    charts.filter(holds).flatten().map(|blade| blade.corner)
+}
+
+/// The offset in space; none where the corner has no plane. Vector and foot lie in one plane, so
+/// that the foot blends to the very place.
 fn place(view: &View, faces: &Faces, spread: &[Blade], course: &Course) -> Option<Offset> {
-    let triangle = course.corner.triangle();
-    let (at, normal) =
-        (view.position_at(course.corner), steady_normal(view, faces, spread, triangle));
-    let ahead = unit(view.position_at(course.corner.next()) - at);
+    let within = course.corner;
+    let on = |plane: Corner| {
+        let vector = way(view, faces, course, plane);
+        let foot = locate(view, carrier(faces, plane), view.position_at(within), vector)?;
+        Some((vector, foot))
+    };
+    let own = on(within)?;
+    let steadiest = steadiest(view, faces, spread, within);
+    let steady = if steadiest == within { own } else { on(steadiest)? };
+    let is_level = own.0.distance(steady.0) <= view.resolution * LEVEL_HEIGHT;
+    let is_near = own.1.reach() <= steady.1.reach().max(FARTHEST);
+    let (vector, foot) = if is_level && is_near { own } else { steady };
+    let is_sound = faces.normal[within.triangle()] != DVec3::ZERO && vector.is_finite();
+    is_sound.then_some(Offset { vector, within, foot, is_capped: course.is_capped })
+}
+
+/// A corner of the triangle whose plane a corner lies in.
+fn carrier(faces: &Faces, corner: Corner) -> Corner {
+    let lender = faces.lender[corner.triangle()];
+    if lender.is_some() { lender } else { corner }
+}
+
+/// The way of a course in the plane of a triangle at the fan's centre.
+fn way(view: &View, faces: &Faces, course: &Course, plane: Corner) -> DVec3 {
+    let normal = faces.normal[plane.triangle()];
+    let [ahead, _] = arms(view, course.corner).map(unit);
     let aside = normal.cross(ahead);
-    let vector = (ahead * course.angle.cos() + aside * course.angle.sin()) * course.distance;
-    let carrier = if faces.is_line(triangle) { faces.lender[triangle] } else { course.corner };
-    let foot = locate(view, carrier, at, vector)?;
-    let is_sound = normal != DVec3::ZERO && vector.is_finite();
-    is_sound.then_some(Offset { vector, within: course.corner, foot, is_capped: course.is_capped })
+    let way = (ahead * course.angle.cos() + aside * course.angle.sin()) * course.distance;
+    way - normal * way.dot(normal)
 }
 
 #[cfg(test)]
@@ -347,6 +395,49 @@ mod tests {
         assert!(!at_end[0].moves());
     }
 
+    /// The mesh of points and indices, split at folds of more than a degree.
+    fn split(points: &[[f32; 3]], indices: Vec<u32>) -> MeshBuffers {
+        let smoothed = crate::split_by_angle(points, &indices, 1.0);
+        MeshBuffers {
+            positions: smoothed.source_of.iter().map(|&point| points[point as usize]).collect(),
+            normals: smoothed.normals,
+            submesh_index_counts: vec![indices.len() as u32],
+            indices: smoothed.indices,
+            ..MeshBuffers::default()
+        }
+    }
+
+    // 3 ------------- 0     the top of a box: 5 is off the plane by rounding, so that the small
+    // |           5 / |     triangle 0-4-5 leans by a tenth of a degree
+    // |            4  |
+    // 2 ------------- 1
+    #[test]
+    fn where_a_small_triangle_leans_by_rounding_a_larger_one_carries_the_vertex() {
+        let top = [[1.0, 1.0, 1.0], [1.0, 1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, 1.0, 1.0]];
+        let inside = [[0.99, 1.0, 0.985], [0.9985, 1.000_002, 0.999]];
+        let bottom = top.map(|[x, _, z]| [x, -1.0, z]);
+        let points = [&top[..], &inside[..], &bottom[..]].concat();
+        let mut indices = vec![0, 1, 4, 0, 4, 5, 0, 5, 3, 1, 2, 4, 4, 2, 5, 5, 2, 3];
+        for (a, b) in [(0, 3), (3, 2), (2, 1), (1, 0)] {
+            indices.extend([a, b, b + 6, a, b + 6, a + 6]);
+        }
+        indices.extend([6, 9, 8, 6, 8, 7]);
+        let box_ = split(&points, indices);
+        let plan = plan_of(&box_, 0.1);
+        let at_corner = |sector: &Sector| {
+            let fan = &plan.sectors.fans[*sector];
+            plan.view.position_at(fan.first) == DVec3::ONE
+                && plan.faces.normal[fan.first.triangle()].y > 0.5
+        };
+        let sector = plan.sectors.fans.ids().find(at_corner).unwrap();
+        let offset = &plan.offsets[sector];
+        assert!(offset.vector.y.abs() < 1e-9, "{}", offset.vector);
+        let blend = offset.foot.blend(&plan, 1.0);
+        let corners = blend.vertices.map(|v| plan.view.position(crate::ids::Vertex(v)));
+        let rebuilt = crate::resample::weighted_sum(&blend, corners);
+        assert!(rebuilt.distance(DVec3::ONE + offset.vector) < 1e-6, "{rebuilt}");
+    }
+
     /// A blade of 2.3 degrees: the exact distance would be fifty widths.
     #[test]
     fn at_a_sharp_tip_the_distance_is_cut_off() {
@@ -360,14 +451,7 @@ mod tests {
         ];
         let sides = [0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4, 2, 0, 3, 2, 3, 5];
         let indices = [&[0, 2, 1, 3, 4, 5][..], &sides[..]].concat();
-        let smoothed = crate::split_by_angle(&points, &indices, 1.0);
-        let blade = MeshBuffers {
-            positions: smoothed.source_of.iter().map(|&point| points[point as usize]).collect(),
-            normals: smoothed.normals,
-            submesh_index_counts: vec![indices.len() as u32],
-            indices: smoothed.indices,
-            ..MeshBuffers::default()
-        };
+        let blade = split(&points, indices);
         let tip = offsets_at(&blade, 0.01, [0.0, 0.0, 1.0], [0.0, 0.0, 1.0]);
         assert!(tip[0].is_capped);
         assert!((tip[0].vector.length() - 0.01 * MITER_LIMIT).abs() < 1e-6);

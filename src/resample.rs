@@ -36,6 +36,11 @@ impl Foot {
         Foot { corner, start: [0.0; 2], along: [0.0; 2] }
     }
 
+    /// How many times as far as along the triangle's sides the way goes.
+    pub fn reach(&self) -> f64 {
+        self.along[0].abs().max(self.along[1].abs())
+    }
+
     /// The blend of the triangle's vertices at a share of the way.
     pub fn blend(&self, plan: &Plan, share: f64) -> Blend {
         let [to_next, to_prev] = [0, 1].map(|k| self.start[k] + self.along[k] * share);
@@ -67,18 +72,21 @@ pub fn locate(view: &View, corner: Corner, from: DVec3, vector: DVec3) -> Option
 }
 
 /// Where a sector's full offset takes one of its corners on the surface: the triangle that the
-/// offset lies on, or one of the corner's own vertex if the surface breaks between the two.
+/// offset lies on, or one of the corner's own vertex if the surface breaks between the two and that
+/// has a plane.
 pub fn surface_foot(plan: &Plan, sector: Sector, corner: Corner) -> Foot {
     let agree = |one: Vertex, other: Vertex| {
         let (one, other) = (plan.view.normal(one), plan.view.normal(other));
         one.dot(other) >= HARD_COSINE * (one.length_squared() * other.length_squared()).sqrt()
     };
-    foot(plan, sector, corner, agree)
+    foot(plan, sector, corner, agree).unwrap_or(plan.offsets[sector].foot)
 }
 
-/// As [`surface_foot`], within the corner's own texture chart.
+/// As [`surface_foot`], within the corner's own texture chart; where that has no plane, the corner
+/// itself.
 pub fn chart_foot(plan: &Plan, sector: Sector, corner: Corner) -> Foot {
-    foot(plan, sector, corner, |one, other| same_chart(plan, one, other))
+    let agree = |one, other| same_chart(plan, one, other);
+    foot(plan, sector, corner, agree).unwrap_or(Foot::at(corner))
 }
 
 fn foot(
@@ -86,18 +94,18 @@ fn foot(
     sector: Sector,
     corner: Corner,
     agree: impl Fn(Vertex, Vertex) -> bool,
-) -> Foot {
+) -> Option<Foot> {
     let offset = &plan.offsets[sector];
     let vertex = plan.view.vertex_at(corner);
     let at_offset = plan.view.vertex_at(offset.within);
-    let carrier = offset.foot.corner;
     // A line's way lies on its neighbour, which may belong to something else.
-    let is_carried = carrier == offset.within || lends_chart(plan, offset.within, &agree);
+    let is_carried =
+        !plan.faces.is_line(offset.within.triangle()) || lends_chart(plan, offset.within, &agree);
     if (vertex == at_offset || agree(vertex, at_offset)) && is_carried {
-        return offset.foot;
+        return Some(offset.foot);
     }
-    let own = nearest_own(plan, sector, vertex, &agree);
-    locate(&plan.view, own, plan.view.position_at(own), offset.vector).unwrap_or(Foot::at(own))
+    let own = nearest_own(plan, sector, vertex, &agree)?;
+    locate(&plan.view, own, plan.view.position_at(own), offset.vector)
 }
 
 /// Whether a line's neighbour agrees with it at both ends of the side between them.
@@ -109,34 +117,25 @@ fn lends_chart(plan: &Plan, line: Corner, agree: &impl Fn(Vertex, Vertex) -> boo
     ends.map(vertices).into_iter().all(|(one, other)| one == other || agree(one, other))
 }
 
-/// The corner of the sector, of those that agree with the vertex, that is fewest steps round the
-/// fan from the one that the offset lies on.
+/// The corner of the sector, of those that have a plane and agree with the vertex, that is fewest
+/// steps round the fan from the one that the offset lies on; of two, the earlier.
 fn nearest_own(
     plan: &Plan,
     sector: Sector,
     vertex: Vertex,
     agree: &impl Fn(Vertex, Vertex) -> bool,
-) -> Corner {
+) -> Option<Corner> {
+    let corners = || plan.sectors.corners(&plan.topology, sector).enumerate();
     let within = plan.offsets[sector].within;
-    let mut before = None;
-    let mut has_passed = false;
-    for (step, corner) in plan.sectors.corners(&plan.topology, sector).enumerate() {
-        has_passed |= corner == within;
-        let own = plan.view.vertex_at(corner);
-        if own == vertex || agree(vertex, own) {
-            if !has_passed {
-                before = Some((step, corner));
-                continue;
-            }
-            let middle = plan.sectors.corners(&plan.topology, sector).position(|c| c == within);
-            let middle = middle.unwrap_or(0);
-            return match before {
-                Some((earlier, nearer)) if middle - earlier <= step - middle => nearer,
-                _ => corner,
-            };
-        }
-    }
-    before.map_or(within, |(_, corner)| corner)
+    let middle = corners().find(|(_, corner)| *corner == within)?.0;
+    let is_own = |(_, corner): &(usize, Corner)| {
+        let own = plan.view.vertex_at(*corner);
+        let triangle = corner.triangle();
+        let has_plane = plan.faces.normal[triangle] != DVec3::ZERO && !plan.faces.is_line(triangle);
+        has_plane && (own == vertex || agree(vertex, own))
+    };
+    let nearest = corners().filter(is_own).min_by_key(|(step, _)| step.abs_diff(middle));
+    nearest.map(|(_, corner)| corner)
 }
 
 /// Whether two vertices at one position belong to one chart: equal in all that a chart carries.

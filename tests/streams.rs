@@ -76,7 +76,8 @@ fn of_corpus(percent: f32) -> Option<Tally> {
 }
 
 /// What nothing may break.
-const KEPT: [&str; 9] = [
+const KEPT: [&str; 10] = [
+    "1 footprint",
     "2 uv",
     "2 colour",
     "2 normal",
@@ -89,17 +90,17 @@ const KEPT: [&str; 9] = [
 ];
 
 /// What real models may break, at most, as a share of what was looked at: chamfers that are larger
-/// than any face of their chart around them, and vertices pulled past a seam beside a crease.
-const BOUNDS: [(&str, f64); 9] = [
-    ("1 footprint", 0.0006),
+/// than any face of their chart around them, and vertices that go hundreds of times as far as the
+/// triangles around them are high, where weights in single precision tell the place no better.
+const BOUNDS: [(&str, f64); 8] = [
     ("1 area", 0.0001),
     ("1 mirrored", 0.0001),
     ("1 thin strip", 0.014),
     ("1 dense strip", 0.0002),
     ("1 thin fill", 0.008),
     ("1 dense fill", 0.0003),
-    ("2 position", 0.005),
-    ("3 affine", 0.005),
+    ("2 position", 3e-6),
+    ("3 affine", 4e-6),
 ];
 
 fn assert_kept(tally: &Tally) {

@@ -9,11 +9,11 @@ use super::density::{longest_side, size, uv_point};
 use crate::edges::seam_between;
 
 /// A chamfer that lies past the end of its chart by less than this share of its own length shows
-/// nothing else: textures have a margin there, and UVs are rounded.
-const MARGIN: f64 = 1e-3;
+/// nothing else: that is less than a texel.
+const MARGIN: f64 = 1e-4;
 
-/// Rounding of UVs, as a share of their size.
-const ROUNDING: f64 = 1e-6;
+/// Rounding of UVs to single precision, as a share of their size.
+const ROUNDING: f64 = 1e-7;
 
 /// Where a new triangle is looked at: its corners, the middles of its sides, and between them.
 const SAMPLES: [[f64; 3]; 7] = [
@@ -26,7 +26,11 @@ const SAMPLES: [[f64; 3]; 7] = [
     [1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0],
 ];
 
-/// The source triangles around some corners that lie in the corners' own chart of a channel.
+/// A chamfer may lie on so many triangles of a chart: more would take long to find.
+const MOST_FACES: usize = 64;
+
+/// The source triangles around some corners that lie in the corners' own chart of a channel, and
+/// what follows on these.
 pub struct Ground<'a> {
     plan: &'a Plan<'a>,
     channel: usize,
@@ -46,21 +50,55 @@ impl<'a> Ground<'a> {
         if self.any_face(|points| triangle.iter().all(|&point| holds(points, point))) {
             return true;
         }
-        SAMPLES.into_iter().all(|weights| {
-            let point = (0..3).map(|k| triangle[k] * weights[k]).sum();
-            self.any_face(|points| holds(points, point))
-        })
+        let samples = SAMPLES.map(|weights| (0..3).map(|k| triangle[k] * weights[k]).sum());
+        if samples.iter().all(|&point| self.any_face(|points| holds(points, point))) {
+            return true;
+        }
+        let below = self.below(triangle, near);
+        samples.iter().all(|&point| below.iter().any(|&face| holds(self.points(face), point)))
+    }
+
+    /// Corners of the chart's triangles that reach below a triangle on the texture, as far as they
+    /// follow on each other.
+    fn below(&self, triangle: [DVec2; 3], near: f64) -> Vec<Corner> {
+        let [low, high] = bounds(triangle);
+        let reaches = |corner: Corner| {
+            let [lowest, highest] = bounds(self.points(corner));
+            (lowest - high).max(low - highest).max_element() <= near
+        };
+        let mut below: Vec<Corner> = Vec::new();
+        self.any_corner(|corner| {
+            below.extend(Some(corner).filter(|&corner| reaches(corner)));
+            false
+        });
+        let mut visited = 0;
+        while visited < below.len() && below.len() < MOST_FACES {
+            for side in below[visited].triangle().corners() {
+                let twin = self.plan.topology.twin[side];
+                let is_known = || below.iter().any(|face| face.triangle() == twin.triangle());
+                if self.runs_on(side) && reaches(twin) && !is_known() {
+                    below.push(twin);
+                }
+            }
+            visited += 1;
+        }
+        below
     }
 
     /// Whether one of the triangles is such.
     fn any_face(&self, is_such: impl Fn([DVec2; 3]) -> bool) -> bool {
-        let is_such = |corner: Corner| is_such(self.points(corner));
+        self.any_corner(|corner| is_such(self.points(corner)))
+    }
+
+    /// Whether the corner of one of them is such.
+    fn any_corner(&self, mut is_such: impl FnMut(Corner) -> bool) -> bool {
+        let is_such = &mut is_such;
         self.corners.iter().any(|&at| self.any_ahead(at, is_such) || self.any_behind(at, is_such))
     }
 
     /// Whether one of the corners from one on, counter-clockwise around its vertex up to the
     /// chart's end, is such.
-    fn any_ahead(&self, at: Corner, is_such: impl Fn(Corner) -> bool) -> bool {
+    fn any_ahead(&self, at: Corner, is_such: &mut impl FnMut(Corner) -> bool) -> bool {
         let mut corner = at;
         while !is_such(corner) {
             let side = corner.prev();
@@ -73,7 +111,7 @@ impl<'a> Ground<'a> {
     }
 
     /// As [`Ground::any_ahead`], of the corners before one, clockwise.
-    fn any_behind(&self, at: Corner, is_such: impl Fn(Corner) -> bool) -> bool {
+    fn any_behind(&self, at: Corner, is_such: &mut impl FnMut(Corner) -> bool) -> bool {
         let mut corner = at;
         while self.runs_on(corner) {
             corner = self.plan.topology.twin[corner].next();
@@ -98,6 +136,11 @@ impl<'a> Ground<'a> {
         let uv = &self.plan.view.mesh.uvs[self.channel];
         corner.triangle().corners().map(|corner| uv_point(uv, self.plan.view.vertex_at(corner).0))
     }
+}
+
+/// The least and the greatest coordinates.
+fn bounds([a, b, c]: [DVec2; 3]) -> [DVec2; 2] {
+    [a.min(b).min(c), a.max(b).max(c)]
 }
 
 /// How far a point is from a triangle.

@@ -13,6 +13,10 @@ const ROUNDING: f64 = 1e-7;
 /// Cells along each side of a footprint's grid.
 const CELLS: usize = 24;
 
+/// How far around itself a triangle is looked for, as a share of its chart's size: more than any
+/// tolerance that is asked for.
+const REACH: f64 = 1e-3;
+
 /// What positions are one point: their bits, with one zero.
 pub type Key = [u32; 3];
 
@@ -182,7 +186,7 @@ impl Footprint {
             let low = [0, 1].map(|k| triangle.iter().map(|p| p[k]).fold(f64::INFINITY, f64::min));
             let high =
                 [0, 1].map(|k| triangle.iter().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max));
-            let ([x0, y0], [x1, y1]) = (self.cell(low, -1e-3), self.cell(high, 1e-3));
+            let ([x0, y0], [x1, y1]) = (self.cell(low, -REACH), self.cell(high, REACH));
             for y in y0..=y1 {
                 (x0..=x1).for_each(|x| cells[y * CELLS + x].push(place as u32));
             }
@@ -192,8 +196,9 @@ impl Footprint {
 
     fn cell(&self, point: Point, shift: f64) -> [usize; 2] {
         [0, 1].map(|k| {
-            let share = (point[k] - self.low[k]) / (self.high[k] - self.low[k]).max(1e-30);
-            ((share + shift) * CELLS as f64).clamp(0.0, CELLS as f64 - 1.0) as usize
+            let shifted = point[k] + shift * self.size();
+            let share = (shifted - self.low[k]) / (self.high[k] - self.low[k]).max(1e-30);
+            (share * CELLS as f64).clamp(0.0, CELLS as f64 - 1.0) as usize
         })
     }
 

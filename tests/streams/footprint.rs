@@ -41,7 +41,8 @@ fn check_triangle(
     let beside = neighbours(charts, before, after, triangle);
     let told = || {
         let kind = after.triangle_sources[triangle].kind;
-        format!("{kind:?} {triangle} channel {channel} at {:?} uvs {uvs:?}", places[0])
+        let source = after.triangle_sources[triangle].index;
+        format!("{kind:?} {source} channel {channel} at {:?} uvs {uvs:?}", places[0])
     };
     let holds = |&&face: &&usize| {
         samples(uvs).into_iter().all(|point| charts.footprint(face).covers(point, MARGIN))
