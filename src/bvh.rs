@@ -63,6 +63,11 @@ impl Kin {
         Kin { around: Some(around), bounds }
     }
 
+    /// The number of what it has in common with others; past all others for nothing.
+    pub fn crowd(&self) -> u32 {
+        self.around.unwrap_or(u32::MAX)
+    }
+
     /// Whether the two have nothing to do with each other, though their boxes overlap.
     pub fn is_apart(&self, other: &Kin) -> bool {
         self.around.is_some() && self.around == other.around && !self.bounds.overlaps(&other.bounds)
@@ -97,15 +102,22 @@ pub(crate) struct Forest {
 
 impl Forest {
     /// A tree over each group. `order` has the numbers of the boxes, group by group; `ends:
-    /// #groups` tells where each group ends there.
-    pub fn new(mut order: Vec<u32>, ends: &[u32], boxes: &[Aabb]) -> Forest {
+    /// #groups` tells where each group ends there. Boxes of different crowds (`crowd_of: #boxes`,
+    /// if there are any) are kept apart in a tree, so that its nodes have kin too.
+    pub fn new(
+        mut order: Vec<u32>,
+        ends: &[u32],
+        boxes: &[Aabb],
+        crowd_of: Option<&[u32]>,
+    ) -> Forest {
+        let build = Build { boxes, crowd_of };
         let mut nodes = Vec::with_capacity(order.len());
         let mut starts = vec![[0; 2]];
         let mut from = 0;
         for &end in ends {
             let root = nodes.len();
             if from < end {
-                build(&mut nodes, root, &mut order[from as usize..end as usize], 0, boxes);
+                build.add(&mut nodes, root, &mut order[from as usize..end as usize], 0);
             }
             starts.push([nodes.len() as u32, end]);
             from = end;
@@ -276,25 +288,52 @@ impl Tree<'_> {
     }
 }
 
-/// Appends the node over `order`, which stands at `first` in its tree, and all below it.
-fn build(nodes: &mut Vec<Node>, root: usize, order: &mut [u32], first: usize, boxes: &[Aabb]) {
-    let place = nodes.len();
-    let is_leaf = order.len() <= LEAF_SIZE;
-    let count = if is_leaf { order.len() as u32 } else { 0 };
-    nodes.push(Node { next: 0, first: first as u32, count });
-    if !is_leaf {
+struct Build<'a> {
+    boxes: &'a [Aabb],
+    crowd_of: Option<&'a [u32]>,
+}
+
+impl Build<'_> {
+    /// Appends the node over `order`, which stands at `first` in its tree, and all below it.
+    fn add(&self, nodes: &mut Vec<Node>, root: usize, order: &mut [u32], first: usize) {
+        let place = nodes.len();
+        let between = self.between_crowds(order);
+        let is_leaf = order.len() <= LEAF_SIZE && between.is_none();
+        let count = if is_leaf { order.len() as u32 } else { 0 };
+        nodes.push(Node { next: 0, first: first as u32, count });
+        if !is_leaf {
+            let half = between.unwrap_or_else(|| self.halve(order));
+            let (low, high) = order.split_at_mut(half);
+            self.add(nodes, root, low, first);
+            self.add(nodes, root, high, first + half);
+        }
+        nodes[place].next = (nodes.len() - root) as u32;
+    }
+
+    /// Splits at the median along the longest axis.
+    fn halve(&self, order: &mut [u32]) -> usize {
         let half = order.len() / 2;
         let bounds =
-            order.iter().fold(Aabb::EMPTY, |sum, &number| sum.union(boxes[number as usize]));
+            order.iter().fold(Aabb::EMPTY, |sum, &number| sum.union(self.boxes[number as usize]));
         let axis = longest_axis(&bounds);
-        let middle = |number: u32| boxes[number as usize].middle(axis);
+        let middle = |number: u32| self.boxes[number as usize].middle(axis);
         order
             .select_nth_unstable_by(half, |&a, &b| middle(a).total_cmp(&middle(b)).then(a.cmp(&b)));
-        let (low, high) = order.split_at_mut(half);
-        build(nodes, root, low, first, boxes);
-        build(nodes, root, high, first + half, boxes);
+        half
     }
-    nodes[place].next = (nodes.len() - root) as u32;
+
+    /// Where there are several crowds: sorts by them, and splits between two of them, nearest to
+    /// the middle.
+    fn between_crowds(&self, order: &mut [u32]) -> Option<usize> {
+        let crowd_of = |number: u32| self.crowd_of.map(|crowd_of| crowd_of[number as usize]);
+        let first = crowd_of(*order.first()?)?;
+        if order.iter().all(|&number| crowd_of(number) == Some(first)) {
+            return None;
+        }
+        order.sort_unstable_by_key(|&number| (crowd_of(number), number));
+        let is_between = |k: &usize| crowd_of(order[k - 1]) != crowd_of(order[*k]);
+        (1..order.len()).filter(is_between).min_by_key(|k| k.abs_diff(order.len() / 2))
+    }
 }
 
 fn longest_axis(bounds: &Aabb) -> usize {
@@ -308,7 +347,7 @@ mod tests {
 
     fn pairs(boxes: &[Aabb]) -> Vec<(u32, u32)> {
         let numbers: Vec<u32> = (0..boxes.len() as u32).collect();
-        let forest = Forest::new(numbers, &[boxes.len() as u32], boxes);
+        let forest = Forest::new(numbers, &[boxes.len() as u32], boxes, None);
         let tree = forest.tree(0);
         let boxes = tree.order.iter().map(|&number| boxes[number as usize]).collect();
         let bounds = Bounds::new(tree, boxes, Vec::new());
@@ -355,7 +394,7 @@ mod tests {
     #[test]
     fn refitted_nodes_are_those_of_a_new_fit() {
         let (small, large) = (scattered(5.0), scattered(30.0));
-        let forest = Forest::new((0..200).collect(), &[80, 200], &small);
+        let forest = Forest::new((0..200).collect(), &[80, 200], &small, None);
         let tree = forest.tree(1);
         let boxes = tree.order.iter().map(|&number| small[number as usize]).collect();
         let mut bounds = Bounds::new(tree, boxes, Vec::new());

@@ -158,7 +158,7 @@ impl Loop<'_> {
             && self.sides().all(|[from, to]| {
                 let points = [self.points[from], self.points[to], middle];
                 let normals = [self.normals[from], self.normals[to], normal];
-                facing(points, normals, self.resolution).is_some()
+                faces_out(points, normals, self.resolution)
             })
     }
 

@@ -13,7 +13,7 @@ mod crowds;
 use glam::DVec3;
 use robust::{Coord, Coord3D, orient2d, orient3d};
 
-use crate::bvh::{Aabb, Bounds, Forest};
+use crate::bvh::{Aabb, Bounds, Forest, Kin};
 
 use apart::{are_apart, are_apart_but_for_corner};
 use crowds::crowds;
@@ -34,13 +34,14 @@ pub(crate) fn self_intersections(
     let corners = |t: u32| triangles[t as usize].map(|v| positions[v as usize]);
     let numbers: Vec<u32> = (0..triangles.len() as u32).collect();
     let boxes: Vec<Aabb> = numbers.iter().map(|&t| bounds(&corners(t))).collect();
-    let kin = crowds(triangles.len(), corners).unwrap_or_default();
-    let forest = Forest::new(numbers, &[triangles.len() as u32], &boxes);
+    let kin = crowds(triangles.len(), corners);
+    let crowd_of: Option<Vec<u32>> = kin.as_ref().map(|kin| kin.iter().map(Kin::crowd).collect());
+    let forest = Forest::new(numbers, &[triangles.len() as u32], &boxes, crowd_of.as_deref());
     let tree = forest.tree(0);
     let at = |t: &u32| *t as usize;
     let boxes = tree.order.iter().map(|t| boxes[at(t)]).collect();
-    let kin = tree.order.iter().filter_map(|t| kin.get(at(t)).copied()).collect();
-    let bounds = Bounds::new(tree, boxes, kin);
+    let kin = kin.map(|kin| tree.order.iter().map(|t| kin[at(t)]).collect());
+    let bounds = Bounds::new(tree, boxes, kin.unwrap_or_default());
     let mut pairs: Vec<(u32, u32)> = tree
         .pairs(&bounds)
         .map(|(a, b)| (tree.order[a], tree.order[b]))

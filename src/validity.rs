@@ -57,21 +57,23 @@ fn keeps_direction(old: [DVec3; 3], new: [DVec3; 3]) -> bool {
 /// the least height that counts.
 pub fn faces_out(points: [DVec3; 3], normals: [DVec3; 3], resolution: f64) -> bool {
     let area = area_vector(points);
-    let normal = normals[0] + normals[1] + normals[2];
-    let along = area.dot(normal);
-    // Squares all over: this is asked for every new triangle, and roots take longest.
-    let least = LEAST_FACING_COSINE * LEAST_FACING_COSINE;
-    along > 0.0
-        && along * along >= least * (area.length_squared() * normal.length_squared())
-        && has_area(points, area, resolution)
+    faces(area, normals[0] + normals[1] + normals[2]) && has_area(points, area, resolution)
 }
 
 /// The cosine between a new triangle's normal and the sum of its vertex normals; none if the
 /// triangle may not be.
 pub fn facing(points: [DVec3; 3], normals: [DVec3; 3], resolution: f64) -> Option<f64> {
-    let area = area_vector(points);
-    let cosine = unit(area).dot(unit(normals[0] + normals[1] + normals[2]));
-    (cosine >= LEAST_FACING_COSINE && has_area(points, area, resolution)).then_some(cosine)
+    let (area, normal) = (area_vector(points), normals[0] + normals[1] + normals[2]);
+    let may_be = faces(area, normal) && has_area(points, area, resolution);
+    may_be.then(|| unit(area).dot(unit(normal)))
+}
+
+/// Whether a triangle faces along a normal. Squares all over: this is asked for every new
+/// triangle, and roots take longest.
+fn faces(area: DVec3, normal: DVec3) -> bool {
+    let along = area.dot(normal);
+    let least = LEAST_FACING_COSINE * LEAST_FACING_COSINE;
+    along > 0.0 && along * along >= least * (area.length_squared() * normal.length_squared())
 }
 
 /// Whether a triangle is more than a line.

@@ -1,21 +1,19 @@
-//! Cells: all triangles of the result, each with the source triangle that it stands on.
+//! Cells: all triangles of the result, in the trees of their parts.
 //!
-//! A cell is a source triangle, the half of each strip along it, and a share of the fills at its
-//! corners. So a tree over the source triangles finds the new ones too, and when sectors move only
-//! a few boxes change.
+//! When sectors move, only the boxes of what they touch change, and only that is searched again.
 
 use crate::bvh::{Aabb, Bounds, Kin, Tree};
 use crate::corners;
-use crate::ids::{Corner, Edge, Few, Ring, Sector, Triangle};
+use crate::ids::{Corner, Few, Sector};
 use crate::intersect::{self, Around, bounds, cut_each_other};
 use crate::placement::Placement;
 use crate::plan::Plan;
 use crate::strips;
 
-use super::parts::Parts;
+use super::parts::{Cell, Parts, is_crowded};
 use super::{Element, around, fill};
 
-/// The cells of one part, and what of them has to be searched.
+/// The cells of one part, and which of them have to be searched.
 pub struct Cells<'a> {
     plan: &'a Plan<'a>,
     parts: &'a Parts,
@@ -27,8 +25,7 @@ pub struct Cells<'a> {
     bounds: Bounds,
     /// `#places`: whether something in the cell may cut something that it did not before.
     is_open: Vec<bool>,
-    /// `#crowds` of the part: where they gather.
-    around: Vec<Around>,
+    gatherings: Gatherings,
     /// Cells whose items were placed anew.
     touched: Vec<u32>,
 }
@@ -38,15 +35,34 @@ pub struct Cells<'a> {
 struct Item {
     bounds: Aabb,
     corners: intersect::Triangle,
-    element: Element,
     /// Whether it is new or has moved.
     is_changed: bool,
     /// Whether it took part in a cut when that was last looked for.
     is_cut: bool,
 }
 
-/// What a cell has no use for now.
-const NO_CORNERS: intersect::Triangle = [[0.0; 3]; 3];
+impl Item {
+    /// What a cell has no use for now.
+    const NONE: Item =
+        Item { bounds: Aabb::EMPTY, corners: [[0.0; 3]; 3], is_changed: false, is_cut: false };
+
+    fn new(corners: [glam::DVec3; 3], is_changed: bool) -> Item {
+        let corners = corners.map(|point| point.as_vec3().to_array());
+        Item { bounds: bounds(&corners), corners, is_changed, is_cut: false }
+    }
+}
+
+/// Where the crowds of a part gather.
+#[derive(Default)]
+struct Gatherings {
+    /// The numbers of the crowds.
+    crowds: Vec<u32>,
+    /// `#crowds`: from where their cells lie in different directions.
+    around: Vec<Around>,
+    /// `#places`: the place of the cell's crowd among these; past all for none. Empty where there
+    /// is no crowd.
+    of_place: Vec<u32>,
+}
 
 impl<'a> Cells<'a> {
     pub fn new(plan: &'a Plan<'a>, parts: &'a Parts) -> Cells<'a> {
@@ -58,7 +74,7 @@ impl<'a> Cells<'a> {
             items: Vec::new(),
             bounds: Bounds::default(),
             is_open: Vec::new(),
-            around: Vec::new(),
+            gatherings: Gatherings::default(),
             touched: Vec::new(),
         }
     }
@@ -70,21 +86,33 @@ impl<'a> Cells<'a> {
     /// Turns to a part, where its sectors stand now. All that has changed is to be searched.
     pub fn enter(&mut self, part: usize, placement: &Placement) {
         self.part = part;
-        self.starts.clear();
+        let cells = || self.tree().order.iter().map(|&number| self.parts.cell(number));
+        let mut end = 0;
+        let ends = cells().map(|cell| {
+            end += most_items(self.plan, cell);
+            end
+        });
+        let starts = std::iter::once(0).chain(ends).collect();
+        self.starts = starts;
         self.items.clear();
-        for &triangle in self.tree().order {
-            self.starts.push(self.items.len() as u32);
-            self.add_items(Triangle(triangle));
-        }
-        self.starts.push(self.items.len() as u32);
-        for place in 0..self.tree().order.len() {
-            for item in self.items_at(place) {
-                self.place_if_first(placement, Triangle(self.tree().order[place]), item);
+        self.items.resize(end as usize, Item::NONE);
+        for &number in self.tree().order {
+            match self.parts.cell(number) {
+                Cell::Surface(triangle) => self.place(placement, Element::Surface(triangle)),
+                Cell::Strip(edge) => self.place(placement, Element::Strip(edge)),
+                Cell::Fill(ring) => self.place(placement, Element::Fill(ring)),
+                Cell::Share(sector) => {
+                    let ring = self.plan.sectors.fans[sector].ring;
+                    if self.plan.sectors.ring(ring)[0] == sector {
+                        self.place(placement, Element::Fill(ring));
+                    }
+                }
             }
         }
         self.touched.clear();
         self.open(|item| item.is_changed);
-        self.fit(placement);
+        self.gather(placement);
+        self.fit();
     }
 
     /// Opens the cells that have such an item, and closes all others.
@@ -94,120 +122,84 @@ impl<'a> Cells<'a> {
         self.is_open = is_open.collect();
     }
 
-    fn add_items(&mut self, triangle: Triangle) {
-        let (plan, corners) = (self.plan, triangle.corners());
-        let mut add = |element| {
-            let (bounds, corners) = (Aabb::EMPTY, NO_CORNERS);
-            self.items.push(Item { bounds, corners, element, is_changed: false, is_cut: false });
-        };
-        add(Element::Surface(triangle));
-        for edge in corners.map(|corner| plan.edges.chamfered_at[corner]) {
-            if edge.is_some() {
-                add(Element::Strip(edge));
-            }
-        }
-        for corner in corners {
-            let sector = plan.sectors.sector_of[corner];
-            if sector.is_some() && plan.sectors.fans[sector].first == corner {
-                add(Element::Fill(plan.sectors.fans[sector].ring));
-            }
-        }
-    }
-
     fn items_at(&self, place: usize) -> std::ops::Range<usize> {
         self.starts[place] as usize..self.starts[place + 1] as usize
     }
 
-    /// Places an item of a cell, with all others of its element, but for the first of these alone.
-    fn place_if_first(&mut self, placement: &Placement, triangle: Triangle, item: usize) {
-        let element = self.items[item].element;
-        let is_first = match element {
-            Element::Surface(_) => true,
-            Element::Strip(edge) => self.plan.edges.hard[edge].sides[0].triangle() == triangle,
-            Element::Fill(ring) => self.holder(self.plan.sectors.ring(ring)[0]) == triangle,
-        };
-        if is_first {
-            self.place(placement, element);
-        }
-    }
-
-    /// The triangle whose cell has a sector's share of the fill.
-    fn holder(&self, sector: Sector) -> Triangle {
-        self.plan.sectors.fans[sector].first.triangle()
-    }
-
+    /// Places the triangles of an element where the sectors stand now.
     fn place(&mut self, placement: &Placement, element: Element) {
-        match element {
-            Element::Surface(triangle) => self.place_surface(placement, triangle),
-            Element::Strip(edge) => self.place_strip(placement, edge),
-            Element::Fill(ring) => self.place_fill(placement, ring),
-        }
-    }
-
-    fn place_surface(&mut self, placement: &Placement, triangle: Triangle) {
         let plan = self.plan;
-        let has_moved = |corner: Corner| {
-            let sector = plan.sectors.sector_of[corner];
-            sector.is_some() && placement.has_moved(plan, sector)
-        };
-        let corners = triangle.corners().map(|corner| placement.position_at(plan, corner));
-        let is_changed = triangle.corners().into_iter().any(has_moved);
-        self.set(triangle, Element::Surface(triangle), Some(narrow(corners)), is_changed);
-    }
-
-    fn place_strip(&mut self, placement: &Placement, edge: Edge) {
-        let hard = &self.plan.edges.hard[edge];
-        let quad = strips::quad(self.plan, placement, hard);
-        let triangles = strips::cut(&quad).triangles();
-        for (k, side) in hard.sides.into_iter().enumerate() {
-            let corners = triangles.get(k).map(|corners| corners.map(|place| quad.points[place]));
-            self.set(side.triangle(), Element::Strip(edge), corners.map(narrow), corners.is_some());
+        match element {
+            Element::Surface(triangle) => {
+                let has_moved = |corner: Corner| {
+                    let sector = plan.sectors.sector_of[corner];
+                    sector.is_some() && placement.has_moved(plan, sector)
+                };
+                let corners = triangle.corners();
+                let points = corners.map(|corner| placement.position_at(plan, corner));
+                let item = Item::new(points, corners.into_iter().any(has_moved));
+                self.set(Cell::Surface(triangle), std::iter::once(item));
+            }
+            Element::Strip(edge) => {
+                let quad = strips::quad(plan, placement, &plan.edges.hard[edge]);
+                let triangles = strips::cut(&quad).triangles().iter();
+                let points = triangles.map(|corners| corners.map(|place| quad.points[place]));
+                self.set(Cell::Strip(edge), points.map(|points| Item::new(points, true)));
+            }
+            Element::Fill(ring) => {
+                let sectors = plan.sectors.ring(ring);
+                let items = fill_items(plan, placement, ring).into_iter();
+                if is_crowded(sectors) {
+                    let mut items = items;
+                    for &sector in sectors {
+                        self.set(Cell::Share(sector), items.next().into_iter());
+                    }
+                } else if sectors.len() >= 3 {
+                    self.set(Cell::Fill(ring), items);
+                }
+            }
         }
     }
 
-    fn place_fill(&mut self, placement: &Placement, ring: Ring) {
-        let sectors = self.plan.sectors.ring(ring);
-        let fill = fill(self.plan, placement, ring).unwrap_or_default();
-        let mut points: Few<_> = sectors.iter().map(|&sector| placement.point[sector]).collect();
-        let middles: Few<_> =
-            fill.middles.iter().map(|places| corners::middle(&points, places)).collect();
-        points.extend(middles);
-        for (k, &sector) in sectors.iter().enumerate() {
-            let corners = fill.triangles.get(k).map(|corners| corners.map(|place| points[place]));
-            let is_new = corners.is_some();
-            self.set(self.holder(sector), Element::Fill(ring), corners.map(narrow), is_new);
-        }
+    /// Gives a cell its items.
+    fn set(&mut self, cell: Cell, mut items: impl Iterator<Item = Item>) {
+        let place = self.parts.place_of(cell);
+        let own = self.items_at(place);
+        self.items[own].iter_mut().for_each(|item| *item = items.next().unwrap_or(Item::NONE));
+        self.touched.push(place as u32);
     }
 
-    /// Gives an element's item in the cell of a triangle its corners.
-    fn set(
-        &mut self,
-        triangle: Triangle,
-        element: Element,
-        corners: Option<intersect::Triangle>,
-        is_changed: bool,
-    ) {
-        let cell = self.parts.place_of(triangle);
-        let items = self.items_at(cell);
-        if let Some(item) = self.items[items].iter_mut().find(|item| item.element == element) {
-            item.corners = corners.unwrap_or(NO_CORNERS);
-            item.bounds = bounds(&item.corners);
-            item.is_changed = is_changed;
-            self.touched.push(cell as u32);
+    /// Finds the crowds of the part, which stand side by side in its tree, and where they gather.
+    fn gather(&mut self, placement: &Placement) {
+        self.gatherings = Gatherings::default();
+        let Some(all) = self.parts.crowds() else { return };
+        let Gatherings { crowds, of_place, .. } = &mut self.gatherings;
+        for &number in self.parts.tree(self.part).order {
+            let crowd = all.of_cell[number as usize];
+            if crowd != u32::MAX && crowds.last() != Some(&crowd) {
+                crowds.push(crowd);
+            }
+            of_place.push(if crowd == u32::MAX { crowd } else { crowds.len() as u32 - 1 });
         }
+        if crowds.is_empty() {
+            of_place.clear();
+        }
+        self.gatherings.around = self.around_now(placement);
+    }
+
+    fn around_now(&self, placement: &Placement) -> Vec<Around> {
+        let Some(all) = self.parts.crowds() else { return Vec::new() };
+        let around = |&crowd: &u32| all.crowds[crowd as usize].around(self.plan, placement);
+        self.gatherings.crowds.iter().map(around).collect()
     }
 
     /// Fits the tree to all cells.
-    fn fit(&mut self, placement: &Placement) {
+    fn fit(&mut self) {
         let count = self.is_open.len();
         self.bounds.boxes.clear();
         self.bounds.boxes.resize(count, Aabb::EMPTY);
         self.bounds.kin.clear();
-        self.around.clear();
-        if let Some((crowds, _)) = self.parts.crowds(self.part) {
-            self.bounds.kin.resize(count, Kin::NONE);
-            self.around.extend(crowds.iter().map(|crowd| crowd.around(self.plan, placement)));
-        }
+        self.bounds.kin.resize(self.gatherings.of_place.len(), Kin::NONE);
         (0..count).for_each(|cell| self.fit_cell(cell));
         self.tree().fit(&mut self.bounds);
     }
@@ -216,12 +208,11 @@ impl<'a> Cells<'a> {
         let items = &self.items[self.items_at(cell)];
         self.bounds.boxes[cell] =
             items.iter().fold(Aabb::EMPTY, |all, item| all.union(item.bounds));
-        if let Some((_, of)) = self.parts.crowds(self.part)
-            && let Some(around) = self.around.get(of[cell] as usize)
-        {
+        let Some(&crowd) = self.gatherings.of_place.get(cell) else { return };
+        if let Some(around) = self.gatherings.around.get(crowd as usize) {
             let items = items.iter().filter(|item| item.bounds != Aabb::EMPTY);
             let seen = items.map(|item| around.seen(&item.corners));
-            self.bounds.kin[cell] = Kin::new(of[cell], seen.fold(Aabb::EMPTY, Aabb::union));
+            self.bounds.kin[cell] = Kin::new(crowd, seen.fold(Aabb::EMPTY, Aabb::union));
         }
     }
 
@@ -233,7 +224,7 @@ impl<'a> Cells<'a> {
         }
         let mut touched = std::mem::take(&mut self.touched);
         touched.iter().for_each(|&cell| self.is_open[cell as usize] = true);
-        touched.extend(self.in_other_crowds(placement));
+        touched.extend(self.in_moved_crowds(placement));
         touched.sort_unstable();
         touched.dedup();
         touched.iter().for_each(|&cell| self.fit_cell(cell as usize));
@@ -241,60 +232,74 @@ impl<'a> Cells<'a> {
         self.touched = touched;
     }
 
-    /// The cells in crowds around something that has moved.
-    fn in_other_crowds(&mut self, placement: &Placement) -> Vec<u32> {
-        let Some((crowds, of)) = self.parts.crowds(self.part) else { return Vec::new() };
-        let around = crowds.iter().map(|crowd| crowd.around(self.plan, placement));
-        let before = std::mem::replace(&mut self.around, around.collect());
-        let is_other = |crowd: u32| {
-            let crowd = crowd as usize;
-            before.get(crowd) != self.around.get(crowd)
+    /// The cells of crowds around something that has moved.
+    fn in_moved_crowds(&mut self, placement: &Placement) -> Vec<u32> {
+        let around = self.around_now(placement);
+        let before = std::mem::replace(&mut self.gatherings.around, around);
+        let has_moved = |crowd: u32| {
+            let [before, now] = [&before, &self.gatherings.around].map(|v| v.get(crowd as usize));
+            before != now
         };
-        (0..).zip(of).filter(|(_, crowd)| is_other(**crowd)).map(|(cell, _)| cell).collect()
+        let of_place = (0..).zip(&self.gatherings.of_place);
+        of_place.filter(|(_, crowd)| has_moved(**crowd)).map(|(place, _)| place).collect()
     }
 
     /// All elements that take part in a cut; none where the part cut through itself already.
     pub fn new_cuts(&mut self) -> Vec<Element> {
-        let mut found: Vec<[usize; 2]> = Vec::new();
+        let Some(found) = self.cuts() else { return Vec::new() };
+        self.items.iter_mut().for_each(|item| item.is_cut = false);
+        found.as_flattened().iter().for_each(|&item| self.items[item as usize].is_cut = true);
+        self.open(|item| item.is_cut);
+        let open = (0..self.is_open.len()).filter(|&place| self.is_open[place]);
+        open.map(|place| self.element(place)).collect()
+    }
+
+    fn element(&self, place: usize) -> Element {
+        match self.parts.cell(self.tree().order[place]) {
+            Cell::Surface(triangle) => Element::Surface(triangle),
+            Cell::Strip(edge) => Element::Strip(edge),
+            Cell::Fill(ring) => Element::Fill(ring),
+            Cell::Share(sector) => Element::Fill(self.plan.sectors.fans[sector].ring),
+        }
+    }
+
+    /// The pairs of items that cut each other, by open cells; none where the part cut through
+    /// itself already.
+    fn cuts(&self) -> Option<Vec<[u32; 2]>> {
+        let mut found = Vec::new();
         let tree = self.tree();
-        let leaf_is_open = |leaf: usize| self.is_open[tree.places(leaf)].contains(&true);
-        let all_are_open = tree.leaves().all(leaf_is_open);
-        for leaf in tree.leaves().filter(|&leaf| leaf_is_open(leaf)) {
+        let is_open = |leaf: usize| self.is_open[tree.places(leaf)].contains(&true);
+        let all_are_open = tree.leaves().all(is_open);
+        for leaf in tree.leaves().filter(|&leaf| is_open(leaf)) {
             let from = if all_are_open { leaf } else { 0 };
             for other in tree.leaves_near(&self.bounds, leaf, from) {
-                if other >= leaf || !leaf_is_open(other) {
-                    self.cuts_between(leaf, other, &mut found);
-                }
-                if !found.is_empty() && self.parts.was_cut(&self.plan.view, self.part) {
-                    return Vec::new();
+                if other >= leaf || !is_open(other) {
+                    self.add_cuts_between(leaf, other, &mut found);
                 }
             }
+            if !found.is_empty() && self.parts.was_cut(self.plan, self.part) {
+                return None;
+            }
         }
-        self.items.iter_mut().for_each(|item| item.is_cut = false);
-        found.as_flattened().iter().for_each(|&item| self.items[item].is_cut = true);
-        self.open(|item| item.is_cut);
-        self.items.iter().filter(|item| item.is_cut).map(|item| item.element).collect()
+        Some(found)
     }
 
     /// Adds the items of two leaves that cut each other.
-    fn cuts_between(&self, leaf: usize, other: usize, found: &mut Vec<[usize; 2]>) {
+    fn add_cuts_between(&self, leaf: usize, other: usize, found: &mut Vec<[u32; 2]>) {
         let tree = self.tree();
         for a in tree.places(leaf) {
             let from = if other == leaf { a } else { tree.places(other).start };
             for b in from..tree.places(other).end {
                 if !self.bounds.are_apart(a, b) {
-                    self.cuts_of_cells(a, b, found);
+                    self.add_cuts_of_cells(a, b, found);
                 }
             }
         }
     }
 
-    fn cuts_of_cells(&self, a: usize, b: usize, found: &mut Vec<[usize; 2]>) {
+    fn add_cuts_of_cells(&self, a: usize, b: usize, found: &mut Vec<[u32; 2]>) {
         for one in self.items_at(a) {
             let item = &self.items[one];
-            if !item.bounds.overlaps(&self.bounds.boxes[b]) {
-                continue;
-            }
             let others = self.items_at(b);
             for other in others.start.max(if a == b { one + 1 } else { 0 })..others.end {
                 let second = &self.items[other];
@@ -302,13 +307,29 @@ impl<'a> Cells<'a> {
                     && item.bounds.overlaps(&second.bounds)
                     && cut_each_other(&item.corners, &second.corners)
                 {
-                    found.push([one, other]);
+                    found.push([one as u32, other as u32]);
                 }
             }
         }
     }
 }
 
-fn narrow(corners: [glam::DVec3; 3]) -> intersect::Triangle {
-    corners.map(|point| point.as_vec3().to_array())
+/// How many triangles a cell can have.
+fn most_items(plan: &Plan, cell: Cell) -> u32 {
+    match cell {
+        Cell::Surface(_) | Cell::Share(_) => 1,
+        Cell::Strip(_) => 2,
+        Cell::Fill(ring) => plan.sectors.ring(ring).len() as u32,
+    }
+}
+
+fn fill_items(plan: &Plan, placement: &Placement, ring: crate::ids::Ring) -> Few<Item> {
+    let sectors = plan.sectors.ring(ring);
+    let fill = fill(plan, placement, ring).unwrap_or_default();
+    let mut points: Few<_> = sectors.iter().map(|&sector| placement.point[sector]).collect();
+    let middles: Few<_> =
+        fill.middles.iter().map(|places| corners::middle(&points, places)).collect();
+    points.extend(middles);
+    let item = |corners: &[usize; 3]| Item::new(corners.map(|place| points[place]), true);
+    fill.triangles.iter().map(item).collect()
 }

@@ -1,16 +1,16 @@
-//! Parts: triangles that are joined by edges, with a tree over each part that is chamfered.
+//! Parts: what is joined by edges, with a tree over each part that is chamfered.
 //!
-//! No width has a say in them: the triangles of the result are searched by the source triangles
-//! that they stand on (see `cells`).
+//! No width has a say in them: a tree is over the cells of a part, which are its source triangles,
+//! its strips and its fills, wherever these come to stand.
 
 use std::collections::HashMap;
 use std::sync::OnceLock;
 
-use crate::bvh::{Aabb, Bounds, Forest, Tree};
+use crate::bvh::{Aabb, Bounds, Forest, Kin, Tree};
 use crate::corners::middle;
 use crate::groups::Groups;
-use crate::ids::{Cluster, Corner, Few, Id, IdVec, Ring, Sector, Triangle};
-use crate::intersect::{Around, bounds, cut_each_other};
+use crate::ids::{Cluster, Corner, Edge, Few, Id, IdVec, Ring, Sector, Triangle};
+use crate::intersect::{self, Around, bounds, cut_each_other};
 use crate::placement::Placement;
 use crate::plan::Plan;
 use crate::topology::Topology;
@@ -19,11 +19,53 @@ use crate::view::View;
 /// Where fewer meet, comparing each with each costs less than telling them apart.
 const CROWD: usize = 32;
 
+/// What a tree is over.
+#[derive(Clone, Copy)]
+pub enum Cell {
+    Surface(Triangle),
+    /// Both its triangles.
+    Strip(Edge),
+    /// All triangles of the fill.
+    Fill(Ring),
+    /// One triangle of the fill of a crowded ring, for each of its sectors.
+    Share(Sector),
+}
+
+/// Cells are numbered by kind.
+struct Counts {
+    triangles: u32,
+    edges: u32,
+    rings: u32,
+}
+
+impl Counts {
+    fn number(&self, cell: Cell) -> u32 {
+        match cell {
+            Cell::Surface(triangle) => triangle.0,
+            Cell::Strip(edge) => self.triangles + edge.0,
+            Cell::Fill(ring) => self.triangles + self.edges + ring.0,
+            Cell::Share(sector) => self.triangles + self.edges + self.rings + sector.0,
+        }
+    }
+
+    fn cell(&self, number: u32) -> Cell {
+        let [edges, rings] = [self.triangles, self.triangles + self.edges];
+        let shares = rings + self.rings;
+        match number {
+            _ if number < edges => Cell::Surface(Triangle(number)),
+            _ if number < rings => Cell::Strip(Edge(number - edges)),
+            _ if number < shares => Cell::Fill(Ring(number - rings)),
+            _ => Cell::Share(Sector(number - shares)),
+        }
+    }
+}
+
 /// The parts with chamfered edges, by number.
 pub struct Parts {
+    counts: Counts,
     forest: Forest,
-    /// `#triangles`: the place of each in the tree of its part.
-    place_of: IdVec<Triangle, u32>,
+    /// `#cells`, by number: the place of each in the tree of its part.
+    place_of: Vec<u32>,
     crowds: Option<Crowds>,
     /// `#parts`: whether it cuts through itself in the source. Only looked for once it matters.
     was_cut: Vec<OnceLock<bool>>,
@@ -31,73 +73,117 @@ pub struct Parts {
 
 impl Parts {
     pub fn new(plan: &Plan) -> Parts {
-        let (order, ends) = by_part(plan);
-        let boxes: Vec<Aabb> =
-            plan.view.triangles().map(|t| bounds(&source(&plan.view, t))).collect();
-        let forest = Forest::new(order, &ends, &boxes);
-        let mut place_of = IdVec::filled(u32::MAX, boxes.len());
+        let counts = Counts {
+            triangles: plan.faces.normal.len() as u32,
+            edges: plan.edges.hard.len() as u32,
+            rings: plan.sectors.rings.len() as u32,
+        };
+        let count = counts.number(Cell::Share(Sector::new(plan.sectors.fans.len()))) as usize;
+        let (order, ends) = by_part(plan, &counts);
+        let mut boxes = vec![Aabb::EMPTY; count];
+        for &number in &order {
+            boxes[number as usize] = source_box(plan, counts.cell(number));
+        }
+        let crowds = Crowds::find(plan, &counts, &order, count);
+        // Faces apart from what is new around them: then flat ones have flat boxes.
+        let group = |number: usize, crowd: u32| {
+            crowd.saturating_mul(2)
+                + u32::from(crowd != u32::MAX && number as u32 >= counts.triangles)
+        };
+        let group_of: Option<Vec<u32>> = crowds.as_ref().map(|crowds| {
+            crowds.of_cell.iter().enumerate().map(|(number, &crowd)| group(number, crowd)).collect()
+        });
+        let forest = Forest::new(order, &ends, &boxes, group_of.as_deref());
+        let mut place_of = vec![u32::MAX; count];
         for part in 0..forest.len() {
-            for (place, &triangle) in (0..).zip(forest.tree(part).order) {
-                place_of[Triangle(triangle)] = place;
+            for (place, &number) in (0..).zip(forest.tree(part).order) {
+                place_of[number as usize] = place;
             }
         }
-        let crowds = Crowds::find(plan, &forest);
         let was_cut = vec![OnceLock::new(); forest.len()];
-        Parts { forest, place_of, crowds, was_cut }
+        Parts { counts, forest, place_of, crowds, was_cut }
     }
 
     pub fn len(&self) -> usize {
         self.forest.len()
     }
 
-    /// The tree over the triangles of a part.
+    /// The tree over the cells of a part, by number.
     pub fn tree(&self, part: usize) -> Tree<'_> {
         self.forest.tree(part)
     }
 
-    /// Where a triangle stands in the tree of its part.
-    pub fn place_of(&self, triangle: Triangle) -> usize {
-        self.place_of[triangle] as usize
+    pub fn cell(&self, number: u32) -> Cell {
+        self.counts.cell(number)
     }
 
-    /// The crowds of a part, and to which of them the triangle at each place belongs, by number;
-    /// none where there is no crowd.
-    pub fn crowds(&self, part: usize) -> Option<(&[Crowd], &[u32])> {
-        let crowds = self.crowds.as_ref()?;
-        let (own, of) = &crowds.by_part[part];
-        (!own.is_empty()).then_some((own, of))
+    /// Where a cell stands in the tree of its part.
+    pub fn place_of(&self, cell: Cell) -> usize {
+        self.place_of[self.counts.number(cell) as usize] as usize
+    }
+
+    /// All crowds; none in most meshes.
+    pub fn crowds(&self) -> Option<&Crowds> {
+        self.crowds.as_ref()
     }
 
     /// Whether a part cuts through itself in the source.
-    pub fn was_cut(&self, view: &View, part: usize) -> bool {
-        *self.was_cut[part].get_or_init(|| cuts_itself(view, self.tree(part)))
+    pub fn was_cut(&self, plan: &Plan, part: usize) -> bool {
+        *self.was_cut[part].get_or_init(|| self.cuts_itself(plan, self.tree(part)))
+    }
+
+    fn cuts_itself(&self, plan: &Plan, tree: Tree) -> bool {
+        let triangle = |place: usize| match self.cell(tree.order[place]) {
+            Cell::Surface(triangle) => source(&plan.view, triangle),
+            _ => [[0.0; 3]; 3],
+        };
+        let places = || 0..tree.order.len();
+        let boxes = places().map(|place| bounds(&triangle(place))).collect();
+        let kin = self.crowds.as_ref().map_or_else(Vec::new, |crowds| {
+            let kin = |place| crowds.kin(plan, tree.order[place], &triangle(place));
+            places().map(kin).collect()
+        });
+        let bounds = Bounds::new(tree, boxes, kin);
+        tree.pairs(&bounds).any(|(a, b)| cut_each_other(&triangle(a), &triangle(b)))
     }
 }
 
-/// The source triangle in space.
-pub fn source(view: &View, triangle: Triangle) -> [[f32; 3]; 3] {
-    triangle.corners().map(|corner| view.mesh.positions[view.vertex_at(corner).index()])
+/// A source triangle in space.
+fn source(view: &View, triangle: Triangle) -> intersect::Triangle {
+    triangle.corners().map(|corner| position(view, corner))
 }
 
-fn cuts_itself(view: &View, tree: Tree) -> bool {
-    let triangle = |place: usize| source(view, Triangle(tree.order[place]));
-    let boxes = (0..tree.order.len()).map(|place| bounds(&triangle(place))).collect();
-    let bounds = Bounds::new(tree, boxes, Vec::new());
-    tree.pairs(&bounds).any(|(a, b)| cut_each_other(&triangle(a), &triangle(b)))
+fn position(view: &View, corner: Corner) -> [f32; 3] {
+    view.mesh.positions[view.vertex_at(corner).index()]
 }
 
-/// The triangles of all parts with chamfered edges, part by part, and where each part ends.
-fn by_part(plan: &Plan) -> (Vec<u32>, Vec<u32>) {
+/// What a cell is about in the source.
+fn source_box(plan: &Plan, cell: Cell) -> Aabb {
+    let at = |corner: Corner| position(&plan.view, corner);
+    let at_sector = |sector: Sector| Aabb::around(&[at(plan.sectors.fans[sector].first)]);
+    match cell {
+        Cell::Surface(triangle) => bounds(&source(&plan.view, triangle)),
+        Cell::Strip(edge) => {
+            let side = plan.edges.hard[edge].sides[0];
+            Aabb::around(&[at(side), at(side.next())])
+        }
+        Cell::Fill(ring) => at_sector(plan.sectors.ring(ring)[0]),
+        Cell::Share(sector) => at_sector(sector),
+    }
+}
+
+/// The numbers of the cells of all parts with chamfered edges, part by part, and where each part
+/// ends.
+fn by_part(plan: &Plan, counts: &Counts) -> (Vec<u32>, Vec<u32>) {
     let label_of = labels(plan);
-    let label = |triangle: Triangle| label_of[triangle.index()] as usize;
+    let label = |corner: Corner| label_of[corner.triangle().index()] as usize;
     let mut is_chamfered = vec![false; label_of.len()];
     for edge in plan.edges.hard.iter().filter(|edge| edge.skipped.is_none()) {
-        is_chamfered[label(edge.sides[0].triangle())] = true;
+        is_chamfered[label(edge.sides[0])] = true;
     }
     // A counting sort by label: first how many, then where the next one goes.
     let mut next = vec![0_u32; label_of.len()];
-    let meant = || plan.view.triangles().filter(|&triangle| is_chamfered[label(triangle)]);
-    meant().for_each(|triangle| next[label(triangle)] += 1);
+    each_cell(plan, &is_chamfered, &label_of, |_, label| next[label] += 1);
     let (mut ends, mut total) = (Vec::new(), 0);
     for count in next.iter_mut().filter(|count| **count > 0) {
         let start = total;
@@ -106,12 +192,44 @@ fn by_part(plan: &Plan) -> (Vec<u32>, Vec<u32>) {
         *count = start;
     }
     let mut order = vec![0; total as usize];
-    for triangle in meant() {
-        let place = &mut next[label(triangle)];
-        order[*place as usize] = triangle.0;
-        *place += 1;
-    }
+    each_cell(plan, &is_chamfered, &label_of, |cell, label| {
+        order[next[label] as usize] = counts.number(cell);
+        next[label] += 1;
+    });
     (order, ends)
+}
+
+/// Calls `visit` for each cell of a part that is chamfered, with the label of the part.
+fn each_cell(
+    plan: &Plan,
+    is_chamfered: &[bool],
+    label_of: &[u32],
+    mut visit: impl FnMut(Cell, usize),
+) {
+    let label = |corner: Corner| label_of[corner.triangle().index()] as usize;
+    for triangle in plan.view.triangles() {
+        let label = label_of[triangle.index()] as usize;
+        if is_chamfered[label] {
+            visit(Cell::Surface(triangle), label);
+        }
+    }
+    for edge in plan.edges.hard.ids().filter(|&edge| plan.edges.hard[edge].skipped.is_none()) {
+        visit(Cell::Strip(edge), label(plan.edges.hard[edge].sides[0]));
+    }
+    for ring in plan.sectors.rings.ids() {
+        let sectors = plan.sectors.ring(ring);
+        let label = label(plan.sectors.fans[sectors[0]].first);
+        if is_crowded(sectors) {
+            sectors.iter().for_each(|&sector| visit(Cell::Share(sector), label));
+        } else if sectors.len() >= 3 {
+            visit(Cell::Fill(ring), label);
+        }
+    }
+}
+
+/// Whether the fill of a ring has a cell for each of its sectors.
+pub fn is_crowded(ring: &[Sector]) -> bool {
+    ring.len() >= CROWD
 }
 
 /// `#triangles`: the first triangle of the part of each, touching ones included.
@@ -142,11 +260,9 @@ pub enum Crowd {
 }
 
 impl Crowd {
-    /// From where its triangles lie in different directions, where the sectors stand now.
+    /// From where its cells lie in different directions, where the sectors stand now.
     pub fn around(self, plan: &Plan, placement: &Placement) -> Around {
-        let at = |corner: Corner| plan.view.mesh.positions[plan.view.vertex_at(corner).index()];
         match self {
-            Crowd::Side(corner) => Around::line([at(corner), at(corner.next())]),
             Crowd::Sector(sector) => Around::point(placement.point[sector].as_vec3().to_array()),
             Crowd::Ring(ring) => {
                 // A fill has its middle vertex there.
@@ -155,42 +271,60 @@ impl Crowd {
                 let places: Few<usize> = (0..points.len()).collect();
                 Around::point(middle(&points, &places).as_vec3().to_array())
             }
+            Crowd::Side(_) | Crowd::Cluster(_) => self.in_source(plan),
+        }
+    }
+
+    /// The same before anything moves.
+    fn in_source(self, plan: &Plan) -> Around {
+        let at = |corner: Corner| position(&plan.view, corner);
+        let first = |sector: Sector| plan.sectors.fans[sector].first;
+        match self {
+            Crowd::Side(corner) => Around::line([at(corner), at(corner.next())]),
+            Crowd::Sector(sector) => Around::point(at(first(sector))),
+            Crowd::Ring(ring) => Around::point(at(first(plan.sectors.ring(ring)[0]))),
             Crowd::Cluster(cluster) => {
-                let first = plan.weld.first_vertex[cluster];
-                Around::point(plan.view.mesh.positions[first.index()])
+                let vertex = plan.weld.first_vertex[cluster];
+                Around::point(plan.view.mesh.positions[vertex.index()])
             }
         }
     }
 }
 
-struct Crowds {
-    /// `#parts`: its crowds, and by place to which each triangle belongs, past their end if to
-    /// none.
-    by_part: Vec<(Vec<Crowd>, Vec<u32>)>,
+/// All crowds, and what belongs to them.
+pub struct Crowds {
+    pub crowds: Vec<Crowd>,
+    /// `#cells`, by number: the number of its crowd; past all for none.
+    pub of_cell: Vec<u32>,
 }
 
 impl Crowds {
-    /// None where there are no crowds, as in most meshes.
-    fn find(plan: &Plan, forest: &Forest) -> Option<Crowds> {
+    fn find(plan: &Plan, counts: &Counts, order: &[u32], count: usize) -> Option<Crowds> {
         let meeting = Meeting::count(plan);
         if meeting.at_cluster.iter().all(|&count| (count as usize) < CROWD) {
             return None;
         }
-        let of_part = |part: usize| {
-            let (mut crowds, mut numbers) = (Vec::new(), HashMap::new());
-            let number = |&triangle: &u32| {
-                let Some(crowd) = meeting.crowd_of(plan, Triangle(triangle)) else {
-                    return u32::MAX;
-                };
-                *numbers.entry(crowd).or_insert_with(|| {
-                    crowds.push(crowd);
-                    crowds.len() as u32 - 1
-                })
-            };
-            let of = forest.tree(part).order.iter().map(number).collect();
-            (crowds, of)
-        };
-        Some(Crowds { by_part: (0..forest.len()).map(of_part).collect() })
+        let mut numbers = HashMap::new();
+        let mut crowds = Crowds { crowds: Vec::new(), of_cell: vec![u32::MAX; count] };
+        for &number in order {
+            if let Some(crowd) = meeting.crowd_of(plan, counts.cell(number)) {
+                let next = crowds.crowds.len() as u32;
+                let own = *numbers.entry(crowd).or_insert(next);
+                if own == next {
+                    crowds.crowds.push(crowd);
+                }
+                crowds.of_cell[number as usize] = own;
+            }
+        }
+        Some(crowds)
+    }
+
+    /// How a source triangle lies in its crowd before anything moves.
+    fn kin(&self, plan: &Plan, number: u32, triangle: &intersect::Triangle) -> Kin {
+        let crowd = self.of_cell[number as usize];
+        self.crowds
+            .get(crowd as usize)
+            .map_or(Kin::NONE, |around| Kin::new(crowd, around.in_source(plan).seen(triangle)))
     }
 }
 
@@ -214,16 +348,39 @@ impl Meeting {
         Meeting { at_cluster, in_sector, on_side: crowded_sides(&plan.topology) }
     }
 
-    fn crowd_of(&self, plan: &Plan, triangle: Triangle) -> Option<Crowd> {
-        let corners = triangle.corners();
+    fn crowd_of(&self, plan: &Plan, cell: Cell) -> Option<Crowd> {
+        match cell {
+            Cell::Surface(triangle) => self.crowd_around(plan, &triangle.corners()),
+            Cell::Strip(edge) => {
+                let sides = plan.edges.hard[edge].sides;
+                self.crowd_around(plan, &[sides[0], sides[0].next()])
+                    .or_else(|| self.crowd_beside(plan, sides.into_iter()))
+            }
+            Cell::Fill(ring) => {
+                let sectors = plan.sectors.ring(ring).iter();
+                self.crowd_beside(plan, sectors.map(|&sector| plan.sectors.fans[sector].first))
+            }
+            Cell::Share(sector) => Some(Crowd::Ring(plan.sectors.fans[sector].ring)),
+        }
+    }
+
+    /// The crowd that faces beside a chamfer belong to. One that moves as one, such as the end of
+    /// a cylinder, comes first: it is flat as a rule, and then boxes alone tell nothing apart.
+    fn crowd_beside(&self, plan: &Plan, corners: impl Iterator<Item = Corner>) -> Option<Crowd> {
+        let faces = corners.map(|corner| corner.triangle().corners());
+        let crowds = faces.filter_map(|corners| self.crowd_around(plan, &corners));
+        crowds.max_by_key(|crowd| matches!(crowd, Crowd::Sector(_)))
+    }
+
+    fn crowd_around(&self, plan: &Plan, corners: &[Corner]) -> Option<Crowd> {
         for corner in corners {
-            if let Ok(place) = self.on_side.binary_search_by_key(&corner, |side| side[0]) {
+            if let Ok(place) = self.on_side.binary_search_by_key(corner, |side| side[0]) {
                 return Some(Crowd::Side(self.on_side[place][1]));
             }
         }
         let cluster = |corner: Corner| plan.topology.cluster_at[corner];
         let count = |corner: Corner| self.at_cluster[cluster(corner)] as usize;
-        let most = corners.into_iter().max_by_key(|&corner| count(corner))?;
+        let most = corners.iter().copied().max_by_key(|&corner| count(corner))?;
         if count(most) < CROWD {
             return None;
         }
@@ -234,7 +391,7 @@ impl Meeting {
         let ring = plan.sectors.fans[sector].ring;
         Some(if self.in_sector[sector] as usize >= CROWD {
             Crowd::Sector(sector)
-        } else if plan.sectors.ring(ring).len() >= CROWD {
+        } else if is_crowded(plan.sectors.ring(ring)) {
             Crowd::Ring(ring)
         } else {
             Crowd::Cluster(cluster(most))
