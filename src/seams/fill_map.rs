@@ -4,7 +4,7 @@ use std::cmp::Reverse;
 
 use glam::{DVec2, DVec3};
 
-use super::density::{Facing, Lie, MOST_STRETCH, misfit};
+use super::density::{Facing, Lie, MOST_STRETCH, density, misfit};
 use super::feet::{Lay, Wings, corner_lay, is_broken, kite};
 use super::ground::Ground;
 use super::patch::{Joint, Middle, Patches, Taken};
@@ -172,8 +172,19 @@ impl FillMap<'_> {
         let middle = |&at: &DVec3| -> Blend { middles::nearest(self.plan, self.sectors, at) };
         let middles = self.points[self.sectors.len()..].iter().map(middle);
         uvs.extend(middles.map(|blend| place_of(self.plan, channel, &blend)));
-        let on = |owner: usize| self.misfit_on(channel, owner, Facing::Either, &uvs);
+        let facing = self.facing(channel);
+        let on = |owner: usize| self.misfit_on(channel, owner, facing, &uvs);
         (0..self.sectors.len()).map(on).fold(f64::INFINITY, f64::min)
+    }
+
+    /// How the fill may lie between the faces around the corner.
+    fn facing(&self, channel: usize) -> Facing {
+        let places = 0..self.sectors.len();
+        let turn =
+            |place| density(self.plan, self.first(place).triangle(), channel).partial_cmp(&0.0);
+        let mut turns = places.map(turn);
+        let first = turns.next().flatten();
+        if turns.all(|turn| turn == first) { Facing::AsFace } else { Facing::Either }
     }
 
     fn misfit_on(&self, channel: usize, owner: usize, facing: Facing, uvs: &[DVec2]) -> f64 {
