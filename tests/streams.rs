@@ -93,12 +93,12 @@ const KEPT: [&str; 10] = [
 /// than any face of their chart around them, and vertices that go hundreds of times as far as the
 /// triangles around them are high, where weights in single precision tell the place no better.
 const BOUNDS: [(&str, f64); 8] = [
-    ("1 area", 0.0001),
-    ("1 mirrored", 0.0001),
-    ("1 thin strip", 0.014),
-    ("1 dense strip", 0.0002),
-    ("1 thin fill", 0.008),
-    ("1 dense fill", 0.0003),
+    ("1 area", 2e-5),
+    ("1 mirrored", 0.0),
+    ("1 thin strip", 6e-4),
+    ("1 dense strip", 4e-5),
+    ("1 thin fill", 0.003),
+    ("1 dense fill", 3e-4),
     ("2 position", 3e-6),
     ("3 affine", 4e-6),
 ];

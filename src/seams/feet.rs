@@ -17,8 +17,8 @@ const MIDDLE_SHARE: f64 = 0.5;
 /// A strip reaches at most so far into its owner's triangle.
 const DEEPEST: f64 = 0.9;
 
-/// A fill that is laid into a triangle reaches at most so far along its sides.
-const WIDEST: f64 = 0.75;
+/// What is laid flat into a triangle reaches at most so far along its sides.
+const WIDEST: f64 = 0.98;
 
 /// Where along the old edge the far corners of a strip land.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -115,6 +115,18 @@ pub fn inside(plan: &Plan, placement: &Placement, end: End) -> [Blend; 2] {
     let apex = Blend::one(plan.view.vertex_at(at.half_edge.prev()).0);
     let near = mixed(&[(foot(at.near), 1.0 - depth), (apex, depth)]);
     [near, foot(at.far)]
+}
+
+/// As [`inside`], but straight into the owner's plane, past its triangle where that is too small.
+pub fn abreast(plan: &Plan, placement: &Placement, end: End) -> Option<[Blend; 2]> {
+    let at = At::new(plan, end);
+    let [from, to] = ends(plan, at.half_edge);
+    let [_, strip] = at.widths(plan, placement);
+    let inward = plan.faces.normal[at.half_edge.triangle()].cross(unit(to - from));
+    let share = |sector: Sector| share_of(plan, placement, at.half_edge, sector);
+    let way = (to - from) * share(at.near).clamp(0.0, 1.0) + inward * strip;
+    let near = locate(&plan.view, at.half_edge, from, way)?.blend(plan, 1.0);
+    Some([near, on_edge(plan, at.half_edge, share(at.far))])
 }
 
 /// Where the foot of the perpendicular from a sector's pulled vertex divides a half-edge: 0 to 1,
@@ -262,11 +274,20 @@ fn feet_of_wings(plan: &Plan, placement: &Placement, sector: Sector, wings: Wing
     [Blend { vertices, ..behind }, before]
 }
 
-/// A fill laid flat into the triangle at a corner, as large as it is if there is room. Its points
-/// are those of a ring and then its middles; the normal is that of the whole.
-pub fn corner_lay(
+/// A place to lay a chamfer flat.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Room {
+    /// In the triangle at this corner.
+    pub corner: Corner,
+    /// So many times as large as it is, if there is room.
+    pub scale: f64,
+}
+
+/// A chamfer laid flat into a triangle. Its points are those around it and then its middles; the
+/// normal is that of the whole.
+pub fn flat_lay(
     plan: &Plan,
-    corner: Corner,
+    Room { corner, scale }: Room,
     points: &[DVec3],
     ring: usize,
     normal: DVec3,
@@ -287,7 +308,7 @@ pub fn corner_lay(
     let reach = |at: &[f64; 2]| at[0] - least[0] + at[1] - least[1];
     let farthest = flat.iter().map(reach).fold(0.0, f64::max);
     let face = area_vector(plan.view.triangle(corner.triangle())).length();
-    let size = (opening / face).sqrt().min(WIDEST / farthest);
+    let size = (scale * (opening / face).sqrt()).min(WIDEST / farthest);
     let vertices = [corner, corner.next(), corner.prev()].map(|c| plan.view.vertex_at(c).0);
     let blend = |at: &[f64; 2]| {
         let [to_next, to_prev] = [0, 1].map(|k| size * (at[k] - least[k]));
@@ -362,7 +383,8 @@ mod tests {
         let cube = shapes::cube(1.0);
         let plan = plan_of(&cube, 0.1);
         let points = [DVec3::ZERO, DVec3::X * 0.5, DVec3::Y * 0.5, DVec3::new(0.1, 0.1, 0.0)];
-        let lay = corner_lay(&plan, Corner(0), &points, 3, DVec3::Z);
+        let room = Room { corner: Corner(0), scale: 1.0 };
+        let lay = flat_lay(&plan, room, &points, 3, DVec3::Z);
         let [from, next, prev] = [0, 1, 2].map(|corner| plan.view.vertex_at(Corner(corner)).0);
         let weights = |blend: &Blend| [from, next, prev].map(|v| weight_of(blend, v));
         let feet: Vec<[f32; 3]> = lay.feet.iter().flatten().map(weights).collect();

@@ -4,8 +4,8 @@ use std::cmp::Reverse;
 
 use glam::{DVec2, DVec3};
 
-use super::density::{Facing, Lie, MOST_STRETCH, density, misfit};
-use super::feet::{Lay, Wings, corner_lay, is_broken, kite};
+use super::density::{Facing, Lie, MOST_STRETCH, density, misfit, roomiest};
+use super::feet::{Lay, Room, Wings, flat_lay, is_broken, kite};
 use super::ground::Ground;
 use super::patch::{Joint, Middle, Patches, Taken};
 use super::{Owners, channels_of, place_of};
@@ -23,9 +23,11 @@ enum Way {
     Kite(Wings),
     /// Into the triangle at the owner's first corner.
     Corner,
+    /// Into the triangle of the owner's chart that has the most room in a channel.
+    Roomiest(usize),
 }
 
-/// The ways to lay a fill, best first.
+/// The ways to lay a fill into what its chart leaves free at the corner, best first.
 const WAYS: [Way; 5] = [
     Way::Kite(Wings::Far),
     Way::Kite(Wings::Near(1.0)),
@@ -106,17 +108,18 @@ impl FillMap<'_> {
     fn best_lay(&self, channels: u8, places: &[usize], lay: &mut Lay) -> usize {
         let mut best = (f64::INFINITY, WAYS[0], places[0]);
         if channels != 0 {
-            for (way, &owner) in WAYS.iter().flat_map(|way| places.iter().map(move |at| (way, at)))
-            {
-                self.lay(*way, owner, lay);
+            let elsewhere = Way::Roomiest(channels.trailing_zeros() as usize);
+            let ways = WAYS.into_iter().chain([elsewhere]);
+            for (way, &owner) in ways.flat_map(|way| places.iter().map(move |at| (way, at))) {
+                self.lay(way, owner, lay);
                 let mapped = channels_of(self.plan).filter(|channel| channels >> channel & 1 == 1);
-                let misfits = mapped.map(|channel| self.misfit(channel, owner, lay));
+                let misfits = mapped.map(|channel| self.misfit(channel, owner, way, lay));
                 let misfit = misfits.fold(0.0, f64::max);
                 if misfit <= MOST_STRETCH {
                     return owner;
                 }
                 if misfit < best.0 {
-                    best = (misfit, *way, owner);
+                    best = (misfit, way, owner);
                 }
             }
         }
@@ -132,12 +135,23 @@ impl FillMap<'_> {
                 kite(self.plan, self.placement, self.sectors, (owner, wings, middles), lay);
             }
             Way::Corner => {
-                let triangles = self.fill.triangles.iter();
-                let normal = triangles.map(|t| area_vector(t.map(|k| self.points[k]))).sum();
-                let count = self.sectors.len();
-                *lay = corner_lay(self.plan, self.first(owner), &self.points, count, unit(normal));
+                *lay = self.flat(Room { corner: self.first(owner), scale: 1.0 });
             }
+            Way::Roomiest(channel) => *lay = self.flat(self.roomiest(owner, channel)),
         }
+    }
+
+    /// Where to lay the fill flat in its owner's chart.
+    fn roomiest(&self, owner: usize, channel: usize) -> Room {
+        let corners = [self.first(owner)];
+        let ground = Ground::new(self.plan, channel, &corners);
+        roomiest(self.plan, corners[0], channel, &ground)
+    }
+
+    fn flat(&self, room: Room) -> Lay {
+        let triangles = self.fill.triangles.iter();
+        let normal = triangles.map(|t| area_vector(t.map(|k| self.points[k]))).sum();
+        flat_lay(self.plan, room, &self.points, self.sectors.len(), unit(normal))
     }
 
     fn first(&self, place: usize) -> Corner {
@@ -150,7 +164,7 @@ impl FillMap<'_> {
     }
 
     /// How badly the fill lies on its owner's texture: see [`misfit`].
-    fn misfit(&self, channel: usize, owner: usize, lay: &Lay) -> f64 {
+    fn misfit(&self, channel: usize, owner: usize, way: Way, lay: &Lay) -> f64 {
         let uv = |(place, foot): (usize, &Option<Blend>)| match foot {
             Some(foot) => place_of(self.plan, channel, foot),
             None => self.own_uv(place, channel),
@@ -158,7 +172,11 @@ impl FillMap<'_> {
         let mut uvs = Few::new();
         uvs.extend(lay.feet.iter().enumerate().map(uv));
         uvs.extend(lay.middles.iter().map(|middle| place_of(self.plan, channel, middle)));
-        self.misfit_on(channel, owner, Facing::AsFace, &uvs)
+        let at = match way {
+            Way::Roomiest(channel) => self.roomiest(owner, channel).corner,
+            Way::Kite(_) | Way::Corner => self.first(owner),
+        };
+        self.misfit_on(channel, owner, at, Facing::AsFace, &uvs)
     }
 
     /// How badly it lies where its vertices are in their own charts; infinite where these are not
@@ -173,7 +191,7 @@ impl FillMap<'_> {
         let middles = self.points[self.sectors.len()..].iter().map(middle);
         uvs.extend(middles.map(|blend| place_of(self.plan, channel, &blend)));
         let facing = self.facing(channel);
-        let on = |owner: usize| self.misfit_on(channel, owner, facing, &uvs);
+        let on = |owner: usize| self.misfit_on(channel, owner, self.first(owner), facing, &uvs);
         (0..self.sectors.len()).map(on).fold(f64::INFINITY, f64::min)
     }
 
@@ -187,8 +205,15 @@ impl FillMap<'_> {
         if turns.all(|turn| turn == first) { Facing::AsFace } else { Facing::Either }
     }
 
-    fn misfit_on(&self, channel: usize, owner: usize, facing: Facing, uvs: &[DVec2]) -> f64 {
-        let corners = [self.first(owner)];
+    fn misfit_on(
+        &self,
+        channel: usize,
+        owner: usize,
+        at: Corner,
+        facing: Facing,
+        uvs: &[DVec2],
+    ) -> f64 {
+        let corners = [at];
         let ground = Ground::new(self.plan, channel, &corners);
         let lie = Lie { triangles: &self.fill.triangles, areas: &self.areas, uvs };
         misfit(self.plan, self.first(owner), facing, channel, &ground, &lie)
