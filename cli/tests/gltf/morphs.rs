@@ -9,7 +9,7 @@ use chamfer_cli::document::Document;
 use glam::DVec3;
 use serde_json::Value;
 
-use crate::support::{folder, json_of, read};
+use crate::support::{json_of, path_in, read};
 
 const CORPUS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared/corpus");
 
@@ -183,7 +183,7 @@ fn before_and_after(name: &str, percent: f32) -> Option<[Glb; 2]> {
     let meshes = document.meshes().iter();
     let chamfered: Vec<_> =
         meshes.map(|mesh| chamfer(&mesh.mesh.as_mesh(), &options).unwrap()).collect();
-    let output = folder("morphs").join(name);
+    let output = path_in("played").join(name);
     let files = document.encode(&output, &chamfered).unwrap();
     Some([Glb::new(&before), Glb::new(&files[0].bytes)])
 }
