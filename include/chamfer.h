@@ -374,8 +374,8 @@ int32_t chamfer_result_verdicts(const struct chamfer_result *result,
                                 const struct chamfer_edge_verdict **verdicts,
                                 uint32_t *count);
 
-/// Views what each vertex of the result's mesh came from: `#vertices`. The array lives as long as
-/// the result; NULL if there are none.
+/// Views what each vertex of the result's mesh came from: `#vertices`. The array is made by the
+/// first call, if there is memory for it, and lives as long as the result; NULL if there are none.
 int32_t chamfer_result_vertex_sources(const struct chamfer_result *result,
                                       const struct chamfer_vertex_source **sources,
                                       uint32_t *count);

@@ -10,7 +10,7 @@ mod streams;
 use crate::ids::{Corner, Few, IdVec, Sector, Vertex};
 use crate::placement::Placement;
 use crate::plan::Plan;
-use crate::report::{Blend, VertexSource};
+use crate::report::Blend;
 use crate::resample::{chart_foot, same_chart, surface_foot};
 
 pub use streams::{Channels, Streams};
@@ -28,7 +28,7 @@ pub fn attributes(plan: &Plan, placement: &Placement) -> Attributes {
     // At a seam both far vertices of a strip are copied.
     let copies = 2 * plan.edges.hard.iter().filter(|edge| edge.seams != 0).count();
     let mut attributes = Attributes {
-        streams: Streams::of_source(&plan.view, copies),
+        streams: Streams::of_source(&plan.view, plan.sectors.fans.len(), copies),
         vertex_at: IdVec::from_vec(vertex_at),
     };
     let mut taken = staying(plan, placement);
@@ -111,12 +111,13 @@ fn resample(
     output: u32,
     streams: &mut Streams,
 ) {
-    let source = vertex_source(plan, sector, corner, placement.share[sector]);
-    streams.resample(plan, output, placement.point[sector], source);
+    let blends = blends(plan, sector, corner, placement.share[sector]);
+    streams.resample(plan, output, placement.point[sector], blends);
 }
 
-/// Where a corner's vertex comes from when its sector takes a share of the offset.
-fn vertex_source(plan: &Plan, sector: Sector, corner: Corner, share: f64) -> VertexSource {
+/// Where a corner's vertex comes from when its sector takes a share of the offset: on the surface,
+/// and in its chart.
+fn blends(plan: &Plan, sector: Sector, corner: Corner, share: f64) -> [Blend; 2] {
     let own = plan.view.vertex_at(corner).0;
     let chart = chart_foot(plan, sector, corner);
     // Where the way begins at the vertex itself, that is the one to begin with.
@@ -126,7 +127,7 @@ fn vertex_source(plan: &Plan, sector: Sector, corner: Corner, share: f64) -> Ver
     };
 
     let surface = surface_foot(plan, sector, corner).blend(plan, share);
-    VertexSource::new(surface, from_own(chart.blend(plan, share)))
+    [surface, from_own(chart.blend(plan, share))]
 }
 
 #[cfg(test)]

@@ -12,7 +12,7 @@ use smallvec::{SmallVec, smallvec};
 
 use crate::ids::Few;
 use crate::math::unit;
-use crate::validity::facing;
+use crate::validity::{faces_out, facing};
 
 /// From so many points on, a loop gets a vertex in its middle.
 const MIDDLE_FROM: usize = 5;
@@ -51,6 +51,12 @@ pub fn fill(points: &[DVec3], normals: &[DVec3], resolution: f64) -> Option<Fill
         }
     }
     Some(fill)
+}
+
+/// As [`fill`], for most holes by far, and without the triangles.
+pub fn can_fill(points: [DVec3; 3], normals: [DVec3; 3], resolution: f64) -> bool {
+    // Where two stand at one point there is no hole.
+    !are_distinct(&points) || faces_out(points, normals, resolution)
 }
 
 /// The mean of some points of a ring: where its middle vertex stands.
@@ -163,8 +169,10 @@ impl Loop<'_> {
     fn triangulated(&self) -> Option<Few<[usize; 3]>> {
         let count = self.places.len();
         if count == 3 {
-            let [a, b, c] = [0, 1, 2].map(|corner| self.places[corner]);
-            return self.fold([0, 1, 2]).map(|_| smallvec![[a, b, c]]);
+            let places = [0, 1, 2].map(|corner| self.places[corner]);
+            let points = places.map(|place| self.points[place]);
+            let normals = places.map(|place| self.normals[place]);
+            return faces_out(points, normals, self.resolution).then(|| smallvec![places]);
         }
         if count > LONGEST_TRIANGULATED {
             return None;

@@ -67,7 +67,7 @@ pub use options::{ChamferSubmesh, Options, Verify, Width};
 pub use pipeline::{Prepared, chamfer, chamfer_with_progress};
 pub use report::{
     Blend, Chamfered, EdgeVerdict, Outcome, Reason, Totals, TriangleKind, TriangleSource,
-    VertexSource,
+    VertexSource, VertexSources,
 };
 pub use smoothing::{Smoothed, split_by_angle};
 

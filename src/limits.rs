@@ -77,11 +77,23 @@ fn bounded(plan: &Plan, shares: &IdVec<Sector, f64>) -> Limits {
 }
 
 /// Anything that can go bad.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, PartialEq, Eq)]
 enum Element {
     Surface(Triangle),
     Strip(Edge),
     Fill(Ring),
+}
+
+impl Element {
+    /// Orders elements, by kind and number, with a single comparison.
+    fn key(self) -> u64 {
+        let (kind, number) = match self {
+            Element::Surface(triangle) => (0, triangle.0),
+            Element::Strip(edge) => (1, edge.0),
+            Element::Fill(ring) => (2, ring.0),
+        };
+        kind << 32 | u64::from(number)
+    }
 }
 
 /// Shrinks what is bad, and then what is bad around what has shrunk; tells all that has.
@@ -219,7 +231,7 @@ fn sectors_of(plan: &Plan, element: Element) -> Few<Sector> {
 fn around(plan: &Plan, sectors: &[Sector]) -> Vec<Element> {
     let mut elements: Vec<Element> =
         sectors.iter().flat_map(|&sector| elements_of(plan, sector)).collect();
-    elements.sort_unstable();
+    elements.sort_unstable_by_key(|element| element.key());
     elements.dedup();
     elements
 }
@@ -239,7 +251,7 @@ fn is_valid(plan: &Plan, placement: &Placement, element: Element) -> bool {
     match element {
         Element::Surface(triangle) => surface_is_valid(plan, placement, triangle),
         Element::Strip(edge) => strip_is_valid(plan, placement, edge),
-        Element::Fill(ring) => fill(plan, placement, ring).is_some(),
+        Element::Fill(ring) => fill_is_valid(plan, placement, ring),
     }
 }
 
@@ -278,6 +290,18 @@ fn strip_is_valid(plan: &Plan, placement: &Placement, edge: Edge) -> bool {
     strips::is_valid(&quad, strips::cut(&quad), unit(to - from), plan.view.resolution)
 }
 
+fn fill_is_valid(plan: &Plan, placement: &Placement, ring: Ring) -> bool {
+    match *plan.sectors.ring(ring) {
+        [a, b, c] => {
+            let sectors = [a, b, c];
+            let points = sectors.map(|sector| placement.point[sector]);
+            let normals = sectors.map(|sector| placement.normals[sector][0]);
+            corners::can_fill(points, normals, plan.view.resolution)
+        }
+        _ => fill(plan, placement, ring).is_some(),
+    }
+}
+
 /// The fill of a ring where its sectors stand now; none if every way to fill it folds.
 pub fn fill(plan: &Plan, placement: &Placement, ring: Ring) -> Option<corners::Fill> {
     let sectors = plan.sectors.ring(ring);
@@ -301,26 +325,34 @@ fn grow(plan: &Plan, room: &IdVec<Sector, f64>, limits: &mut Limits) {
         if good == bad {
             continue;
         }
-        if fits(plan, &mut limits.placement, sector, bad) {
+        let mut found = obstacle(plan, &mut limits.placement, sector, bad, None);
+        if found.is_none() {
             limits.reason[sector] = if bad < 1.0 { Reason::NoRoom } else { Reason::None };
             continue;
         }
         for _ in 0..GROW_STEPS {
             let middle = (good + bad) / 2.0;
-            if fits(plan, &mut limits.placement, sector, middle) {
-                good = middle;
-            } else {
-                bad = middle;
+            match obstacle(plan, &mut limits.placement, sector, middle, found) {
+                None => good = middle,
+                other => (bad, found) = (middle, other),
             }
         }
         limits.placement.set(plan, sector, good);
     }
 }
 
-/// Whether all that depends on the sector is valid at this share, which it gets.
-fn fits(plan: &Plan, placement: &mut Placement, sector: Sector, share: f64) -> bool {
+/// What is bad of all that depends on the sector at this share, which it gets; none if nothing is.
+/// What was bad at another share is looked at first.
+fn obstacle(
+    plan: &Plan,
+    placement: &mut Placement,
+    sector: Sector,
+    share: f64,
+    before: Option<Element>,
+) -> Option<Element> {
     placement.set(plan, sector, share);
-    elements_of(plan, sector).all(|element| is_valid(plan, placement, element))
+    let mut suspects = before.into_iter().chain(elements_of(plan, sector));
+    suspects.find(|&element| !is_valid(plan, placement, element))
 }
 
 #[cfg(test)]

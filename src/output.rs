@@ -8,14 +8,14 @@ mod collapsed;
 mod copies;
 mod submeshes;
 
-use crate::attributes::{Attributes, Streams, middles};
+use crate::attributes::{Attributes, middles};
 use crate::ids::{Edge, IdVec, Ring};
 use crate::limits::{self, Limits};
 use crate::mesh::MeshBuffers;
 use crate::options::ChamferSubmesh;
 use crate::plan::Plan;
-use crate::report::{Chamfered, TriangleKind, TriangleSource};
-use crate::seams::{self, Joint, Middle, Owners, Parts, Patches, Taken};
+use crate::report::{Chamfered, TriangleKind, TriangleSource, VertexSources};
+use crate::seams::{self, Joint, Middle, Owners, Parts, Patches};
 use crate::strips::Cut;
 use crate::verdicts::{totals, verdicts};
 use crate::view::View;
@@ -26,16 +26,15 @@ pub use copies::Copies;
 
 /// The source as it is, for want of hard edges.
 pub fn unchanged(view: &View, target: ChamferSubmesh) -> Chamfered {
-    let Streams { vertices, sources, .. } = Streams::of_source(view, 0);
     let kind = TriangleKind::Source;
-    let mut submesh_index_counts = view.mesh.submesh_index_counts.to_vec();
+    let mut mesh = view.mesh.to_buffers();
     if target == ChamferSubmesh::Own {
-        submesh_index_counts.push(0);
+        mesh.submesh_index_counts.push(0);
     }
     Chamfered {
-        mesh: MeshBuffers { indices: view.mesh.indices.to_vec(), submesh_index_counts, ..vertices },
-        vertex_sources: sources,
+        vertex_sources: VertexSources::of_source(mesh.positions.len()),
         triangle_sources: view.triangles().map(|t| TriangleSource { kind, index: t.0 }).collect(),
+        mesh,
         width: view.width as f32,
         ..Chamfered::default()
     }
@@ -137,10 +136,8 @@ impl Surface<'_> {
         let (plan, streams) = (self.plan, &mut self.attributes.streams);
         let corner = parts.joints[0].corner;
         let sectors = plan.sectors.ring(plan.sectors.fans[plan.sectors.sector_of[corner]].ring);
-        let vertex = middles::add(plan, &self.limits.placement, streams, sectors, &middle.joints);
-        if let Some(Taken { channels, place }) = &middle.taken {
-            streams.rechart(plan, vertex, place, *channels);
-        }
+        let (placement, taken) = (&self.limits.placement, middle.taken.as_ref());
+        middles::append(plan, placement, streams, sectors, &middle.joints, taken);
         self.copies.settle(streams, plan.topology.cluster_at[corner])
     }
 

@@ -1,6 +1,10 @@
 //! What a call returns: the mesh, where each element came from, and what became of each edge.
 
+mod vertex_sources;
+
 use crate::mesh::MeshBuffers;
+
+pub use vertex_sources::VertexSources;
 
 /// A chamfered mesh with its provenance and verdicts.
 #[derive(Clone, Debug, Default)]
@@ -11,7 +15,7 @@ pub struct Chamfered {
     /// left unused.
     pub mesh: MeshBuffers,
     /// `#vertices`: what each vertex was re-sampled from.
-    pub vertex_sources: Vec<VertexSource>,
+    pub vertex_sources: VertexSources,
     /// `#triangles`: what each triangle came from.
     pub triangle_sources: Vec<TriangleSource>,
     /// `#hard edges` with two sides: what became of each.

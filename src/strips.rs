@@ -10,7 +10,7 @@ use glam::DVec3;
 
 use crate::edges::HardEdge;
 use crate::ids::{Corner, Edge, IdVec};
-use crate::math::{area_vector, unit};
+use crate::math::area_vector;
 use crate::placement::Placement;
 use crate::plan::Plan;
 use crate::validity::faces_out;
@@ -109,9 +109,10 @@ pub fn is_valid(quad: &Quad, cut: Cut, edge: DVec3, resolution: f64) -> bool {
 
 /// The cosine between the two triangles' normals.
 fn fold(quad: &Quad, cut: Cut) -> f64 {
-    let normal = |triangle: [usize; 3]| unit(area_vector(triangle.map(|k| quad.points[k])));
-    let triangles = cut.triangles();
-    normal(triangles[0]).dot(normal(triangles[1]))
+    let area = |triangle: [usize; 3]| area_vector(triangle.map(|k| quad.points[k]));
+    let [one, other] = [0, 1].map(|k| area(cut.triangles()[k]));
+    let sizes = one.length() * other.length();
+    if sizes > 0.0 { one.dot(other) / sizes } else { 0.0 }
 }
 
 #[cfg(test)]

@@ -40,10 +40,10 @@ pub fn stays_line(old: [DVec3; 3], new: [DVec3; 3], normal: DVec3, resolution: f
 /// Whether a source triangle may become the new one.
 pub fn survives(old: [DVec3; 3], new: [DVec3; 3]) -> bool {
     let (old_area, new_area) = (area_vector(old), area_vector(new));
-    let facing = old_area.dot(new_area);
-    let share = new_area.length() / old_area.length();
-    let is_upright = facing >= LEAST_UPRIGHT_COSINE * old_area.length() * new_area.length();
-    share >= LEAST_AREA_SHARE && is_upright && keeps_direction(old, new)
+    let [old_size, new_size] = [old_area, new_area].map(DVec3::length);
+    new_size >= LEAST_AREA_SHARE * old_size
+        && old_area.dot(new_area) >= LEAST_UPRIGHT_COSINE * old_size * new_size
+        && keeps_direction(old, new)
 }
 
 /// A triangle whose corners all passed each other has its old normal again, but its sides are
@@ -56,22 +56,38 @@ fn keeps_direction(old: [DVec3; 3], new: [DVec3; 3]) -> bool {
 /// Whether a new triangle has area and faces the way its vertex normals point. `resolution` is
 /// the least height that counts.
 pub fn faces_out(points: [DVec3; 3], normals: [DVec3; 3], resolution: f64) -> bool {
-    facing(points, normals, resolution).is_some()
+    let area = area_vector(points);
+    let normal = normals[0] + normals[1] + normals[2];
+    let along = area.dot(normal);
+    // Squares all over: this is asked for every new triangle, and roots take longest.
+    let least = LEAST_FACING_COSINE * LEAST_FACING_COSINE;
+    along > 0.0
+        && along * along >= least * (area.length_squared() * normal.length_squared())
+        && has_area(points, area, resolution)
 }
 
 /// The cosine between a new triangle's normal and the sum of its vertex normals; none if the
 /// triangle may not be.
 pub fn facing(points: [DVec3; 3], normals: [DVec3; 3], resolution: f64) -> Option<f64> {
     let area = area_vector(points);
-    let longest = longest_side(points);
-    let has_area = area.length() > longest * (longest * LEAST_SLENDERNESS).max(resolution);
     let cosine = unit(area).dot(unit(normals[0] + normals[1] + normals[2]));
-    (has_area && cosine >= LEAST_FACING_COSINE).then_some(cosine)
+    (cosine >= LEAST_FACING_COSINE && has_area(points, area, resolution)).then_some(cosine)
 }
 
-fn longest_side([a, b, c]: [DVec3; 3]) -> f64 {
+/// Whether a triangle is more than a line.
+fn has_area(points: [DVec3; 3], area: DVec3, resolution: f64) -> bool {
+    let longest = longest_square(points);
+    let height = (longest * (LEAST_SLENDERNESS * LEAST_SLENDERNESS)).max(resolution * resolution);
+    area.length_squared() > longest * height
+}
+
+fn longest_side(points: [DVec3; 3]) -> f64 {
+    longest_square(points).sqrt()
+}
+
+fn longest_square([a, b, c]: [DVec3; 3]) -> f64 {
     let squares = [(b - a), (c - b), (a - c)].map(|side| side.length_squared());
-    squares.into_iter().fold(0.0, f64::max).sqrt()
+    squares.into_iter().fold(0.0, f64::max)
 }
 
 #[cfg(test)]

@@ -80,6 +80,7 @@ impl View<'_> {
         self.normal(self.vertex_at(corner))
     }
 
+    #[inline]
     pub fn triangle(&self, triangle: Triangle) -> [DVec3; 3] {
         triangle.corners().map(|corner| self.position_at(corner))
     }

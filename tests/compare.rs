@@ -194,7 +194,8 @@ fn a_strip_with_a_normal_of_its_own() {
             after.mesh.indices[corner] = after.mesh.positions.len() as u32;
             after.mesh.positions.push(after.mesh.positions[vertex]);
             after.mesh.normals.push(sum.map(|along| along / length));
-            after.vertex_sources.push(after.vertex_sources[vertex]);
+            let copy = after.vertex_sources.get(vertex);
+            after.vertex_sources = after.vertex_sources.iter().chain([copy]).collect();
         }
     });
     assert_eq!(rules, [Rule::HardEdges]);

@@ -11,7 +11,8 @@ use crate::ids::{Few, Sector, Vertex};
 use crate::math::unit;
 use crate::placement::{Placement, base};
 use crate::plan::Plan;
-use crate::report::{Blend, VertexSource};
+use crate::report::Blend;
+use crate::seams::Taken;
 
 /// Blends whose distances differ by less than this share are equally near: then the first counts,
 /// whatever the last bits say.
@@ -20,21 +21,19 @@ const EQUALLY_NEAR: f64 = 0.999;
 /// So many neighbours are tried in pairs: of more, as around the tip of a huge cone, every so manyth.
 const MOST_TRIED: usize = 64;
 
-/// Adds a vertex at the mean of some of a ring's points.
-pub fn add(
+/// Appends a vertex at the mean of some of a ring's points.
+pub fn append(
     plan: &Plan,
     placement: &Placement,
     streams: &mut Streams,
     sectors: &[Sector],
     places: &[usize],
+    taken: Option<&Taken>,
 ) -> u32 {
     let points: Few<DVec3> = sectors.iter().map(|&s| placement.point[s]).collect();
     let normal = unit(places.iter().map(|&place| placement.normals[sectors[place]][0]).sum());
     let position = corners::middle(&points, places);
-    let blend = nearest(plan, sectors, position);
-    let vertex = streams.append(Vertex(blend.vertices[0]));
-    streams.set(plan, vertex, position, normal, VertexSource::new(blend, blend));
-    vertex
+    streams.append_between(plan, (position, normal), nearest(plan, sectors, position), taken)
 }
 
 /// The blend of a ring's corner and two of its neighbours, none of negative weight, that comes

@@ -6,8 +6,9 @@ use crate::ids::{Id, Vertex};
 use crate::math::unit;
 use crate::mesh::{MeshBuffers, Uv, UvBuffer};
 use crate::plan::Plan;
-use crate::report::{Blend, VertexSource};
+use crate::report::{Blend, VertexSource, VertexSources};
 use crate::resample::{blended_normal, weighted_sum};
+use crate::seams::Taken;
 use crate::view::{View, wide};
 
 /// UV channels as bits.
@@ -18,7 +19,7 @@ pub struct Streams {
     /// The streams; the indices of the buffers stay empty.
     pub vertices: MeshBuffers,
     /// `#vertices`.
-    pub sources: Vec<VertexSource>,
+    pub sources: VertexSources,
     /// The channels from here on are absent.
     uv_end: usize,
     /// Per colour component, the least and the greatest value that a blend may have.
@@ -26,16 +27,14 @@ pub struct Streams {
 }
 
 impl Streams {
-    /// The streams of the source as they are, with room for some more vertices.
-    pub fn of_source(view: &View, room: usize) -> Streams {
+    /// The streams of the source as they are. So many of its vertices will move, about; and there
+    /// is room for some more.
+    pub fn of_source(view: &View, moved: usize, room: usize) -> Streams {
         let mesh = &view.mesh;
         let uv = |uv: &Uv| UvBuffer {
             components: uv.components,
             values: copied(uv.values, room * uv.components as usize),
         };
-        let mut sources = Vec::with_capacity(mesh.positions.len() + room);
-        let untouched = |v| VertexSource::new(Blend::one(v), Blend::one(v));
-        sources.extend((0..mesh.positions.len() as u32).map(untouched));
         Streams {
             vertices: MeshBuffers {
                 positions: copied(mesh.positions, room),
@@ -45,7 +44,7 @@ impl Streams {
                 uvs: mesh.uvs.each_ref().map(uv),
                 ..MeshBuffers::default()
             },
-            sources,
+            sources: VertexSources::with_room(mesh.positions.len(), moved, room),
             uv_end: mesh.uvs.iter().rposition(|uv| uv.components > 0).map_or(0, |last| last + 1),
             color_range: color_range(mesh.colors),
         }
@@ -55,9 +54,44 @@ impl Streams {
         self.vertices.positions.len() as u32
     }
 
-    /// Appends a copy of an output vertex.
+    /// Appends a vertex like an earlier one, to be set to another place.
     pub fn append(&mut self, vertex: Vertex) -> u32 {
-        let from = vertex.index();
+        self.append_values(vertex.index());
+        self.sources.push_like(vertex.index());
+        self.count() - 1
+    }
+
+    /// Appends a copy of a vertex with what it takes from another chart.
+    pub fn append_copy(&mut self, plan: &Plan, vertex: u32, taken: &Taken) -> u32 {
+        let copy = self.count();
+        self.append_values(vertex as usize);
+        self.set_texture(plan, copy as usize, &taken.place, taken.channels);
+        self.sources.push_copy(vertex as usize, taken.place, taken.channels);
+        copy
+    }
+
+    /// Appends a vertex with a normal of its own at a place near a blend, with what it takes from
+    /// another chart.
+    pub fn append_between(
+        &mut self,
+        plan: &Plan,
+        (position, normal): (DVec3, DVec3),
+        near: Blend,
+        taken: Option<&Taken>,
+    ) -> u32 {
+        let vertex = self.count();
+        self.append_values(near.vertices[0] as usize);
+        self.set_values(plan, vertex as usize, (position, normal), &near);
+        let mut source = VertexSource::new(near, near);
+        if let Some(Taken { place, channels }) = taken {
+            self.set_texture(plan, vertex as usize, place, *channels);
+            (source.owner, source.owner_channels) = (*place, u32::from(*channels));
+        }
+        self.sources.push(source);
+        vertex
+    }
+
+    fn append_values(&mut self, from: usize) {
         let vertices = &mut self.vertices;
         vertices.positions.push(vertices.positions[from]);
         vertices.normals.push(vertices.normals[from]);
@@ -71,8 +105,6 @@ impl Streams {
             let components = uv.components as usize;
             uv.values.extend_from_within(from * components..(from + 1) * components);
         }
-        self.sources.push(self.sources[from]);
-        self.count() - 1
     }
 
     /// Takes back the vertex that was appended last.
@@ -99,7 +131,7 @@ impl Streams {
             let values = place * uv.components as usize..(place + 1) * uv.components as usize;
             uv.values[values.clone()].copy_from_slice(&source.values[values]);
         }
-        self.sources[place] = VertexSource::new(Blend::one(vertex), Blend::one(vertex));
+        self.sources.reset(place);
     }
 
     /// Takes back all vertices from a number on.
@@ -132,7 +164,7 @@ impl Streams {
             let components = uv.components as usize;
             uv.values.copy_within(from * components..(from + 1) * components, to * components);
         }
-        self.sources[to] = self.sources[from];
+        self.sources.relocate(from, to);
     }
 
     /// Whether two output vertices are equal in every stream.
@@ -151,36 +183,31 @@ impl Streams {
     }
 
     /// Sets a vertex to a place on the source surface.
-    pub fn resample(&mut self, plan: &Plan, vertex: u32, position: DVec3, source: VertexSource) {
-        let normal = blended_normal(plan, &source.surface);
-        self.set(plan, vertex, position, normal, source);
-    }
-
-    /// Sets a vertex to a place, with a normal of its own.
-    pub fn set(
+    pub fn resample(
         &mut self,
         plan: &Plan,
         vertex: u32,
         position: DVec3,
-        normal: DVec3,
-        source: VertexSource,
+        [surface, chart]: [Blend; 2],
     ) {
-        let place = vertex as usize;
+        let normal = blended_normal(plan, &surface);
+        self.set_values(plan, vertex as usize, (position, normal), &chart);
+        self.sources.set(vertex as usize, surface, chart);
+    }
+
+    fn set_values(
+        &mut self,
+        plan: &Plan,
+        place: usize,
+        (position, normal): (DVec3, DVec3),
+        chart: &Blend,
+    ) {
         self.vertices.positions[place] = position.as_vec3().to_array();
         self.vertices.normals[place] = normal.as_vec3().to_array();
         if !plan.view.mesh.colors.is_empty() {
-            self.vertices.colors[place] = self.color(plan, &source.chart);
+            self.vertices.colors[place] = self.color(plan, chart);
         }
-        self.set_texture(plan, place, &source.chart, Channels::MAX);
-        self.sources[place] = source;
-    }
-
-    /// Sets some of a vertex's UV channels to a place in the chart that its chamfer continues.
-    pub fn rechart(&mut self, plan: &Plan, vertex: u32, owner: &Blend, channels: Channels) {
-        let source = &mut self.sources[vertex as usize];
-        source.owner = *owner;
-        source.owner_channels = u32::from(channels);
-        self.set_texture(plan, vertex as usize, owner, channels);
+        self.set_texture(plan, place, chart, Channels::MAX);
     }
 
     /// Sets UV channels, and the tangent along with the first of them.

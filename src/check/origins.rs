@@ -4,7 +4,7 @@ use super::matching::match_triangles;
 use super::rules::{Element, Facts, Findings, Rule};
 use super::surface::Surface;
 use crate::mesh::Mesh;
-use crate::report::{Blend, Chamfered, TriangleKind, TriangleSource, VertexSource};
+use crate::report::{Blend, Chamfered, TriangleKind, TriangleSource, VertexSource, VertexSources};
 
 /// How far the weights of a blend may sum up past 1: many roundings, but no real error.
 const WEIGHT_SUM_TOLERANCE: f32 = 1e-3;
@@ -14,7 +14,7 @@ pub(super) struct Origins<'a> {
     /// `#triangles`: the source corner of each corner of a triangle that is not new. All three are
     /// of one source triangle.
     pub triangles: Vec<Option<[u32; 3]>>,
-    vertices: Option<&'a [VertexSource]>,
+    vertices: Option<&'a VertexSources>,
 }
 
 impl<'a> Origins<'a> {
@@ -95,7 +95,7 @@ impl<'a> Origins<'a> {
             Some(sources) => sources
                 .iter()
                 .map(|VertexSource { surface, chart, owner, .. }| {
-                    [surface, chart, owner].into_iter().all(holds_for)
+                    [surface, chart, owner].iter().all(holds_for)
                 })
                 .collect(),
             None => self.corners_hold(before, after, holds),

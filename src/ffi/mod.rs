@@ -16,18 +16,41 @@ mod types;
 use libc::{c_char, c_void};
 use std::ops::ControlFlow;
 use std::ptr;
+use std::sync::OnceLock;
 
 use guard::{caught, guard};
 use sized::{StatesSize, check_pointer};
 use status::Failure;
 use types::*;
 
-use crate::{Chamfered, Mesh, chamfer_with_progress};
+use crate::{Chamfered, Error, Mesh, VertexSource, chamfer_with_progress};
 
 /// What a call made: a mesh, where each of its elements came from, and a verdict for each hard
 /// edge. It never changes, so any number of threads may read it at once.
 #[allow(non_camel_case_types)]
-pub struct chamfer_result(Chamfered);
+pub struct chamfer_result {
+    chamfered: Chamfered,
+    /// One after the other, once somebody has asked for them.
+    vertex_sources: OnceLock<Vec<VertexSource>>,
+}
+
+impl chamfer_result {
+    fn new(chamfered: Chamfered) -> chamfer_result {
+        chamfer_result { chamfered, vertex_sources: OnceLock::new() }
+    }
+
+    fn vertex_sources(&self) -> Result<&[VertexSource], Failure> {
+        if self.vertex_sources.get().is_none() {
+            let sources = &self.chamfered.vertex_sources;
+            let mut all = Vec::new();
+            all.try_reserve_exact(sources.len()).map_err(|_| Error::OutOfMemory)?;
+            all.extend(sources.iter());
+            // Where another thread was faster, its array is as good.
+            drop(self.vertex_sources.set(all));
+        }
+        Ok(self.vertex_sources.get().map_or(&[], Vec::as_slice))
+    }
+}
 
 /// The version of this interface that the library was built with: `CHAMFER_ABI_VERSION` of its
 /// header.
@@ -93,7 +116,7 @@ pub unsafe extern "C" fn chamfer_run(
     let body = |mesh: Mesh| unsafe {
         let options = input::read_options(options)?;
         let result = chamfer_with_progress(&mesh, &options, &mut reporting(progress, user))?;
-        Ok(chamfer_result(result))
+        Ok(chamfer_result::new(result))
     };
     // SAFETY: as above.
     unsafe { produce_from(mesh, out, error, body) }
@@ -111,7 +134,7 @@ pub unsafe extern "C" fn chamfer_split_by_angle(
     out: *mut *mut chamfer_result,
     error: *mut chamfer_error,
 ) -> i32 {
-    let body = |mesh: Mesh| Ok(chamfer_result(normals::with_normals(&mesh, angle_degrees)?));
+    let body = |mesh: Mesh| Ok(chamfer_result::new(normals::with_normals(&mesh, angle_degrees)?));
     // SAFETY: the caller's pointers are NULL or valid, as `chamfer.h` asks.
     unsafe { produce_from(mesh, out, error, body) }
 }
@@ -126,8 +149,9 @@ pub unsafe extern "C" fn chamfer_result_mesh(
     mesh: *mut chamfer_mesh,
 ) -> i32 {
     // SAFETY: the caller's struct is as long as it states.
-    let write =
-        |from: &Chamfered| unsafe { sized::write(mesh, &output::view_mesh(&from.mesh)?, "mesh") };
+    let write = |from: &chamfer_result| unsafe {
+        sized::write(mesh, &output::view_mesh(&from.chamfered.mesh)?, "mesh")
+    };
     // SAFETY: `result` is NULL or came from this library and is not destroyed.
     unsafe { inspect(result, write) }
 }
@@ -139,8 +163,8 @@ pub unsafe extern "C" fn chamfer_result_totals(
     totals: *mut chamfer_totals,
 ) -> i32 {
     // SAFETY: the caller's struct is as long as it states.
-    let write = |from: &Chamfered| unsafe {
-        sized::write(totals, &output::view_totals(&from.totals, from.width), "totals")
+    let write = |chamfer_result { chamfered, .. }: &chamfer_result| unsafe {
+        sized::write(totals, &output::view_totals(&chamfered.totals, chamfered.width), "totals")
     };
     // SAFETY: `result` is NULL or came from this library and is not destroyed.
     unsafe { inspect(result, write) }
@@ -155,11 +179,13 @@ pub unsafe extern "C" fn chamfer_result_verdicts(
     count: *mut u32,
 ) -> i32 {
     // SAFETY: the caller's pointers are NULL or writable, and `result` as above.
-    unsafe { inspect(result, |from| output::write_array(&from.verdicts, verdicts, count)) }
+    unsafe {
+        inspect(result, |from| output::write_array(&from.chamfered.verdicts, verdicts, count))
+    }
 }
 
-/// Views what each vertex of the result's mesh came from: `#vertices`. The array lives as long as
-/// the result; NULL if there are none.
+/// Views what each vertex of the result's mesh came from: `#vertices`. The array is made by the
+/// first call, if there is memory for it, and lives as long as the result; NULL if there are none.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn chamfer_result_vertex_sources(
     result: *const chamfer_result,
@@ -167,7 +193,11 @@ pub unsafe extern "C" fn chamfer_result_vertex_sources(
     count: *mut u32,
 ) -> i32 {
     // SAFETY: the caller's pointers are NULL or writable, and `result` as above.
-    unsafe { inspect(result, |from| output::write_array(&from.vertex_sources, sources, count)) }
+    let write = |from: &chamfer_result| unsafe {
+        output::write_array(from.vertex_sources()?, sources, count)
+    };
+    // SAFETY: as above.
+    unsafe { inspect(result, write) }
 }
 
 /// Views what each triangle of the result's mesh came from: `#triangles`. The array lives as long
@@ -179,7 +209,11 @@ pub unsafe extern "C" fn chamfer_result_triangle_sources(
     count: *mut u32,
 ) -> i32 {
     // SAFETY: the caller's pointers are NULL or writable, and `result` as above.
-    unsafe { inspect(result, |from| output::write_array(&from.triangle_sources, sources, count)) }
+    let write = |from: &chamfer_result| unsafe {
+        output::write_array(&from.chamfered.triangle_sources, sources, count)
+    };
+    // SAFETY: as above.
+    unsafe { inspect(result, write) }
 }
 
 /// Frees a result and every array viewed through it. NULL is allowed.
@@ -259,12 +293,12 @@ unsafe fn produce<T>(
 /// `result` is NULL, misaligned, or came from [`produce`] and is not destroyed.
 unsafe fn inspect(
     result: *const chamfer_result,
-    look: impl FnOnce(&Chamfered) -> Result<(), Failure>,
+    look: impl FnOnce(&chamfer_result) -> Result<(), Failure>,
 ) -> i32 {
     let body = || {
         check_pointer(result, "result")?;
         // SAFETY: as this function's.
-        look(&unsafe { &*result }.0)
+        look(unsafe { &*result })
     };
     // SAFETY: there is no error struct.
     unsafe { guard(ptr::null_mut(), body) }

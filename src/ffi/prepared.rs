@@ -59,7 +59,7 @@ pub unsafe extern "C" fn chamfer_prepared_run(
         memory::check(&mesh.as_mesh(), options.verify)?;
         let prepared = Prepared::of_shape(mesh.as_mesh(), shape.clone());
         let result = prepared.chamfer_with_progress(&options, &mut reporting(progress, user))?;
-        Ok(chamfer_result(result))
+        Ok(chamfer_result::new(result))
     };
     // SAFETY: as above.
     unsafe { produce(out, error, body) }

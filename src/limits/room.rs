@@ -10,7 +10,7 @@ use std::collections::BinaryHeap;
 
 use glam::DVec3;
 
-use crate::ids::{IdVec, Sector, Triangle};
+use crate::ids::{Corner, Few, IdVec, Sector, Triangle};
 use crate::math::area_vector;
 use crate::plan::Plan;
 
@@ -20,22 +20,16 @@ const LEAST_SHARE: f64 = 0.02;
 
 /// `#sectors`: the largest share, up to 1, that leaves room in all triangles of the sector.
 pub fn room(plan: &Plan) -> IdVec<Sector, f64> {
-    let mut filling = Filling {
-        plan,
-        stopped_at: IdVec::filled(None, plan.offsets.len()),
-        events: BinaryHeap::new(),
-    };
-    for sector in plan.offsets.ids().filter(|&sector| !plan.offsets[sector].moves()) {
-        filling.stopped_at[sector] = Some(0.0);
-    }
-    for triangle in plan.view.triangles() {
-        filling.watch(triangle, 0.0);
-    }
-    while let Some(event) = filling.events.pop() {
+    let share = |sector: Sector| if plan.offsets[sector].moves() { GROWING } else { 0.0 };
+    let share = plan.view.threads.map(plan.offsets.len(), share);
+    let mut filling = Filling { plan, share, first: Vec::new(), later: BinaryHeap::new() };
+    filling.first = plan.view.triangles().filter_map(|t| filling.event(t, 0.0)).collect();
+    filling.first.sort_unstable();
+    while let Some(event) = filling.next_event() {
         filling.stop_around(&event);
     }
-    let share = |stopped: &Option<f64>| stopped.unwrap_or(1.0);
-    IdVec::from_vec(filling.stopped_at.iter().map(share).collect())
+    filling.share.iter_mut().for_each(|share| *share = share.min(1.0));
+    filling.share
 }
 
 /// A triangle that has given away all it can when everything has grown to a share.
@@ -67,10 +61,16 @@ impl Eq for Event {}
 
 struct Filling<'a> {
     plan: &'a Plan<'a>,
-    /// `#sectors`: the share at which a sector stopped; none while it grows.
-    stopped_at: IdVec<Sector, Option<f64>>,
-    events: BinaryHeap<Event>,
+    /// `#sectors`: the share at which each stopped.
+    share: IdVec<Sector, f64>,
+    /// What is known from the beginning, the earliest last. Nearly all events are: sorting them
+    /// once takes less time than a heap of all.
+    first: Vec<Event>,
+    later: BinaryHeap<Event>,
 }
+
+/// The share of a sector that has not stopped.
+const GROWING: f64 = f64::INFINITY;
 
 /// A triangle whose corners move in proportion to a common share, or stopped before.
 struct Moving {
@@ -91,16 +91,23 @@ impl Filling<'_> {
         triangle.corners().map(|corner| self.plan.sectors.sector_of[corner])
     }
 
+    /// The earliest event that is left.
+    fn next_event(&mut self) -> Option<Event> {
+        // The greater one comes first.
+        if self.first.last() > self.later.peek() { self.first.pop() } else { self.later.pop() }
+    }
+
     fn moving(&self, triangle: Triangle) -> Moving {
         let old = self.plan.view.triangle(triangle);
         let (normal, least, slack) = self.allowance(triangle, old);
         let mut moving = Moving { start: old, growth: [DVec3::ZERO; 3], normal, least, slack };
         for (k, sector) in self.sectors(triangle).into_iter().enumerate() {
             if sector.is_some() {
-                let vector = self.plan.offsets[sector].vector;
-                match self.stopped_at[sector] {
-                    Some(share) => moving.start[k] += vector * share,
-                    None => moving.growth[k] = vector,
+                let (vector, share) = (self.plan.offsets[sector].vector, self.share[sector]);
+                if share == GROWING {
+                    moving.growth[k] = vector;
+                } else {
+                    moving.start[k] += vector * share;
                 }
             }
         }
@@ -122,15 +129,14 @@ impl Filling<'_> {
         (normal, area.dot(normal).min(0.0) - rounding, rounding * EXHAUSTED)
     }
 
-    /// Notes when the triangle will have given away all it can, from a share on.
-    fn watch(&mut self, triangle: Triangle, from: f64) {
-        let is_growing = |sector: Sector| sector.is_some() && self.stopped_at[sector].is_none();
-        if self.sectors(triangle).into_iter().any(is_growing)
-            && let Some(share) = self.moving(triangle).exhausted_at(from)
-            && share < 1.0
-        {
-            self.events.push(Event { share, triangle });
+    /// When the triangle will have given away all it can, from a share on.
+    fn event(&self, triangle: Triangle, from: f64) -> Option<Event> {
+        let is_growing = |sector: Sector| sector.is_some() && self.share[sector] == GROWING;
+        if !self.sectors(triangle).into_iter().any(is_growing) {
+            return None;
         }
+        let share = self.moving(triangle).exhausted_at(from)?;
+        (share < 1.0).then_some(Event { share, triangle })
     }
 
     /// Stops the sectors that press on an exhausted triangle.
@@ -143,12 +149,17 @@ impl Filling<'_> {
         let sectors = self.sectors(event.triangle);
         let pressing = moving.pressing(event.share);
         for k in (0..3).filter(|&k| pressing[k]) {
-            self.stopped_at[sectors[k]] = Some(event.share);
+            self.share[sectors[k]] = event.share;
         }
         for k in (0..3).filter(|&k| pressing[k]) {
-            for corner in self.plan.sectors.corners(&self.plan.topology, sectors[k]) {
-                self.watch(corner.triangle(), event.share);
-            }
+            let is_seen = |triangle: Triangle| {
+                let around = self.sectors(triangle);
+                (0..k).any(|seen| pressing[seen] && around.contains(&sectors[seen]))
+            };
+            let corners = self.plan.sectors.corners(&self.plan.topology, sectors[k]);
+            let triangles = corners.map(Corner::triangle).filter(|&triangle| !is_seen(triangle));
+            let events = triangles.filter_map(|triangle| self.event(triangle, event.share));
+            self.later.extend(events.collect::<Few<Event>>());
         }
     }
 }

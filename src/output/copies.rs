@@ -93,8 +93,7 @@ impl Copies {
         vertex: u32,
         taken: &Taken,
     ) -> u32 {
-        let copy = streams.append(Vertex(vertex));
-        streams.rechart(plan, copy, &taken.place, taken.channels);
+        streams.append_copy(plan, vertex, taken);
         self.settle(streams, cluster)
     }
 

@@ -65,7 +65,7 @@ fn middles(after: &Chamfered) -> HashMap<usize, ()> {
 }
 
 fn check_normal(name: &str, before: &Mesh, after: &Chamfered, vertex: usize, tally: &mut Tally) {
-    let surface = &after.vertex_sources[vertex].surface;
+    let surface = &after.vertex_sources.get(vertex).surface;
     let mixed = blend(surface, |v| vector(before.normals[v]));
     let stored = vector(after.mesh.normals[vertex]);
     let rebuilt = mixed.try_normalize().unwrap_or(stored);
@@ -79,7 +79,7 @@ fn check_normal(name: &str, before: &Mesh, after: &Chamfered, vertex: usize, tal
 }
 
 fn check_uvs(name: &str, before: &Mesh, after: &Chamfered, vertex: usize, tally: &mut Tally) {
-    let source = &after.vertex_sources[vertex];
+    let source = after.vertex_sources.get(vertex);
     for channel in (0..UV_CHANNELS).filter(|&channel| before.uvs[channel].components > 0) {
         let owned = source.owner_channels >> channel & 1 == 1;
         let from = if owned { &source.owner } else { &source.chart };
@@ -105,7 +105,7 @@ fn check_color(name: &str, before: &Mesh, after: &Chamfered, vertex: usize, tall
             |pick: fn(f32, f32) -> f32, from| before.colors.iter().map(|c| c[k]).fold(from, pick);
         let low = f64::from(range(f32::min, f32::INFINITY));
         let high = f64::from(range(f32::max, f32::NEG_INFINITY));
-        let chart = &after.vertex_sources[vertex].chart;
+        let chart = &after.vertex_sources.get(vertex).chart;
         let rebuilt = number(chart, |v| f64::from(before.colors[v][k])).clamp(low, high);
         let off = (f64::from(after.mesh.colors[vertex][k]) - rebuilt).abs();
         tally.note("2 colour", name, (off > VALUE).then(|| format!("{vertex} by {off:.1e}")));
@@ -120,7 +120,7 @@ fn check_tangent(name: &str, before: &Mesh, after: &Chamfered, vertex: usize, ta
     if before.tangents.is_empty() {
         return;
     }
-    let source = &after.vertex_sources[vertex];
+    let source = after.vertex_sources.get(vertex);
     let from = if source.owner_channels & 1 == 1 { &source.owner } else { &source.chart };
     let of = |v: usize| before.tangents[v];
     let direction = |t: [f32; 4]| DVec3::new(f64::from(t[0]), f64::from(t[1]), f64::from(t[2]));

@@ -13,7 +13,7 @@ pub fn fingerprint(result: &Chamfered) -> u64 {
     mesh.uvs.iter().for_each(|uv| hash.floats(&uv.values));
     hash.words(mesh.indices.iter().copied());
     hash.words(mesh.submesh_index_counts.iter().copied());
-    for source in &result.vertex_sources {
+    for source in result.vertex_sources.iter() {
         let blends = [&source.surface, &source.chart, &source.owner];
         blends.into_iter().for_each(|blend| hash.blend(blend));
         hash.words([source.owner_channels]);

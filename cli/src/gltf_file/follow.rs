@@ -1,7 +1,7 @@
 //! Attributes that the core does not carry follow its provenance: each output vertex blends those
 //! of up to three source vertices.
 
-use chamfer::{Blend, UV_CHANNELS, VertexSource};
+use chamfer::{Blend, UV_CHANNELS, VertexSource, VertexSources};
 
 use super::element::{ElementType, Stream};
 use super::geometry::{MeshGeometry, SourceStreams};
@@ -20,7 +20,7 @@ pub fn uv_channel(name: &str) -> Option<usize> {
 pub struct Follower<'a> {
     pub geometry: &'a MeshGeometry,
     /// `#output vertices`.
-    pub sources: &'a [VertexSource],
+    pub sources: &'a VertexSources,
 }
 
 impl Follower<'_> {
@@ -38,8 +38,8 @@ impl Follower<'_> {
         let range = if is_color { self.range(&streams) } else { Vec::new() };
         let mut values = Vec::with_capacity(vertices.len() * element.shape.components());
         for vertex in vertices {
-            let source = &self.sources[*vertex as usize];
-            let blend = blend_of(source, name);
+            let source = self.sources.get(*vertex as usize);
+            let blend = blend_of(&source, name);
             let mut value = match is_label(name, element) {
                 true => nearest(&streams, blend),
                 false => mean(&streams, blend),

@@ -39,7 +39,7 @@ pub fn blend(follower: &Follower, block: &Block, vertices: &[u32]) -> Skin {
     let weight_type = weight_type(block, sets);
     let mut influences = Vec::with_capacity(vertices.len() * sets * SET_SIZE);
     for vertex in vertices {
-        let surface = &follower.sources[*vertex as usize].surface;
+        let surface = &follower.sources.get(*vertex as usize).surface;
         let own = single(surface).and_then(|source| as_stored(&streams, source, sets));
         influences.extend(own.unwrap_or_else(|| {
             let merged =

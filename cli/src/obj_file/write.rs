@@ -66,7 +66,7 @@ fn texcoords(origin: &Origin, result: &Chamfered) -> Table<3> {
     let uv = &result.mesh.uvs[0];
     let components = uv.components as usize;
     Table::new((0..result.mesh.positions.len()).map(|vertex| {
-        let source = result.vertex_sources[vertex].uv(0).vertices[0];
+        let source = result.vertex_sources.get(vertex).uv(0).vertices[0];
         if components == 0 || !origin.has_texcoord[source as usize] {
             return None;
         }

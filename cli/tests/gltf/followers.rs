@@ -27,8 +27,10 @@ fn attribute(name: &str) -> String {
 fn stretched(model: &Model, name: &str) -> Written {
     let document = model.read(name).unwrap();
     let mut chamfered = all_grown(&document);
-    let source = chamfered[0].vertex_sources.last_mut().unwrap();
+    let mut sources: Vec<_> = chamfered[0].vertex_sources.iter().collect();
+    let source = sources.last_mut().unwrap();
     (source.chart.weights, source.owner.weights) = ([1.5, -0.25, -0.25], [1.5, -0.25, -0.25]);
+    chamfered[0].vertex_sources = sources.into_iter().collect();
     let files = document.encode(&folder(name).join("out.glb"), &chamfered).unwrap();
     let bytes = files[0].bytes.clone();
     let json_length = u32::from_le_bytes(bytes[12..16].try_into().unwrap()) as usize;

@@ -100,7 +100,8 @@ fn push_blend(result: &mut Chamfered, mesh: &MeshBuffers, triangle: [u32; 3]) ->
         let (uvs, _) = mesh.uvs[channel].values.as_chunks::<2>();
         out.uvs[channel].values.extend(mean(uvs, triangle));
     }
-    result.vertex_sources.push(VertexSource::new(blend, blend));
+    let added = VertexSource::new(blend, blend);
+    result.vertex_sources = result.vertex_sources.iter().chain([added]).collect();
     out.positions.len() as u32 - 1
 }
 

@@ -1,0 +1,206 @@
+//! What the vertices of a result were re-sampled from, in less memory than an array of it takes.
+
+use super::{Blend, VertexSource};
+
+/// `#vertices`: what each was re-sampled from.
+///
+/// Most vertices have one blend for all that they are, or none; and a copy that continues another
+/// chart shares the blends of the vertex that it is a copy of. So each [`VertexSource`] is put
+/// together when it is asked for.
+#[derive(Clone, Debug, Default)]
+pub struct VertexSources {
+    blends: Vec<Blend>,
+    /// So many vertices at the beginning are those of the source, as they were.
+    kept: u32,
+    /// The vertices after them, as far as none continues another chart.
+    own: Vec<Own>,
+    /// All others.
+    continuing: Vec<Continuing>,
+}
+
+/// Where a vertex has its blends.
+#[derive(Clone, Copy, Debug)]
+enum Own {
+    /// It is a source vertex as it was.
+    Kept(u32),
+    /// One for all.
+    One(u32),
+    /// One for the surface, and the next one for the chart.
+    Two(u32),
+}
+
+/// A vertex that may continue another chart.
+#[derive(Clone, Debug)]
+struct Continuing {
+    own: Own,
+    owner: Blend,
+    owner_channels: u32,
+}
+
+impl VertexSources {
+    /// How many vertices there are.
+    pub fn len(&self) -> usize {
+        self.first_continuing() + self.continuing.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// What one vertex was re-sampled from.
+    ///
+    /// # Panics
+    /// As a slice does where there is no such vertex.
+    pub fn get(&self, vertex: usize) -> VertexSource {
+        let [surface, chart] = match self.own(vertex) {
+            Own::Kept(source) => [Blend::one(source); 2],
+            Own::One(blend) => [self.blends[blend as usize]; 2],
+            Own::Two(first) => [first, first + 1].map(|blend| self.blends[blend as usize]),
+        };
+        match vertex.checked_sub(self.first_continuing()) {
+            None => VertexSource::new(surface, chart),
+            Some(place) => {
+                let Continuing { owner, owner_channels, .. } = self.continuing[place];
+                VertexSource { surface, chart, owner, owner_channels }
+            }
+        }
+    }
+
+    /// All of them in their order.
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = VertexSource> + '_ {
+        (0..self.len()).map(|vertex| self.get(vertex))
+    }
+
+    /// Those of a mesh as it was.
+    pub(crate) fn of_source(vertices: usize) -> VertexSources {
+        VertexSources { kept: vertices as u32, ..VertexSources::default() }
+    }
+
+    /// Those of a mesh as it was, of whose vertices some will move, and some will be copied.
+    pub(crate) fn with_room(vertices: usize, moved: usize, copies: usize) -> VertexSources {
+        VertexSources {
+            blends: Vec::with_capacity(moved),
+            kept: 0,
+            own: (0..vertices as u32).map(Own::Kept).collect(),
+            continuing: Vec::with_capacity(copies),
+        }
+    }
+
+    /// Appends a vertex that comes from where an earlier one does.
+    pub(crate) fn push_like(&mut self, vertex: usize) {
+        self.own.push(self.own(vertex));
+    }
+
+    /// Appends a vertex that comes from where an earlier one does, but for some channels.
+    pub(crate) fn push_copy(&mut self, vertex: usize, owner: Blend, channels: u8) {
+        let own = self.own(vertex);
+        self.continuing.push(Continuing { own, owner, owner_channels: channels.into() });
+    }
+
+    /// Appends a vertex.
+    pub(crate) fn push(&mut self, source: VertexSource) {
+        let VertexSource { surface, chart, owner, owner_channels } = source;
+        let own = self.put(surface, chart);
+        self.continuing.push(Continuing { own, owner, owner_channels });
+    }
+
+    /// Sets what a vertex comes from that continues no other chart.
+    pub(crate) fn set(&mut self, vertex: usize, surface: Blend, chart: Blend) {
+        self.own[vertex - self.kept as usize] = self.put(surface, chart);
+    }
+
+    /// Sets a vertex to a source vertex as it was.
+    pub(crate) fn reset(&mut self, vertex: usize) {
+        self.own[vertex - self.kept as usize] = Own::Kept(vertex as u32);
+    }
+
+    /// Writes what a vertex comes from over that of an earlier one. Neither continues another chart.
+    pub(crate) fn relocate(&mut self, vertex: usize, earlier: usize) {
+        let kept = self.kept as usize;
+        self.own[earlier - kept] = self.own[vertex - kept];
+    }
+
+    /// Takes back all vertices from a number on.
+    pub(crate) fn truncate(&mut self, count: usize) {
+        self.continuing.truncate(count.saturating_sub(self.first_continuing()));
+        self.own.truncate(count.saturating_sub(self.kept as usize));
+    }
+
+    fn put(&mut self, surface: Blend, chart: Blend) -> Own {
+        let first = self.blends.len() as u32;
+        self.blends.push(surface);
+        if chart == surface {
+            return Own::One(first);
+        }
+        self.blends.push(chart);
+        Own::Two(first)
+    }
+
+    fn own(&self, vertex: usize) -> Own {
+        let (kept, first_continuing) = (self.kept as usize, self.first_continuing());
+        match () {
+            () if vertex < kept => Own::Kept(vertex as u32),
+            () if vertex < first_continuing => self.own[vertex - kept],
+            () => self.continuing[vertex - first_continuing].own,
+        }
+    }
+
+    fn first_continuing(&self) -> usize {
+        self.kept as usize + self.own.len()
+    }
+}
+
+impl FromIterator<VertexSource> for VertexSources {
+    fn from_iter<I: IntoIterator<Item = VertexSource>>(sources: I) -> VertexSources {
+        let mut all = VertexSources::default();
+        sources.into_iter().for_each(|source| all.push(source));
+        all
+    }
+}
+
+impl PartialEq for VertexSources {
+    fn eq(&self, other: &VertexSources) -> bool {
+        self.iter().eq(other.iter())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const HALF: Blend = Blend { vertices: [0, 1, 0], weights: [0.5, 0.5, 0.0] };
+
+    fn own(surface: Blend, chart: Blend) -> VertexSource {
+        VertexSource::new(surface, chart)
+    }
+
+    #[test]
+    fn a_copy_shares_all_but_its_owner() {
+        let mut sources = VertexSources::with_room(2, 1, 1);
+        sources.set(1, HALF, Blend::one(1));
+        sources.push_copy(1, Blend::one(7), 0b10);
+        let copy =
+            VertexSource { owner: Blend::one(7), owner_channels: 0b10, ..own(HALF, Blend::one(1)) };
+        let all: Vec<VertexSource> = sources.iter().collect();
+        assert_eq!(all, [own(Blend::one(0), Blend::one(0)), own(HALF, Blend::one(1)), copy]);
+    }
+
+    #[test]
+    fn any_sources_can_be_collected_and_come_out_again() {
+        let odd = VertexSource { owner: Blend::one(9), ..own(Blend::one(3), HALF) };
+        let all = [odd, own(HALF, HALF), own(Blend::one(5), Blend::one(5))];
+        assert!(all.into_iter().collect::<VertexSources>().iter().eq(all));
+    }
+
+    #[test]
+    fn what_is_taken_back_is_gone() {
+        let mut sources = VertexSources::with_room(2, 0, 0);
+        sources.push_like(0);
+        sources.push_copy(1, HALF, 1);
+        sources.truncate(3);
+        assert_eq!((sources.len(), sources.get(2)), (3, own(Blend::one(0), Blend::one(0))));
+        sources.truncate(2);
+        assert_eq!(sources, VertexSources::of_source(2));
+    }
+}
