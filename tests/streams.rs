@@ -170,7 +170,7 @@ fn each_channel_has_the_seams_that_it_had() {
         }
         let copies = result.mesh.indices[3 * triangle..3 * triangle + 3].iter();
         for &copy in copies.filter(|&&vertex| vertex as usize >= cube.positions.len()) {
-            let channels = result.vertex_sources[copy as usize].owner_channels;
+            let channels = result.vertex_sources.get(copy as usize).owner_channels;
             first_alone += usize::from(channels == 1);
             both += usize::from(channels == 3);
         }
