@@ -1,11 +1,12 @@
 //! Fill map: how a corner fill lies on the texture.
 
+use std::cell::OnceCell;
 use std::cmp::Reverse;
 
 use glam::{DVec2, DVec3};
 
 use super::density::{Facing, Lie, MOST_STRETCH, density, misfit, roomiest};
-use super::feet::{Lay, Room, Wings, flat_lay, is_broken, kite};
+use super::feet::{Frame, Lay, Room, Wings, flat_lay, is_broken, kite};
 use super::ground::Ground;
 use super::patch::{Joint, Middle, Patches, Taken};
 use super::{Owners, channels_of, place_of};
@@ -47,6 +48,8 @@ struct FillMap<'a> {
     points: Few<DVec3>,
     /// `#triangles`: twice their areas.
     areas: Few<f64>,
+    /// The fill laid flat, once that is asked for.
+    frame: OnceCell<Frame>,
 }
 
 /// Lays a fill into the chart of its owner where its own vertices are in several, or fold there.
@@ -59,8 +62,8 @@ pub fn add_fill(
     patches: &mut Patches,
 ) {
     let sectors = plan.sectors.ring(ring);
-    let (points, areas) = (Few::new(), Few::new());
-    let mut map = FillMap { plan, placement, attributes, sectors, fill, points, areas };
+    let (points, areas, frame) = (Few::new(), Few::new(), OnceCell::new());
+    let mut map = FillMap { plan, placement, attributes, sectors, fill, points, areas, frame };
     map.points.extend(sectors.iter().map(|&sector| placement.point[sector]));
     for places in &fill.middles {
         let middle = middle(&map.points[..sectors.len()], places);
@@ -149,9 +152,12 @@ impl FillMap<'_> {
     }
 
     fn flat(&self, room: Room) -> Lay {
-        let triangles = self.fill.triangles.iter();
-        let normal = triangles.map(|t| area_vector(t.map(|k| self.points[k]))).sum();
-        flat_lay(self.plan, room, &self.points, self.sectors.len(), unit(normal))
+        let frame = self.frame.get_or_init(|| {
+            let triangles = self.fill.triangles.iter();
+            let normal = triangles.map(|t| area_vector(t.map(|k| self.points[k]))).sum();
+            Frame::new(&self.points, self.sectors.len(), unit(normal))
+        });
+        flat_lay(self.plan, room, frame, self.sectors.len())
     }
 
     fn first(&self, place: usize) -> Corner {

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::density::{Facing, Lie, MOST_STRETCH, misfit, roomiest};
-use super::feet::{Depth, Room, Spread, abreast, band_foot, flat_lay, inside};
+use super::feet::{Depth, Frame, Room, Spread, abreast, band_foot, flat_lay, inside};
 use super::ground::Ground;
 use super::patch::{Joint, Patches, Taken};
 use super::{Owners, channels_of, place_of};
@@ -127,7 +127,8 @@ impl<'a> StripMap<'a> {
         let points: Few<DVec3> = places.iter().map(|&place| self.points[place]).collect();
         let areas = self.cut.triangles().iter().map(|t| area_vector(t.map(|k| self.points[k])));
         let normal = unit(areas.sum());
-        let lay = flat_lay(self.plan, room, &points, points.len(), normal);
+        let frame = Frame::new(&points, points.len(), normal);
+        let lay = flat_lay(self.plan, room, &frame, points.len());
         let mut feet = [None; 4];
         for (k, foot) in lay.feet.into_iter().enumerate() {
             feet[places[k]] = foot;
