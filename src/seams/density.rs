@@ -2,6 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
+use super::feet::Room;
 use super::ground::Ground;
 use crate::ids::{Corner, Id, Triangle};
 use crate::math::area_vector;
@@ -35,6 +36,14 @@ pub fn density(plan: &Plan, triangle: Triangle, channel: usize) -> f64 {
     if area > 0.0 && !is_line(points) { texture_area(points) / area } else { 0.0 }
 }
 
+/// Where the ground has the most room to lay a chamfer of a face flat, as dense as the face.
+pub fn roomiest(plan: &Plan, face: Corner, channel: usize, ground: &Ground) -> Room {
+    let corner = Corner(3 * ground.roomiest().0);
+    let densities = [face, corner].map(|at| density(plan, at.triangle(), channel).abs());
+    let scale = (densities[0] / densities[1]).sqrt();
+    Room { corner, scale: if scale.is_finite() { scale } else { 1.0 } }
+}
+
 /// Whether rounding its UVs can make a triangle's area vanish: models that are coloured by single
 /// texels have all of a face at one place.
 fn is_line(points: [DVec2; 3]) -> bool {
@@ -43,7 +52,7 @@ fn is_line(points: [DVec2; 3]) -> bool {
 }
 
 /// Twice the area on the texture.
-fn texture_area([a, b, c]: [DVec2; 3]) -> f64 {
+pub fn texture_area([a, b, c]: [DVec2; 3]) -> f64 {
     (b - a).perp_dot(c - a)
 }
 

@@ -11,14 +11,17 @@ use crate::plan::Plan;
 use crate::report::Blend;
 use crate::resample::{chart_foot, locate};
 
+/// So many sides of a chamfer are tried in pairs: of more, every so manyth.
+const MOST_SIDES: usize = 8;
+
 /// A middle vertex lies halfway between the old corner and the pulled one.
 const MIDDLE_SHARE: f64 = 0.5;
 
 /// A strip reaches at most so far into its owner's triangle.
 const DEEPEST: f64 = 0.9;
 
-/// A fill that is laid into a triangle reaches at most so far along its sides.
-const WIDEST: f64 = 0.75;
+/// What is laid flat into a triangle reaches at most so far along its sides.
+const WIDEST: f64 = 0.98;
 
 /// Where along the old edge the far corners of a strip land.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -101,6 +104,16 @@ pub fn inside(plan: &Plan, end: &End) -> [Blend; 2] {
     let apex = Blend::one(plan.view.vertex_at(end.half_edge.prev()).0);
     let near = mixed(&[(foot(end.near), 1.0 - depth), (apex, depth)]);
     [near, foot(end.far)]
+}
+
+/// As [`inside`], but straight into the owner's plane, past its triangle where that is too small.
+pub fn abreast(plan: &Plan, end: &End) -> Option<[Blend; 2]> {
+    let [from, to] = end.edge;
+    let [_, strip] = end.widths();
+    let inward = plan.faces.normal[end.half_edge.triangle()].cross(unit(to - from));
+    let way = (to - from) * share_of(end.edge, end.near).clamp(0.0, 1.0) + inward * strip;
+    let near = locate(&plan.view, end.half_edge, from, way)?.blend(plan, 1.0);
+    Some([near, on_edge(plan, end.half_edge, share_of(end.edge, end.far))])
 }
 
 /// Where the foot of the perpendicular from a pulled vertex divides an edge: 0 to 1, or beyond.
@@ -246,51 +259,77 @@ fn feet_of_wings(plan: &Plan, placement: &Placement, sector: Sector, wings: Wing
     [Blend { vertices, ..behind }, before]
 }
 
-/// A fill laid flat into the triangle at a corner, as large as it is if there is room. Its points
-/// are those of a ring and then its middles; the normal is that of the whole.
-pub fn corner_lay(
-    plan: &Plan,
-    corner: Corner,
-    points: &[DVec3],
-    ring: usize,
-    normal: DVec3,
-) -> Lay {
-    let apex = (0..ring).rev().max_by(|&one, &other| {
-        let opening = |apex| spread_at(points, ring, apex, normal);
-        opening(one).total_cmp(&opening(other))
-    });
-    let apex = apex.unwrap_or(0);
-    let [to_next, to_prev] = arms_at(points, ring, apex);
-    let opening = spread_at(points, ring, apex, normal);
-    let coordinates = |point: &DVec3| {
-        let way = *point - points[apex];
-        [way.cross(to_prev), to_next.cross(way)].map(|part| part.dot(normal) / opening)
-    };
-    let flat: Few<[f64; 2]> = points.iter().map(coordinates).collect();
-    let least = [0, 1].map(|k| flat.iter().map(|at| at[k]).fold(0.0, f64::min));
-    let reach = |at: &[f64; 2]| at[0] - least[0] + at[1] - least[1];
-    let farthest = flat.iter().map(reach).fold(0.0, f64::max);
+/// A place to lay a chamfer flat.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Room {
+    /// In the triangle at this corner.
+    pub corner: Corner,
+    /// So many times as large as it is, if there is room.
+    pub scale: f64,
+}
+
+/// A chamfer laid flat into a triangle.
+pub fn flat_lay(plan: &Plan, Room { corner, scale }: Room, frame: &Frame, ring: usize) -> Lay {
     let face = area_vector(plan.view.triangle(corner.triangle())).length();
-    let size = (opening / face).sqrt().min(WIDEST / farthest);
+    let size = (scale * (frame.opening / face).sqrt()).min(WIDEST / frame.farthest);
     let vertices = [corner, corner.next(), corner.prev()].map(|c| plan.view.vertex_at(c).0);
     let blend = |at: &[f64; 2]| {
-        let [to_next, to_prev] = [0, 1].map(|k| size * (at[k] - least[k]));
+        let [to_next, to_prev] = at.map(|along| size * along);
         Blend::new(vertices, [1.0 - to_next - to_prev, to_next, to_prev])
     };
-    let mut blends = flat.iter().map(blend);
+    let mut blends = frame.flat.iter().map(blend);
     let feet = blends.by_ref().take(ring).map(Some).collect();
     Lay { feet, begin: 0, middles: blends.collect() }
 }
 
-/// From one of a ring's points to the next and to the previous one.
-fn arms_at(points: &[DVec3], ring: usize, at: usize) -> [DVec3; 2] {
-    [points[(at + 1) % ring] - points[at], points[(at + ring - 1) % ring] - points[at]]
+/// A chamfer laid flat, in terms of two of its sides.
+pub struct Frame {
+    /// `#points`: how far along each of the two sides, from the least.
+    flat: Few<[f64; 2]>,
+    /// Twice the area between the sides.
+    opening: f64,
+    /// The greatest sum of both.
+    farthest: f64,
 }
 
-/// Twice the area between the sides at one of a ring's points, seen along a unit normal.
-fn spread_at(points: &[DVec3], ring: usize, at: usize, normal: DVec3) -> f64 {
-    let [to_next, to_prev] = arms_at(points, ring, at);
-    to_next.cross(to_prev).dot(normal)
+impl Frame {
+    /// Of the frames of the chamfer's sides, the one with the smallest triangle around the whole. Its
+    /// points are those around it and then its middles; the normal is that of the whole.
+    pub fn new(points: &[DVec3], ring: usize, normal: DVec3) -> Frame {
+        let step = ring.div_ceil(MOST_SIDES).max(1);
+        let sides = (0..ring).step_by(step);
+        let side = |place: usize| points[(place + 1) % ring] - points[place];
+        let pairs = sides.clone().flat_map(|one| sides.clone().map(move |other| [one, other]));
+        let frames = pairs
+            .filter_map(|[one, other]| Frame::of_sides(points, [side(one), -side(other)], normal));
+        let closest = frames.min_by(|one, other| one.girth().total_cmp(&other.girth()));
+        closest.unwrap_or_else(|| Frame::point(points.len()))
+    }
+
+    /// Seen along a unit normal; none where the sides do not open.
+    fn of_sides(points: &[DVec3], [one, other]: [DVec3; 2], normal: DVec3) -> Option<Frame> {
+        let opening = one.cross(other).dot(normal);
+        let along = |point: &DVec3| {
+            let way = *point - points[0];
+            [way.cross(other), one.cross(way)].map(|part| part.dot(normal) / opening)
+        };
+        let mut flat: Few<[f64; 2]> = points.iter().map(along).collect();
+        let least = [0, 1].map(|k| flat.iter().map(|at| at[k]).fold(0.0, f64::min));
+        flat.iter_mut().for_each(|at| *at = [at[0] - least[0], at[1] - least[1]]);
+        let farthest = flat.iter().map(|at| at[0] + at[1]).fold(0.0, f64::max);
+        (opening > 0.0).then_some(Frame { flat, opening, farthest })
+    }
+
+    /// All at one place: what opens nowhere has no area.
+    fn point(count: usize) -> Frame {
+        let flat = std::iter::repeat_n([0.0; 2], count).collect();
+        Frame { flat, opening: 0.0, farthest: 1.0 }
+    }
+
+    /// Twice the area of the triangle around the whole that has sides along those of the frame.
+    fn girth(&self) -> f64 {
+        self.opening * self.farthest * self.farthest
+    }
 }
 
 /// Whether a sector and one other go all around their cluster.
@@ -308,6 +347,7 @@ pub fn is_broken(plan: &Plan, sector: Sector, channel: usize) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ids::Triangle;
     use crate::plan::tests::plan_of;
     use crate::shapes;
 
@@ -341,13 +381,41 @@ mod tests {
         assert!((weight_of(&foot, to) - 0.1).abs() < 1e-6, "{foot:?}");
     }
 
+    /// Every other side of a regular hexagon lies on the triangle around it, of which it is two
+    /// thirds.
+    #[test]
+    fn what_is_too_large_for_a_face_is_laid_as_large_as_it_can_be() {
+        let cube = shapes::cube(1.0);
+        let plan = plan_of(&cube, 0.1);
+        let at = |k: usize| {
+            let (sin, cos) = (k as f64 * std::f64::consts::FRAC_PI_3).sin_cos();
+            DVec3::new(cos, sin, 0.0)
+        };
+        let points: Vec<DVec3> = (0..6).map(at).collect();
+        let room = Room { corner: Corner(0), scale: 1.0 };
+        let lay = flat_lay(&plan, room, &Frame::new(&points, 6, DVec3::Z), 6);
+        let place = |blend: &Option<Blend>| {
+            let positions =
+                blend.unwrap().vertices.map(|v| plan.view.position(crate::ids::Vertex(v)));
+            crate::resample::weighted_sum(&blend.unwrap(), positions)
+        };
+        let laid: Vec<DVec3> = lay.feet.iter().map(place).collect();
+        let areas = (1..5).map(|k| area_vector([laid[0], laid[k], laid[k + 1]]).length());
+        let share = areas.sum::<f64>() / area_vector(plan.view.triangle(Triangle(0))).length();
+        assert!((share - 2.0 / 3.0 * WIDEST * WIDEST).abs() < 1e-6, "{share}");
+        let point = Frame::new(&[DVec3::ZERO; 3], 3, DVec3::ZERO);
+        let collapsed = flat_lay(&plan, room, &point, 3);
+        assert!(collapsed.feet.iter().all(|foot| foot.unwrap().weights[0] == 1.0));
+    }
+
     /// A flat right angle of half the face's area, in the face's right angle.
     #[test]
     fn a_fill_in_a_corner_keeps_its_shape_and_area() {
         let cube = shapes::cube(1.0);
         let plan = plan_of(&cube, 0.1);
         let points = [DVec3::ZERO, DVec3::X * 0.5, DVec3::Y * 0.5, DVec3::new(0.1, 0.1, 0.0)];
-        let lay = corner_lay(&plan, Corner(0), &points, 3, DVec3::Z);
+        let room = Room { corner: Corner(0), scale: 1.0 };
+        let lay = flat_lay(&plan, room, &Frame::new(&points, 3, DVec3::Z), 3);
         let [from, next, prev] = [0, 1, 2].map(|corner| plan.view.vertex_at(Corner(corner)).0);
         let weights = |blend: &Blend| [from, next, prev].map(|v| weight_of(blend, v));
         let feet: Vec<[f32; 3]> = lay.feet.iter().flatten().map(weights).collect();

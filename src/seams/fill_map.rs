@@ -1,11 +1,12 @@
 //! Fill map: how a corner fill lies on the texture.
 
+use std::cell::OnceCell;
 use std::cmp::Reverse;
 
 use glam::{DVec2, DVec3};
 
-use super::density::{Facing, Lie, MOST_STRETCH, misfit};
-use super::feet::{Lay, Wings, corner_lay, is_broken, kite};
+use super::density::{Facing, Lie, MOST_STRETCH, density, misfit, roomiest};
+use super::feet::{Frame, Lay, Room, Wings, flat_lay, is_broken, kite};
 use super::ground::Ground;
 use super::patch::{Joint, Middle, Patches, Taken};
 use super::{Owners, channels_of, place_of};
@@ -23,9 +24,11 @@ enum Way {
     Kite(Wings),
     /// Into the triangle at the owner's first corner.
     Corner,
+    /// Into the triangle of the owner's chart that has the most room in a channel.
+    Roomiest(usize),
 }
 
-/// The ways to lay a fill, best first.
+/// The ways to lay a fill into what its chart leaves free at the corner, best first.
 const WAYS: [Way; 5] = [
     Way::Kite(Wings::Far),
     Way::Kite(Wings::Near(1.0)),
@@ -49,6 +52,8 @@ struct FillMap<'a> {
     fill: &'a Fill,
     /// Those of the ring, then the middles.
     points: Few<DVec3>,
+    /// The fill laid flat, once that is asked for.
+    frame: OnceCell<Frame>,
 }
 
 /// Lays a fill into the chart of its owner where its own vertices are in several, or fold there.
@@ -61,8 +66,8 @@ pub fn add_fill(
     patches: &mut Patches,
 ) {
     let sectors = plan.sectors.ring(ring);
-    let points = Few::new();
-    let mut map = FillMap { plan, placement, attributes, sectors, fill, points };
+    let (points, frame) = (Few::new(), OnceCell::new());
+    let mut map = FillMap { plan, placement, attributes, sectors, fill, points, frame };
     map.points.extend(sectors.iter().map(|&sector| placement.point[sector]));
     for places in &fill.middles {
         let middle = middle(&map.points[..sectors.len()], places);
@@ -103,13 +108,15 @@ impl FillMap<'_> {
             return first;
         }
         let ranked = self.ranked(owners);
-        for (way, &owner) in WAYS.iter().flat_map(|way| ranked.iter().map(move |at| (way, at))) {
-            let misfit = self.lay(channels, *way, owner, lay);
+        let elsewhere = Way::Roomiest(channels.trailing_zeros() as usize);
+        let ways = WAYS.into_iter().chain([elsewhere]);
+        for (way, &owner) in ways.flat_map(|way| ranked.iter().map(move |at| (way, at))) {
+            let misfit = self.lay(channels, way, owner, lay);
             if misfit <= MOST_STRETCH {
                 return owner;
             }
             if misfit < best.0 {
-                best = (misfit, *way, owner);
+                best = (misfit, way, owner);
             }
         }
         let (_, way, owner) = best;
@@ -145,7 +152,7 @@ impl FillMap<'_> {
     fn lay(&self, channels: u8, way: Way, owner: usize, lay: &mut Lay) -> f64 {
         self.find_feet(way, owner, lay);
         let mapped = channels_of(self.plan).filter(|channel| channels >> channel & 1 == 1);
-        mapped.map(|channel| self.misfit(channel, owner, lay)).fold(0.0, f64::max)
+        mapped.map(|channel| self.misfit(channel, owner, way, lay)).fold(0.0, f64::max)
     }
 
     fn find_feet(&self, way: Way, owner: usize, lay: &mut Lay) {
@@ -155,12 +162,26 @@ impl FillMap<'_> {
                 kite(self.plan, self.placement, self.sectors, (owner, wings, middles), lay);
             }
             Way::Corner => {
-                let triangles = self.fill.triangles.iter();
-                let normal = triangles.map(|t| area_vector(t.map(|k| self.points[k]))).sum();
-                let count = self.sectors.len();
-                *lay = corner_lay(self.plan, self.first(owner), &self.points, count, unit(normal));
+                *lay = self.flat(Room { corner: self.first(owner), scale: 1.0 });
             }
+            Way::Roomiest(channel) => *lay = self.flat(self.roomiest(owner, channel)),
         }
+    }
+
+    /// Where to lay the fill flat in its owner's chart.
+    fn roomiest(&self, owner: usize, channel: usize) -> Room {
+        let corners = [self.first(owner)];
+        let ground = Ground::new(self.plan, channel, &corners);
+        roomiest(self.plan, corners[0], channel, &ground)
+    }
+
+    fn flat(&self, room: Room) -> Lay {
+        let frame = self.frame.get_or_init(|| {
+            let triangles = self.fill.triangles.iter();
+            let normal = triangles.map(|t| area_vector(t.map(|k| self.points[k]))).sum();
+            Frame::new(&self.points, self.sectors.len(), unit(normal))
+        });
+        flat_lay(self.plan, room, frame, self.sectors.len())
     }
 
     fn first(&self, place: usize) -> Corner {
@@ -173,7 +194,7 @@ impl FillMap<'_> {
     }
 
     /// How badly the fill lies on its owner's texture: see [`misfit`].
-    fn misfit(&self, channel: usize, owner: usize, lay: &Lay) -> f64 {
+    fn misfit(&self, channel: usize, owner: usize, way: Way, lay: &Lay) -> f64 {
         let uv = |(place, foot): (usize, &Option<Blend>)| match foot {
             Some(foot) => place_of(self.plan, channel, foot),
             None => self.own_uv(place, channel),
@@ -181,7 +202,11 @@ impl FillMap<'_> {
         let mut uvs = Few::new();
         uvs.extend(lay.feet.iter().enumerate().map(uv));
         uvs.extend(lay.middles.iter().map(|middle| place_of(self.plan, channel, middle)));
-        self.misfit_on(channel, owner, Facing::AsFace, &uvs)
+        let at = match way {
+            Way::Roomiest(channel) => self.roomiest(owner, channel).corner,
+            Way::Kite(_) | Way::Corner => self.first(owner),
+        };
+        self.misfit_on(channel, owner, at, Facing::AsFace, &uvs)
     }
 
     /// How badly it lies where its vertices are in their own charts; infinite where these are not
@@ -195,12 +220,30 @@ impl FillMap<'_> {
         let middle = |&at: &DVec3| -> Blend { middles::nearest(self.plan, self.sectors, at) };
         let middles = self.points[self.sectors.len()..].iter().map(middle);
         uvs.extend(middles.map(|blend| place_of(self.plan, channel, &blend)));
-        let on = |owner: usize| self.misfit_on(channel, owner, Facing::Either, &uvs);
+        let facing = self.facing(channel);
+        let on = |owner: usize| self.misfit_on(channel, owner, self.first(owner), facing, &uvs);
         (0..self.sectors.len()).map(on).fold(f64::INFINITY, f64::min)
     }
 
-    fn misfit_on(&self, channel: usize, owner: usize, facing: Facing, uvs: &[DVec2]) -> f64 {
-        let corners = [self.first(owner)];
+    /// How the fill may lie between the faces around the corner.
+    fn facing(&self, channel: usize) -> Facing {
+        let places = 0..self.sectors.len();
+        let turn =
+            |place| density(self.plan, self.first(place).triangle(), channel).partial_cmp(&0.0);
+        let mut turns = places.map(turn);
+        let first = turns.next().flatten();
+        if turns.all(|turn| turn == first) { Facing::AsFace } else { Facing::Either }
+    }
+
+    fn misfit_on(
+        &self,
+        channel: usize,
+        owner: usize,
+        at: Corner,
+        facing: Facing,
+        uvs: &[DVec2],
+    ) -> f64 {
+        let corners = [at];
         let ground = Ground::new(self.plan, channel, &corners);
         let lie = Lie { triangles: &self.fill.triangles, points: &self.points, uvs };
         misfit(self.plan, self.first(owner), facing, channel, &ground, &lie)

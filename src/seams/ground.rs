@@ -2,10 +2,10 @@
 
 use glam::DVec2;
 
-use crate::ids::Corner;
+use crate::ids::{Corner, Triangle};
 use crate::plan::Plan;
 
-use super::density::{longest_square, size, uv_point};
+use super::density::{longest_square, size, texture_area, uv_point};
 use crate::edges::seam_between;
 
 /// A chamfer that lies past the end of its chart by less than this share of its own length shows
@@ -57,36 +57,49 @@ impl<'a> Ground<'a> {
         samples.iter().all(|&point| below.iter().any(|&face| is_on(self.points(face), point, near)))
     }
 
-    /// Corners of the chart's triangles that reach below a triangle on the texture, as far as they
-    /// follow on each other.
-    fn below(&self, triangle: [DVec2; 3], near: f64) -> Vec<Corner> {
+    /// The triangles of the chart that reach below one on the texture, as far as they follow on each
+    /// other.
+    fn below(&self, triangle: [DVec2; 3], near: f64) -> Vec<Triangle> {
         let [low, high] = bounds(triangle);
-        let reaches = |corner: Corner| {
-            let [lowest, highest] = bounds(self.points(corner));
+        self.spread(|face| {
+            let [lowest, highest] = bounds(self.points(face));
             (lowest - high).max(low - highest).max_element() <= near
+        })
+    }
+
+    /// The triangle of the chart, of those near by, that has the most texture.
+    pub fn roomiest(&self) -> Triangle {
+        let area = |face: &Triangle| texture_area(self.points(*face)).abs();
+        let near_by = self.spread(|_| true);
+        let roomiest = near_by.into_iter().max_by(|one, other| area(one).total_cmp(&area(other)));
+        roomiest.unwrap_or(self.corners[0].triangle())
+    }
+
+    /// The triangles of the chart that are such, as far as they follow on those around the corners.
+    fn spread(&self, is_such: impl Fn(Triangle) -> bool) -> Vec<Triangle> {
+        let mut found: Vec<Triangle> = Vec::new();
+        let add = |found: &mut Vec<Triangle>, face: Triangle| {
+            if is_such(face) && !found.contains(&face) {
+                found.push(face);
+            }
         };
-        let mut below: Vec<Corner> = Vec::new();
         self.any_corner(|corner| {
-            below.extend(Some(corner).filter(|&corner| reaches(corner)));
+            add(&mut found, corner.triangle());
             false
         });
         let mut visited = 0;
-        while visited < below.len() && below.len() < MOST_FACES {
-            for side in below[visited].triangle().corners() {
-                let twin = self.plan.topology.twin[side];
-                let is_known = || below.iter().any(|face| face.triangle() == twin.triangle());
-                if self.runs_on(side) && reaches(twin) && !is_known() {
-                    below.push(twin);
-                }
+        while visited < found.len() && found.len() < MOST_FACES {
+            for side in found[visited].corners().into_iter().filter(|&side| self.runs_on(side)) {
+                add(&mut found, self.plan.topology.twin[side].triangle());
             }
             visited += 1;
         }
-        below
+        found
     }
 
     /// Whether one of the triangles is such.
     fn any_face(&self, is_such: impl Fn([DVec2; 3]) -> bool) -> bool {
-        self.any_corner(|corner| is_such(self.points(corner)))
+        self.any_corner(|corner| is_such(self.points(corner.triangle())))
     }
 
     /// Whether the corner of one of them is such.
@@ -131,9 +144,9 @@ impl<'a> Ground<'a> {
         twin.is_some() && meet(side, twin.next()) && meet(side.next(), twin)
     }
 
-    fn points(&self, corner: Corner) -> [DVec2; 3] {
+    fn points(&self, face: Triangle) -> [DVec2; 3] {
         let uv = &self.plan.view.mesh.uvs[self.channel];
-        corner.triangle().corners().map(|corner| uv_point(uv, self.plan.view.vertex_at(corner).0))
+        face.corners().map(|corner| uv_point(uv, self.plan.view.vertex_at(corner).0))
     }
 }
 
@@ -199,5 +212,39 @@ mod tests {
         assert!(ground.covers([face[0], face[1], middle]));
         let away = face[0] * 2.0 - middle;
         assert!(!ground.covers([face[0], face[1], away]), "past the end of the chart");
+    }
+
+    /// The sides of the cylinder lie one beside the other in the atlas.
+    #[test]
+    fn the_ground_goes_on_over_all_of_the_chart_that_a_triangle_lies_on() {
+        let cylinder = shapes::cylinder(12);
+        let plan = plan_of(&cylinder, 0.1);
+        let corners = [Corner(0)];
+        let ground = Ground::new(&plan, 0, &corners);
+        let across = ground.spread(|_| true);
+        let [low, high] = across
+            .iter()
+            .map(|&face| bounds(ground.points(face)))
+            .fold([DVec2::INFINITY, DVec2::NEG_INFINITY], |[low, high], [least, most]| {
+                [low.min(least), high.max(most)]
+            });
+        assert_eq!(across.len(), 24, "two triangles for each side");
+        assert!(ground.covers([low, DVec2::new(high.x, low.y), high]));
+        assert!(!ground.covers([low, DVec2::new(high.x * 1.1, low.y), high]));
+    }
+
+    /// Seen at an angle, front and back show most, and no seam parts them from the other sides.
+    #[test]
+    fn the_roomiest_triangle_of_a_chart_has_the_most_texture() {
+        let mut cube = shapes::plain_cube(1.0);
+        let values = cube.positions.iter().flat_map(|[x, y, z]| [x + 0.3 * z, y + 0.1 * z]);
+        cube.uvs[0] = crate::mesh::UvBuffer { components: 2, values: values.collect() };
+        let plan = plan_of(&cube, 0.1);
+        let corners = [Corner(0)];
+        let ground = Ground::new(&plan, 0, &corners);
+        let roomiest = ground.roomiest();
+        let most = texture_area(ground.points(roomiest)).abs();
+        let all = plan.view.triangles().map(|face| texture_area(ground.points(face)).abs());
+        assert!((most - all.fold(0.0, f64::max)).abs() < 1e-9 && most > 0.4);
     }
 }

@@ -2,8 +2,8 @@
 
 use glam::{DVec2, DVec3};
 
-use super::density::{Facing, Lie, MOST_STRETCH, misfit};
-use super::feet::{Depth, End, Spread, band_foot, corner_lay, inside};
+use super::density::{Facing, Lie, MOST_STRETCH, misfit, roomiest};
+use super::feet::{Depth, End, Frame, Room, Spread, abreast, band_foot, flat_lay, inside};
 use super::ground::Ground;
 use super::patch::{Joint, Patches, Taken};
 use super::{Owners, channels_of, place_of};
@@ -25,8 +25,10 @@ enum Way {
     Band(usize, Spread, Depth),
     /// Along the edge, within the triangle of the owner's side.
     Inside(usize),
-    /// Flat, anywhere in that triangle.
-    Flat(usize),
+    /// Along the edge, and past that triangle.
+    Abreast(usize),
+    /// Flat, anywhere in a triangle of the owner's chart.
+    Flat(usize, Room),
 }
 
 /// The ways onto one side's band, best first.
@@ -87,7 +89,16 @@ impl<'a> StripMap<'a> {
                     feet[far] = band_foot(self.plan, &end, spread, depth);
                 }
             }
-            Way::Flat(owner) => feet = self.flat(owner),
+            Way::Abreast(owner) => {
+                for (end, ends) in self.strip_ends(owner).into_iter().zip(places(owner)) {
+                    for (place, foot) in
+                        ends.into_iter().zip(abreast(self.plan, &end).into_iter().flatten())
+                    {
+                        feet[place] = Some(foot);
+                    }
+                }
+            }
+            Way::Flat(_, room) => feet = self.flat(room),
             Way::Inside(owner) => {
                 for (end, ends) in self.strip_ends(owner).into_iter().zip(places(owner)) {
                     for (place, foot) in ends.into_iter().zip(inside(self.plan, &end)) {
@@ -127,17 +138,29 @@ impl<'a> StripMap<'a> {
         }
     }
 
-    fn flat(&self, owner: usize) -> Feet {
+    fn flat(&self, room: Room) -> Feet {
         let places: Few<usize> = (0..4).filter(|&place| self.is_used(place)).collect();
         let points: Few<DVec3> = places.iter().map(|&place| self.points[place]).collect();
         let areas = self.cut.triangles().iter().map(|t| area_vector(t.map(|k| self.points[k])));
         let normal = unit(areas.sum());
-        let lay = corner_lay(self.plan, self.edge.sides[owner], &points, points.len(), normal);
+        let frame = Frame::new(&points, points.len(), normal);
+        let lay = flat_lay(self.plan, room, &frame, points.len());
         let mut feet = [None; 4];
         for (k, foot) in lay.feet.into_iter().enumerate() {
             feet[places[k]] = foot;
         }
         feet
+    }
+
+    /// Where to lay the strip flat into the owner's own triangle.
+    fn own_room(&self, owner: usize) -> Room {
+        Room { corner: self.edge.sides[owner], scale: 1.0 }
+    }
+
+    /// Where to lay it flat in the owner's chart.
+    fn room(&self, channel: usize, owner: usize) -> Room {
+        let ground = Ground::new(self.plan, channel, &self.ends[owner]);
+        roomiest(self.plan, self.edge.sides[owner], channel, &ground)
     }
 
     /// How badly the strip lies on a channel in some way: see [`misfit`].
@@ -151,18 +174,19 @@ impl<'a> StripMap<'a> {
         };
         let uvs = [0, 1, 2, 3].map(uv);
         match way {
-            Way::Band(owner, ..) | Way::Inside(owner) | Way::Flat(owner) => {
-                self.misfit_on(owner, channel, uvs)
-            }
             Way::Own => [0, 1]
-                .map(|owner| self.misfit_on(owner, channel, uvs))
+                .map(|owner| self.misfit_on(owner, &self.ends[owner], channel, uvs))
                 .into_iter()
                 .fold(f64::INFINITY, f64::min),
+            Way::Flat(owner, room) => self.misfit_on(owner, &[room.corner], channel, uvs),
+            Way::Band(owner, ..) | Way::Inside(owner) | Way::Abreast(owner) => {
+                self.misfit_on(owner, &self.ends[owner], channel, uvs)
+            }
         }
     }
 
-    fn misfit_on(&self, owner: usize, channel: usize, uvs: [DVec2; 4]) -> f64 {
-        let ground = Ground::new(self.plan, channel, &self.ends[owner]);
+    fn misfit_on(&self, owner: usize, at: &[Corner], channel: usize, uvs: [DVec2; 4]) -> f64 {
+        let ground = Ground::new(self.plan, channel, at);
         let lie = Lie { triangles: self.cut.triangles(), points: &self.points, uvs: &uvs };
         misfit(self.plan, self.edge.sides[owner], Facing::AsFace, channel, &ground, &lie)
     }
@@ -192,10 +216,12 @@ impl<'a> StripMap<'a> {
         let own = (self.edge.seams >> channel & 1 == 0).then_some(Way::Own);
         let ways = own.into_iter().chain(bands(owner)).chain(bands(1 - owner));
         let sides = [owner, 1 - owner];
-        let inside = sides.map(Way::Inside).into_iter().chain(sides.map(Way::Flat));
+        let along = sides.map(Way::Inside).into_iter().chain(sides.map(Way::Abreast));
+        let flat = sides.map(|owner| Way::Flat(owner, self.own_room(owner)));
+        let roomiest = sides.into_iter().map(|owner| Way::Flat(owner, self.room(channel, owner)));
         let mut best = (f64::INFINITY, *taken);
         let mut is_first = true;
-        for way in ways.chain(inside) {
+        for way in ways.chain(along).chain(flat).chain(roomiest) {
             let feet = self.feet(way);
             let agrees = |place: usize| match (taken[place], feet[place]) {
                 (Some(one), Some(other)) => one == other,

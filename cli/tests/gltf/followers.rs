@@ -144,3 +144,52 @@ fn quantized_morph_targets_stay_or_turn_into_floats() {
         assert_eq!((values[0], &values[12..]), (1.0, &[0.5, 0.0, 0.0][..]), "{place}");
     }
 }
+
+/// Half of an even step is a whole one, half of an odd step is none: then floats take over.
+#[test]
+fn sparse_quantized_morph_targets_stay_sparse() {
+    let mut model = Model::new();
+    let index = model.view(&[0, 0, 0, 0]);
+    let mut sparse = |x: i16| {
+        let value = model.view(&[x, 0, 0].map(i16::to_le_bytes).concat());
+        let accessor = json!({
+            "componentType": 5122, "normalized": true, "count": 4, "type": "VEC3",
+            "max": [f64::from(x) / 32767.0, 0, 0], "min": [0, 0, 0],
+            "sparse": {
+                "count": 1,
+                "indices": {"bufferView": index, "componentType": 5121},
+                "values": {"bufferView": value},
+            },
+        });
+        let accessors = model.json["accessors"].as_array_mut().unwrap();
+        accessors.push(accessor);
+        accessors.len() - 1
+    };
+    let (even, odd) = (sparse(32766), sparse(32767));
+    model.json["extensionsUsed"] = json!(["KHR_mesh_quantization"]);
+    square_with(&mut model, &[], &[json!({"POSITION": even}), json!({"POSITION": odd})]);
+    let written = model.grown("sparse_quantized");
+    let kept = written.accessor("/meshes/0/primitives/0/targets/0/POSITION");
+    assert_eq!((&kept["componentType"], &kept["sparse"]["count"]), (&json!(5122), &json!(2)));
+    let steps = written.bytes(&kept["sparse"]["values"]);
+    let steps: Vec<i16> =
+        steps.chunks_exact(2).map(|step| i16::from_le_bytes(step.try_into().unwrap())).collect();
+    assert_eq!(steps, [32766, 0, 0, 16383, 0, 0]);
+    let turned = written.accessor("/meshes/0/primitives/0/targets/1/POSITION");
+    assert_eq!(turned["componentType"], 5126);
+}
+
+#[test]
+fn custom_integer_vectors_are_those_of_the_nearest_vertex() {
+    let mut model = Model::new();
+    let rows = [[7u16, 70], [8, 80], [9, 90], [9, 90]];
+    let bytes = rows.as_flattened().iter().flat_map(|word| word.to_le_bytes());
+    let pairs = model.accessor(5123, "VEC2", 4, &bytes.collect::<Vec<u8>>());
+    let colors = model.accessor(5121, "VEC4", 4, &[[1, 2, 3, 4], [9; 4], [9; 4], [9; 4]].concat());
+    square_with(&mut model, &[("_PAIR", pairs), ("_FOUR", colors)], &[]);
+    let written = model.grown("integer_vectors");
+    let pairs = written.accessor(&attribute("_PAIR"));
+    assert_eq!((&pairs["componentType"], &pairs["type"]), (&json!(5123), &json!("VEC2")));
+    assert_eq!(written.bytes(pairs)[16..20], [7, 0, 70, 0], "not half of anything");
+    assert_eq!(written.bytes(written.accessor(&attribute("_FOUR")))[16..20], [1, 2, 3, 4]);
+}

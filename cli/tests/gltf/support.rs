@@ -14,7 +14,8 @@ pub fn read(path: &Path) -> anyhow::Result<GltfDocument> {
     GltfDocument::read(path, &ReadOptions { smoothing_angle: 30.0 })
 }
 
-fn path_in(name: &str) -> PathBuf {
+/// Where a test may write.
+pub fn path_in(name: &str) -> PathBuf {
     Path::new(env!("CARGO_TARGET_TMPDIR")).join("gltf").join(name)
 }
 
