@@ -309,13 +309,31 @@ fn place(view: &View, faces: &Faces, spread: &[Blade], course: &Course) -> Optio
         Some((vector, foot))
     };
     let own = on(within)?;
+    if is_flat(view, faces, spread, course) && own.1.reach() <= FARTHEST {
+        return sound(faces, course, own);
+    }
     let steadiest = steadiest(view, faces, spread, within);
     let steady = if steadiest == within { own } else { on(steadiest)? };
     let is_level = own.0.distance(steady.0) <= view.resolution * LEVEL_HEIGHT;
     let is_near = own.1.reach() <= steady.1.reach().max(FARTHEST);
-    let (vector, foot) = if is_level && is_near { own } else { steady };
+    sound(faces, course, if is_level && is_near { own } else { steady })
+}
+
+fn sound(faces: &Faces, course: &Course, (vector, foot): (DVec3, Foot)) -> Option<Offset> {
+    let within = course.corner;
     let is_sound = faces.normal[within.triangle()] != DVec3::ZERO && vector.is_finite();
     is_sound.then_some(Offset { vector, within, foot, is_capped: course.is_capped })
+}
+
+/// Whether all planes in a fan that could be the corner's own lead to the same place.
+fn is_flat(view: &View, faces: &Faces, spread: &[Blade], course: &Course) -> bool {
+    let own = faces.normal[course.corner.triangle()];
+    // A way in a plane turns with its normal, and is then put down onto it.
+    let most = view.resolution * LEVEL_HEIGHT / (4.0 * course.distance);
+    spread.iter().all(|blade| {
+        let normal = faces.normal[blade.corner.triangle()];
+        normal.distance_squared(own) <= most * most || normal.dot(own) <= LEVEL_COSINE
+    })
 }
 
 /// A corner of the triangle whose plane a corner lies in.
