@@ -119,6 +119,7 @@ fn unfold(
 }
 
 /// From a corner to the next and to the previous corner.
+#[inline(always)]
 fn arms(view: &View, corner: Corner) -> [DVec3; 2] {
     let at = view.position_at(corner);
     [view.position_at(corner.next()) - at, view.position_at(corner.prev()) - at]
@@ -345,7 +346,8 @@ fn carrier(faces: &Faces, corner: Corner) -> Corner {
 /// The way of a course in the plane of a triangle at the fan's centre.
 fn way(view: &View, faces: &Faces, course: &Course, plane: Corner) -> DVec3 {
     let normal = faces.normal[plane.triangle()];
-    let [ahead, _] = arms(view, course.corner).map(unit);
+    let [ahead, _] = arms(view, course.corner);
+    let ahead = unit(ahead);
     let aside = normal.cross(ahead);
     let way = (ahead * course.angle.cos() + aside * course.angle.sin()) * course.distance;
     way - normal * way.dot(normal)
