@@ -164,7 +164,7 @@ fn bytes(mesh: &MeshBuffers) -> u64 {
     4 * (floats + mesh.indices.len()) as u64
 }
 
-/// Without what each vertex came from, which takes less than it looks.
+/// Without that of vertices, which is kept compact.
 fn provenance(result: &chamfer::Chamfered) -> u64 {
     (size_of_val(&*result.triangle_sources) + size_of_val(&*result.verdicts)) as u64
 }

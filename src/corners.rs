@@ -15,7 +15,7 @@ use crate::math::unit;
 use crate::validity::{faces_out, facing};
 
 /// From so many points on, a loop gets a vertex in its middle.
-const MIDDLE_FROM: usize = 5;
+pub const MIDDLE_FROM: usize = 5;
 
 /// The triangulation takes cubic time; a longer loop must do with a vertex in its middle.
 const LONGEST_TRIANGULATED: usize = 24;
@@ -35,7 +35,12 @@ pub struct Fill {
 /// Fills the hole between the points of a ring, or says that every way of doing so folds.
 pub fn fill(points: &[DVec3], normals: &[DVec3], resolution: f64) -> Option<Fill> {
     let mut fill = Fill::default();
-    if points.len() < 3 {
+    if points.len() < 3 || points.len() == 3 && !are_distinct(points) {
+        return Some(fill);
+    }
+    if let (&[a, b, c], &[at_a, at_b, at_c]) = (points, normals) {
+        facing([a, b, c], [at_a, at_b, at_c], resolution)?;
+        fill.triangles.push([0, 1, 2]);
         return Some(fill);
     }
     for hole in holes(points) {

@@ -9,6 +9,7 @@ mod copies;
 mod submeshes;
 
 use crate::attributes::{Attributes, middles};
+use crate::corners::MIDDLE_FROM;
 use crate::ids::{Edge, IdVec, Ring};
 use crate::limits::{self, Limits};
 use crate::mesh::MeshBuffers;
@@ -53,11 +54,23 @@ pub fn output(
     if plan.sectors.fans.ids().any(|sector| limits.placement.has_moved(plan, sector)) {
         collapsed::close(plan, &mut attributes.vertex_at);
     }
-    let submeshes = Submeshes::of_source(plan, target, &attributes);
+    let room = most_new_triangles(plan, cuts);
+    let submeshes = Submeshes::of_source(plan, target, &attributes, room);
     let mut surface = Surface { plan, limits, cuts, owners, attributes, copies, submeshes };
     surface.add_strips();
     surface.add_fills();
     surface.finish()
+}
+
+/// How many triangles strips and fills have at most.
+fn most_new_triangles(plan: &Plan, cuts: &IdVec<Edge, Cut>) -> usize {
+    let of_strips: usize = cuts.iter().map(|cut| cut.triangles().len()).sum();
+    let of_fill = |ring: Ring| match plan.sectors.ring(ring).len() {
+        0..=2 => 0,
+        sectors if sectors < MIDDLE_FROM => sectors - 2,
+        sectors => sectors,
+    };
+    of_strips + plan.sectors.rings.ids().map(of_fill).sum::<usize>()
 }
 
 struct Surface<'a> {

@@ -151,8 +151,29 @@ mod tests {
             let threads = Threads::new(threads, 100_000);
             let squares = threads.map(10_000, |vertex: Vertex| vertex.0 * vertex.0);
             assert!(squares.iter().copied().eq((0..10_000).map(|number| number * number)));
+            let numbers: Vec<u32> = (0..10_000).collect();
+            assert_eq!(threads.map_each(&numbers, |number| number + 1)[9_999], 10_000);
             let odd = threads.filter(10_000, |vertex: Vertex| vertex.0 % 2 == 1);
             assert!(odd.into_iter().eq((0..5_000).map(|half| Vertex(2 * half + 1))));
+        }
+    }
+
+    #[test]
+    fn notes_are_taken_in_the_order_of_their_ids() {
+        for threads in [1, 3] {
+            let threads = Threads::new(threads, 100_000);
+            let mut taken: Vec<Vertex> = Vec::new();
+            let note = |_: &Vec<Vertex>, vertex: Vertex, notes: &mut Vec<Vertex>| {
+                if !vertex.0.is_multiple_of(3) {
+                    notes.push(vertex);
+                }
+            };
+            threads.blocks_then(10_000, &mut taken, note, |taken, notes| taken.append(notes));
+            assert!(
+                taken
+                    .into_iter()
+                    .eq((0..10_000).filter(|k: &u32| !k.is_multiple_of(3)).map(Vertex))
+            );
         }
     }
 }

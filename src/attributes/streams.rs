@@ -63,11 +63,61 @@ impl Streams {
 
     /// Appends a copy of a vertex with what it takes from another chart.
     pub fn append_copy(&mut self, plan: &Plan, vertex: u32, taken: &Taken) -> u32 {
-        let copy = self.count();
-        self.append_values(vertex as usize);
-        self.set_texture(plan, copy as usize, &taken.place, taken.channels);
-        self.sources.push_copy(vertex as usize, taken.place, taken.channels);
-        copy
+        let from = vertex as usize;
+        if !self.vertices.tangents.is_empty() {
+            let tangent = self.tangent_of_copy(plan, from, taken);
+            self.vertices.tangents.push(tangent);
+        }
+        for channel in 0..self.uv_end {
+            for k in 0..self.vertices.uvs[channel].components as usize {
+                let value = self.uv_of_copy(plan, from, taken, channel, k);
+                self.vertices.uvs[channel].values.push(value);
+            }
+        }
+        self.append_shape(from);
+        self.sources.push_copy(from, taken.place, taken.channels);
+        self.count() - 1
+    }
+
+    /// Whether a vertex equals, in every stream, a copy of another one with what that takes from
+    /// another chart.
+    pub fn is_copy(&self, plan: &Plan, one: u32, vertex: u32, taken: &Taken) -> bool {
+        let (a, b) = (one as usize, vertex as usize);
+        let v = &self.vertices;
+        let is_uv = |channel: usize| {
+            let components = v.uvs[channel].components as usize;
+            (0..components).all(|k| {
+                let value = self.uv_of_copy(plan, b, taken, channel, k);
+                v.uvs[channel].values[a * components + k] == value
+            })
+        };
+        v.positions[a] == v.positions[b]
+            && v.normals[a] == v.normals[b]
+            && (v.colors.is_empty() || v.colors[a] == v.colors[b])
+            && (0..self.uv_end).all(is_uv)
+            && (v.tangents.is_empty() || v.tangents[a] == self.tangent_of_copy(plan, b, taken))
+    }
+
+    fn tangent_of_copy(&self, plan: &Plan, vertex: usize, taken: &Taken) -> [f32; 4] {
+        match taken.channels & 1 {
+            0 => self.vertices.tangents[vertex],
+            _ => tangent(plan, &taken.place, wide(self.vertices.normals[vertex])),
+        }
+    }
+
+    fn uv_of_copy(
+        &self,
+        plan: &Plan,
+        vertex: usize,
+        taken: &Taken,
+        channel: usize,
+        component: usize,
+    ) -> f32 {
+        let uv = &self.vertices.uvs[channel];
+        match taken.channels >> channel & 1 {
+            0 => uv.values[vertex * uv.components as usize + component],
+            _ => blended_uv(plan, &taken.place, channel, component),
+        }
     }
 
     /// Appends a vertex with a normal of its own at a place near a blend, with what it takes from
@@ -91,15 +141,21 @@ impl Streams {
         vertex
     }
 
-    fn append_values(&mut self, from: usize) {
+    /// The streams that a copy has from its vertex, whatever it takes from another chart.
+    fn append_shape(&mut self, from: usize) {
         let vertices = &mut self.vertices;
         vertices.positions.push(vertices.positions[from]);
         vertices.normals.push(vertices.normals[from]);
-        if !vertices.tangents.is_empty() {
-            vertices.tangents.push(vertices.tangents[from]);
-        }
         if !vertices.colors.is_empty() {
             vertices.colors.push(vertices.colors[from]);
+        }
+    }
+
+    fn append_values(&mut self, from: usize) {
+        self.append_shape(from);
+        let vertices = &mut self.vertices;
+        if !vertices.tangents.is_empty() {
+            vertices.tangents.push(vertices.tangents[from]);
         }
         for uv in &mut vertices.uvs[..self.uv_end] {
             let components = uv.components as usize;
@@ -229,12 +285,10 @@ impl Streams {
     }
 
     fn set_uv(&mut self, plan: &Plan, place: usize, chart: &Blend, channel: usize) {
-        let source = &plan.view.mesh.uvs[channel];
-        let components = source.components as usize;
-        let target = &mut self.vertices.uvs[channel].values;
+        let uv = &mut self.vertices.uvs[channel];
+        let components = uv.components as usize;
         for k in 0..components {
-            let at = |vertex: u32| source.values[vertex as usize * components + k];
-            target[place * components + k] = blend_value(chart, chart.vertices.map(at));
+            uv.values[place * components + k] = blended_uv(plan, chart, channel, k);
         }
     }
 
@@ -253,6 +307,13 @@ fn copied<T: Copy>(values: &[T], room: usize) -> Vec<T> {
     let mut copy = Vec::with_capacity(values.len() + room);
     copy.extend_from_slice(values);
     copy
+}
+
+/// One component of a UV channel at a place.
+fn blended_uv(plan: &Plan, chart: &Blend, channel: usize, component: usize) -> f32 {
+    let uv = &plan.view.mesh.uvs[channel];
+    let at = |vertex: u32| uv.values[vertex as usize * uv.components as usize + component];
+    blend_value(chart, chart.vertices.map(at))
 }
 
 /// Equal values stay equal to the bit, whatever the weights.

@@ -39,6 +39,7 @@ impl chamfer_result {
         chamfer_result { chamfered, vertex_sources: OnceLock::new() }
     }
 
+    /// `#vertices`, made by the first call: fallibly, as no allocation may end the host's process.
     fn vertex_sources(&self) -> Result<&[VertexSource], Failure> {
         if self.vertex_sources.get().is_none() {
             let sources = &self.chamfered.vertex_sources;
@@ -178,10 +179,12 @@ pub unsafe extern "C" fn chamfer_result_verdicts(
     verdicts: *mut *const chamfer_edge_verdict,
     count: *mut u32,
 ) -> i32 {
-    // SAFETY: the caller's pointers are NULL or writable, and `result` as above.
-    unsafe {
-        inspect(result, |from| output::write_array(&from.chamfered.verdicts, verdicts, count))
-    }
+    // SAFETY: the caller's pointers are NULL or writable.
+    let write = |from: &chamfer_result| unsafe {
+        output::write_array(&from.chamfered.verdicts, verdicts, count)
+    };
+    // SAFETY: `result` is NULL or came from this library and is not destroyed.
+    unsafe { inspect(result, write) }
 }
 
 /// Views what each vertex of the result's mesh came from: `#vertices`. The array is made by the
@@ -192,11 +195,11 @@ pub unsafe extern "C" fn chamfer_result_vertex_sources(
     sources: *mut *const chamfer_vertex_source,
     count: *mut u32,
 ) -> i32 {
-    // SAFETY: the caller's pointers are NULL or writable, and `result` as above.
+    // SAFETY: the caller's pointers are NULL or writable.
     let write = |from: &chamfer_result| unsafe {
         output::write_array(from.vertex_sources()?, sources, count)
     };
-    // SAFETY: as above.
+    // SAFETY: `result` is NULL or came from this library and is not destroyed.
     unsafe { inspect(result, write) }
 }
 
@@ -208,11 +211,11 @@ pub unsafe extern "C" fn chamfer_result_triangle_sources(
     sources: *mut *const chamfer_triangle_source,
     count: *mut u32,
 ) -> i32 {
-    // SAFETY: the caller's pointers are NULL or writable, and `result` as above.
+    // SAFETY: the caller's pointers are NULL or writable.
     let write = |from: &chamfer_result| unsafe {
         output::write_array(&from.chamfered.triangle_sources, sources, count)
     };
-    // SAFETY: as above.
+    // SAFETY: `result` is NULL or came from this library and is not destroyed.
     unsafe { inspect(result, write) }
 }
 

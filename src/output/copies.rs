@@ -22,11 +22,13 @@ pub struct Copies {
 impl Copies {
     /// Lists all vertices that there are, and joins the appended ones that equal another one.
     pub fn new(plan: &Plan, attributes: &mut Attributes) -> Copies {
+        let room = attributes.streams.vertices.positions.capacity();
         let sources = plan.weld.cluster_of.len();
         let mut copies = Copies {
             first: IdVec::filled(NONE, plan.weld.first_vertex.len()),
-            next: vec![NONE; sources],
+            next: Vec::with_capacity(room),
         };
+        copies.next.resize(sources, NONE);
         // From the last to the first: each list begins with its first vertex.
         for vertex in (0..sources as u32).rev() {
             let cluster = plan.weld.cluster_of[Vertex(vertex)];
@@ -70,8 +72,13 @@ impl Copies {
 
     /// A listed vertex of the cluster that equals another one in every stream.
     fn equal(&self, streams: &Streams, cluster: Cluster, vertex: u32) -> Option<u32> {
+        self.find(cluster, |listed| streams.are_equal(listed, vertex))
+    }
+
+    /// A listed vertex of the cluster that is such.
+    fn find(&self, cluster: Cluster, is_such: impl Fn(u32) -> bool) -> Option<u32> {
         let mut listed = self.first[cluster];
-        while listed != NONE && !streams.are_equal(listed, vertex) {
+        while listed != NONE && !is_such(listed) {
             listed = self.next[listed as usize];
         }
         (listed != NONE).then_some(listed)
@@ -93,8 +100,11 @@ impl Copies {
         vertex: u32,
         taken: &Taken,
     ) -> u32 {
-        streams.append_copy(plan, vertex, taken);
-        self.settle(streams, cluster)
+        let known = self.find(cluster, |listed| streams.is_copy(plan, listed, vertex, taken));
+        known.unwrap_or_else(|| {
+            self.list(cluster);
+            streams.append_copy(plan, vertex, taken)
+        })
     }
 
     /// Takes back the vertex that was appended last if it equals another one of the cluster; gives

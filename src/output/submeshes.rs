@@ -1,5 +1,7 @@
 //! Submeshes: which triangles belong to which, and in what order.
 
+use std::ops::Range;
+
 use crate::attributes::Attributes;
 use crate::ids::Triangle;
 use crate::options::ChamferSubmesh;
@@ -20,6 +22,20 @@ struct Part {
     sources: Vec<TriangleSource>,
 }
 
+impl Part {
+    /// Some triangles of the source, with room for new ones.
+    fn of_source(attributes: &Attributes, triangles: Range<u32>, room: usize) -> Part {
+        let count = triangles.len() + room;
+        let mut part =
+            Part { indices: Vec::with_capacity(3 * count), sources: Vec::with_capacity(count) };
+        let corners = triangles.start * 3..triangles.end * 3;
+        part.indices.extend_from_slice(attributes.vertex_at.slice(corners));
+        let kind = TriangleKind::Source;
+        part.sources.extend(triangles.map(|index| TriangleSource { kind, index }));
+        part
+    }
+}
+
 /// All triangles, one submesh after the other.
 pub struct Triangles {
     /// `#triangles by 3`.
@@ -31,23 +47,32 @@ pub struct Triangles {
 }
 
 impl Submeshes {
-    /// Those of the source, with the vertices that their corners have now.
-    pub fn of_source(plan: &Plan, target: ChamferSubmesh, attributes: &Attributes) -> Submeshes {
+    /// Those of the source, with the vertices that their corners have now, and room for new
+    /// triangles.
+    pub fn of_source(
+        plan: &Plan,
+        target: ChamferSubmesh,
+        attributes: &Attributes,
+        room: usize,
+    ) -> Submeshes {
         let mut starts = vec![0];
         for count in plan.view.mesh.submesh_index_counts {
             starts.push(starts[starts.len() - 1] + count / 3);
         }
-        let part = |bounds: &[u32]| {
-            let kind = TriangleKind::Source;
-            let triangles = (bounds[0]..bounds[1]).map(Triangle);
-            Part {
-                indices: attributes.vertex_at.slice(bounds[0] * 3..bounds[1] * 3).to_vec(),
-                sources: triangles.map(|t| TriangleSource { kind, index: t.0 }).collect(),
-            }
+        let only = match target {
+            ChamferSubmesh::Given(submesh) => submesh as usize,
+            ChamferSubmesh::Own => starts.len() - 1,
+            // Where several get some, they grow.
+            ChamferSubmesh::Owner if starts.len() > 2 => usize::MAX,
+            ChamferSubmesh::Owner => 0,
         };
-        let mut parts: Vec<Part> = starts.windows(2).map(part).collect();
+        let part = |(submesh, bounds): (usize, &[u32])| {
+            let room = if submesh == only { room } else { 0 };
+            Part::of_source(attributes, bounds[0]..bounds[1], room)
+        };
+        let mut parts: Vec<Part> = starts.windows(2).enumerate().map(part).collect();
         if target == ChamferSubmesh::Own {
-            parts.push(Part::default());
+            parts.push(Part::of_source(attributes, 0..0, room));
         }
         Submeshes { starts, target, parts }
     }
@@ -55,7 +80,7 @@ impl Submeshes {
     /// Adds a new triangle whose owner's face is the given one.
     pub fn add(&mut self, owner: Triangle, vertices: [u32; 3], source: TriangleSource) {
         let submesh = self.of_new(owner);
-        self.parts[submesh].indices.extend(vertices);
+        self.parts[submesh].indices.extend_from_slice(&vertices);
         self.parts[submesh].sources.push(source);
     }
 
@@ -94,7 +119,7 @@ mod tests {
     fn submeshes(mesh: &MeshBuffers, target: ChamferSubmesh) -> Submeshes {
         let plan = plan_of(mesh, 0.02);
         let placement = limits(&plan, Verify::Fast).placement;
-        Submeshes::of_source(&plan, target, &attributes(&plan, &placement))
+        Submeshes::of_source(&plan, target, &attributes(&plan, &placement), 0)
     }
 
     #[test]

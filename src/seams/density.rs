@@ -1,6 +1,6 @@
 //! Density: how much texture a triangle shows for its area.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use super::ground::Ground;
 use crate::ids::{Corner, Id, Triangle};
@@ -22,7 +22,8 @@ const ROUNDING: f64 = 1e-6;
 /// Two components of a vertex in a UV channel: what lies on the texture.
 pub fn uv_point(uv: &Uv, vertex: u32) -> DVec2 {
     let first = vertex as usize * uv.components as usize;
-    DVec2::new(f64::from(uv.values[first]), f64::from(uv.values[first + 1]))
+    let [v, u] = [first + 1, first].map(|place| f64::from(uv.values[place]));
+    DVec2::new(u, v)
 }
 
 /// UV area over surface area of a source triangle, negative where it is mirrored; 0 where it has
@@ -37,7 +38,8 @@ pub fn density(plan: &Plan, triangle: Triangle, channel: usize) -> f64 {
 /// Whether rounding its UVs can make a triangle's area vanish: models that are coloured by single
 /// texels have all of a face at one place.
 fn is_line(points: [DVec2; 3]) -> bool {
-    texture_area(points).abs() <= longest_side(points) * size(points) * ROUNDING
+    let (area, least) = (texture_area(points), size(points) * ROUNDING);
+    area * area <= longest_square(points) * (least * least)
 }
 
 /// Twice the area on the texture.
@@ -45,10 +47,9 @@ fn texture_area([a, b, c]: [DVec2; 3]) -> f64 {
     (b - a).perp_dot(c - a)
 }
 
-/// The length of a triangle's longest side on the texture.
-pub fn longest_side([a, b, c]: [DVec2; 3]) -> f64 {
-    let longest = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a));
-    longest.sqrt()
+/// The square of the length of a triangle's longest side on the texture.
+pub fn longest_square([a, b, c]: [DVec2; 3]) -> f64 {
+    a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a))
 }
 
 /// The largest coordinate of a triangle on the texture.
@@ -60,8 +61,7 @@ pub fn size([a, b, c]: [DVec2; 3]) -> f64 {
 pub struct Lie<'a> {
     /// `#triangles`: places in the points.
     pub triangles: &'a [[usize; 3]],
-    /// `#triangles`: twice their areas in space.
-    pub areas: &'a [f64],
+    pub points: &'a [DVec3],
     /// `#points`.
     pub uvs: &'a [DVec2],
 }
@@ -88,8 +88,9 @@ fn stretch(density: f64, facing: Facing, resolution: f64, lie: &Lie) -> f64 {
     if density == 0.0 {
         return 1.0;
     }
-    let of_triangle = |(uvs, &area): ([DVec2; 3], &f64)| {
-        let signed = texture_area(uvs) / density / area;
+    let of_triangle = |triangle: &[usize; 3]| {
+        let area = area_vector(triangle.map(|place| lie.points[place])).length();
+        let signed = texture_area(triangle.map(|place| lie.uvs[place])) / density / area;
         let ratio = if facing == Facing::Either { signed.abs() } else { signed };
         let is_tiny = area <= resolution * resolution;
         match () {
@@ -98,7 +99,7 @@ fn stretch(density: f64, facing: Facing, resolution: f64, lie: &Lie) -> f64 {
             () => f64::INFINITY,
         }
     };
-    lie.texture().zip(lie.areas).map(of_triangle).fold(1.0, f64::max)
+    lie.triangles.iter().map(of_triangle).fold(1.0, f64::max)
 }
 
 /// How badly a chamfer lies on the texture of a face: as [`stretch`], and many times as much where
@@ -128,7 +129,8 @@ mod tests {
     #[test]
     fn thin_and_dense_are_alike_and_mirrored_is_worst() {
         let stretch = |facing: Facing, uvs: [DVec2; 3]| {
-            let lie = Lie { triangles: &[[0, 1, 2]], areas: &[1.0], uvs: &uvs };
+            let points = [DVec3::ZERO, DVec3::X, DVec3::Y];
+            let lie = Lie { triangles: &[[0, 1, 2]], points: &points, uvs: &uvs };
             stretch(1.0, facing, 1e-6, &lie)
         };
         let of = |uvs| stretch(Facing::AsFace, uvs);

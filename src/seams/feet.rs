@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::channels_of;
-use crate::edges::{HardEdge, seam_between};
+use crate::edges::seam_between;
 use crate::ids::{Corner, Few, Sector};
 use crate::math::{area_vector, unit};
 use crate::placement::Placement;
@@ -40,31 +40,27 @@ pub enum Depth {
     Strip,
 }
 
-/// One end of a strip: its edge, the owner as a place in the edge's sides, and 0 for the start of
-/// the owner's half-edge, 1 for its end.
-pub type End<'a> = (&'a HardEdge, usize, usize);
-
-/// A half-edge, and the sectors of its own and of the far side at one end.
-struct At {
-    half_edge: Corner,
-    near: Sector,
-    far: Sector,
+/// One end of a strip, seen from its owner's side.
+#[derive(Clone, Copy)]
+pub struct End {
+    /// The owner's.
+    pub half_edge: Corner,
+    /// The old edge, from where that starts.
+    pub edge: [DVec3; 2],
+    /// 0 where that starts, 1 where it ends.
+    pub place: f64,
+    /// The pulled corner of the owner's side, and of the far one.
+    pub near: DVec3,
+    pub far: DVec3,
 }
 
-impl At {
-    fn new(plan: &Plan, (edge, owner, end): End) -> At {
-        let [near, far] = [edge.sides[owner], edge.sides[1 - owner]];
-        let corners = if end == 0 { [near, far.next()] } else { [near.next(), far] };
-        let [own, other] = corners.map(|corner| plan.sectors.sector_of[corner]);
-        At { half_edge: near, near: own, far: other }
-    }
-
+impl End {
     /// The distance from the old edge to the pulled one, and from there to the far side.
-    fn widths(&self, plan: &Plan, placement: &Placement) -> [f64; 2] {
-        let [from, to] = ends(plan, self.half_edge);
+    fn widths(&self) -> [f64; 2] {
+        let [from, to] = self.edge;
         let along = unit(to - from);
-        let [near, far] = [placement.point[self.near], placement.point[self.far]];
-        [near - from, far - near].map(|way| (way - along * way.dot(along)).length())
+        let across = |way: DVec3| (way - along * way.dot(along)).length();
+        [self.near - from, self.far - self.near].map(across)
     }
 }
 
@@ -73,55 +69,43 @@ fn ends(plan: &Plan, half_edge: Corner) -> [DVec3; 2] {
 }
 
 /// Where one far corner of a strip lands on its owner's band.
-pub fn band_foot(
-    plan: &Plan,
-    placement: &Placement,
-    end: End,
-    spread: Spread,
-    depth: Depth,
-) -> Option<Blend> {
-    let at = At::new(plan, end);
+pub fn band_foot(plan: &Plan, end: &End, spread: Spread, depth: Depth) -> Option<Blend> {
     let share = match spread {
-        Spread::Far => share_of(plan, placement, at.half_edge, at.far),
-        Spread::Near => share_of(plan, placement, at.half_edge, at.near),
-        Spread::Whole => end.2 as f64,
+        Spread::Far => share_of(end.edge, end.far),
+        Spread::Near => share_of(end.edge, end.near),
+        Spread::Whole => end.place,
     };
-    let foot = on_edge(plan, at.half_edge, share);
+    let foot = on_edge(plan, end.half_edge, share);
     if depth == Depth::Band {
         return Some(foot);
     }
-    let [band, strip] = at.widths(plan, placement);
+    let [band, strip] = end.widths();
     if strip >= band {
         return Some(foot);
     }
-    let [from, to] = ends(plan, at.half_edge);
-    let inward = plan.faces.normal[at.half_edge.triangle()].cross(unit(to - from));
+    let [from, to] = end.edge;
+    let inward = plan.faces.normal[end.half_edge.triangle()].cross(unit(to - from));
     let way = (to - from) * share.clamp(0.0, 1.0) + inward * (band - strip);
-    locate(&plan.view, at.half_edge, from, way).map(|foot| foot.blend(plan, 1.0))
+    locate(&plan.view, end.half_edge, from, way).map(|foot| foot.blend(plan, 1.0))
 }
 
 /// The near and the far corner at one end of a strip that is laid into its owner's triangle, as
 /// deep as the strip is wide.
-pub fn inside(plan: &Plan, placement: &Placement, end: End) -> [Blend; 2] {
-    let at = At::new(plan, end);
-    let [from, to] = ends(plan, at.half_edge);
-    let apex = plan.view.position_at(at.half_edge.prev());
+pub fn inside(plan: &Plan, end: &End) -> [Blend; 2] {
+    let [from, to] = end.edge;
+    let apex = plan.view.position_at(end.half_edge.prev());
     let height = (to - from).cross(apex - from).length() / (to - from).length();
-    let [_, strip] = at.widths(plan, placement);
+    let [_, strip] = end.widths();
     let depth = (strip / height).min(DEEPEST);
-    let foot = |sector: Sector| {
-        on_edge(plan, at.half_edge, share_of(plan, placement, at.half_edge, sector))
-    };
-    let apex = Blend::one(plan.view.vertex_at(at.half_edge.prev()).0);
-    let near = mixed(&[(foot(at.near), 1.0 - depth), (apex, depth)]);
-    [near, foot(at.far)]
+    let foot = |pulled: DVec3| on_edge(plan, end.half_edge, share_of(end.edge, pulled));
+    let apex = Blend::one(plan.view.vertex_at(end.half_edge.prev()).0);
+    let near = mixed(&[(foot(end.near), 1.0 - depth), (apex, depth)]);
+    [near, foot(end.far)]
 }
 
-/// Where the foot of the perpendicular from a sector's pulled vertex divides a half-edge: 0 to 1,
-/// or beyond.
-fn share_of(plan: &Plan, placement: &Placement, half_edge: Corner, pulled: Sector) -> f64 {
-    let [from, to] = ends(plan, half_edge);
-    (placement.point[pulled] - from).dot(to - from) / (to - from).length_squared()
+/// Where the foot of the perpendicular from a pulled vertex divides an edge: 0 to 1, or beyond.
+fn share_of([from, to]: [DVec3; 2], pulled: DVec3) -> f64 {
+    (pulled - from).dot(to - from) / (to - from).length_squared()
 }
 
 /// The place at a share of a half-edge.
@@ -240,12 +224,12 @@ fn feet_of_wings(plan: &Plan, placement: &Placement, sector: Sector, wings: Wing
                 let [one, two] = plan.edges.hard[edge].sides;
                 let other = if one == half_edge { two } else { one };
                 let across = if is_out { other.next() } else { other };
-                let far = plan.sectors.sector_of[across];
-                on_edge(plan, half_edge, share_of(plan, placement, half_edge, far))
+                let far = placement.point[plan.sectors.sector_of[across]];
+                on_edge(plan, half_edge, share_of(ends(plan, half_edge), far))
             }
             _ => {
                 let reach = if let Wings::Near(reach) = wings { reach } else { 1.0 };
-                let share = share_of(plan, placement, half_edge, sector);
+                let share = share_of(ends(plan, half_edge), placement.point[sector]);
                 let reached = if is_out { reach * share } else { 1.0 - reach * (1.0 - share) };
                 on_edge(plan, half_edge, reached)
             }
@@ -350,7 +334,8 @@ mod tests {
         let sector = Sector(0);
         placement.set(&plan, sector, 1.0);
         let side = plan.sectors.fans[sector].first;
-        let foot = on_edge(&plan, side, share_of(&plan, &placement, side, sector));
+        let share = share_of(ends(&plan, side), placement.point[sector]);
+        let foot = on_edge(&plan, side, share);
         let [from, to] = [side, side.next()].map(|corner| plan.view.vertex_at(corner).0);
         assert!((weight_of(&foot, from) - 0.9).abs() < 1e-6, "{foot:?}");
         assert!((weight_of(&foot, to) - 0.1).abs() < 1e-6, "{foot:?}");

@@ -34,6 +34,12 @@ const WAYS: [Way; 5] = [
     Way::Corner,
 ];
 
+/// Whether a sector has moved, whether it is convex, and how many of the strips beside it have it
+/// for their owner.
+type Rank = (bool, bool, usize);
+
+const BEST_RANK: Rank = (true, true, 2);
+
 /// A fill, and what is around it.
 struct FillMap<'a> {
     plan: &'a Plan<'a>,
@@ -43,8 +49,6 @@ struct FillMap<'a> {
     fill: &'a Fill,
     /// Those of the ring, then the middles.
     points: Few<DVec3>,
-    /// `#triangles`: twice their areas.
-    areas: Few<f64>,
 }
 
 /// Lays a fill into the chart of its owner where its own vertices are in several, or fold there.
@@ -57,15 +61,13 @@ pub fn add_fill(
     patches: &mut Patches,
 ) {
     let sectors = plan.sectors.ring(ring);
-    let (points, areas) = (Few::new(), Few::new());
-    let mut map = FillMap { plan, placement, attributes, sectors, fill, points, areas };
+    let points = Few::new();
+    let mut map = FillMap { plan, placement, attributes, sectors, fill, points };
     map.points.extend(sectors.iter().map(|&sector| placement.point[sector]));
     for places in &fill.middles {
         let middle = middle(&map.points[..sectors.len()], places);
         map.points.push(middle);
     }
-    let area = |triangle: &[usize; 3]| area_vector(triangle.map(|k| map.points[k])).length();
-    map.areas.extend(fill.triangles.iter().map(area));
     map.add(owners, patches);
 }
 
@@ -77,7 +79,7 @@ impl FillMap<'_> {
         let all = channels_of(self.plan);
         let channels = all.filter(broken).fold(0, |channels, k| channels | 1 << k);
         let mut lay = Lay::default();
-        let owner = self.best_lay(channels, &self.ranked(owners), &mut lay);
+        let owner = self.best_lay(channels, owners, &mut lay);
         let taken = |place: Blend| (channels != 0).then_some(Taken { channels, place });
         let joints = lay
             .feet
@@ -93,6 +95,43 @@ impl FillMap<'_> {
         patches.push(source, (face, lay.begin as u32), joints, middles, &self.fill.triangles);
     }
 
+    /// Lays the fill for the best owner, which it gives.
+    fn best_lay(&self, channels: u8, owners: &Owners, lay: &mut Lay) -> usize {
+        let first = self.first_owner(owners);
+        let mut best = (self.lay(channels, WAYS[0], first, lay), WAYS[0], first);
+        if best.0 <= MOST_STRETCH {
+            return first;
+        }
+        let ranked = self.ranked(owners);
+        for (way, &owner) in WAYS.iter().flat_map(|way| ranked.iter().map(move |at| (way, at))) {
+            let misfit = self.lay(channels, *way, owner, lay);
+            if misfit <= MOST_STRETCH {
+                return owner;
+            }
+            if misfit < best.0 {
+                best = (misfit, *way, owner);
+            }
+        }
+        let (_, way, owner) = best;
+        self.lay(channels, way, owner, lay);
+        owner
+    }
+
+    /// The first of the ring's places in rank.
+    fn first_owner(&self, owners: &Owners) -> usize {
+        let mut best = (Rank::default(), 0);
+        for place in 0..self.sectors.len() {
+            let rank = self.rank(place, owners);
+            if rank > best.0 {
+                best = (rank, place);
+            }
+            if best.0 == BEST_RANK {
+                break;
+            }
+        }
+        best.1
+    }
+
     /// The places of the ring, best owner first.
     fn ranked(&self, owners: &Owners) -> Few<usize> {
         let places = 0..self.sectors.len();
@@ -102,30 +141,14 @@ impl FillMap<'_> {
         ranked.iter().map(|&(_, place)| place).collect()
     }
 
-    /// Lays the fill for the best owner, which it gives.
-    fn best_lay(&self, channels: u8, places: &[usize], lay: &mut Lay) -> usize {
-        let mut best = (f64::INFINITY, WAYS[0], places[0]);
-        if channels != 0 {
-            for (way, &owner) in WAYS.iter().flat_map(|way| places.iter().map(move |at| (way, at)))
-            {
-                self.lay(*way, owner, lay);
-                let mapped = channels_of(self.plan).filter(|channel| channels >> channel & 1 == 1);
-                let misfits = mapped.map(|channel| self.misfit(channel, owner, lay));
-                let misfit = misfits.fold(0.0, f64::max);
-                if misfit <= MOST_STRETCH {
-                    return owner;
-                }
-                if misfit < best.0 {
-                    best = (misfit, *way, owner);
-                }
-            }
-        }
-        let (_, way, owner) = best;
-        self.lay(way, owner, lay);
-        owner
+    /// Lays the fill in one way, and tells how badly it lies on the worst of some channels.
+    fn lay(&self, channels: u8, way: Way, owner: usize, lay: &mut Lay) -> f64 {
+        self.find_feet(way, owner, lay);
+        let mapped = channels_of(self.plan).filter(|channel| channels >> channel & 1 == 1);
+        mapped.map(|channel| self.misfit(channel, owner, lay)).fold(0.0, f64::max)
     }
 
-    fn lay(&self, way: Way, owner: usize, lay: &mut Lay) {
+    fn find_feet(&self, way: Way, owner: usize, lay: &mut Lay) {
         match way {
             Way::Kite(wings) => {
                 let middles = self.fill.middles.len();
@@ -179,7 +202,7 @@ impl FillMap<'_> {
     fn misfit_on(&self, channel: usize, owner: usize, facing: Facing, uvs: &[DVec2]) -> f64 {
         let corners = [self.first(owner)];
         let ground = Ground::new(self.plan, channel, &corners);
-        let lie = Lie { triangles: &self.fill.triangles, areas: &self.areas, uvs };
+        let lie = Lie { triangles: &self.fill.triangles, points: &self.points, uvs };
         misfit(self.plan, self.first(owner), facing, channel, &ground, &lie)
     }
 
@@ -200,8 +223,8 @@ impl FillMap<'_> {
         self.sectors.iter().map(breaks).sum()
     }
 
-    /// One that moved and is convex comes first, and one that owns the strips beside it.
-    fn rank(&self, place: usize, owners: &Owners) -> (bool, bool, usize) {
+    /// How good an owner a sector is.
+    fn rank(&self, place: usize, owners: &Owners) -> Rank {
         let plan = self.plan;
         let sector = self.sectors[place];
         let fan = &plan.sectors.fans[sector];

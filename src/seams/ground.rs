@@ -5,7 +5,7 @@ use glam::DVec2;
 use crate::ids::Corner;
 use crate::plan::Plan;
 
-use super::density::{longest_side, size, uv_point};
+use super::density::{longest_square, size, uv_point};
 use crate::edges::seam_between;
 
 /// A chamfer that lies past the end of its chart by less than this share of its own length shows
@@ -45,17 +45,16 @@ impl<'a> Ground<'a> {
 
     /// Whether a triangle on the texture lies on it.
     pub fn covers(&self, triangle: [DVec2; 3]) -> bool {
-        let near = longest_side(triangle) * MARGIN + size(triangle) * ROUNDING;
-        let holds = |points: [DVec2; 3], point: DVec2| distance(point, points) <= near;
-        if self.any_face(|points| triangle.iter().all(|&point| holds(points, point))) {
+        let near = longest_square(triangle).sqrt() * MARGIN + size(triangle) * ROUNDING;
+        if self.any_face(|face| triangle.iter().all(|&point| is_on(face, point, near))) {
             return true;
         }
         let samples = SAMPLES.map(|weights| (0..3).map(|k| triangle[k] * weights[k]).sum());
-        if samples.iter().all(|&point| self.any_face(|points| holds(points, point))) {
+        if samples.iter().all(|&point| self.any_face(|face| is_on(face, point, near))) {
             return true;
         }
         let below = self.below(triangle, near);
-        samples.iter().all(|&point| below.iter().any(|&face| holds(self.points(face), point)))
+        samples.iter().all(|&point| below.iter().any(|&face| is_on(self.points(face), point, near)))
     }
 
     /// Corners of the chart's triangles that reach below a triangle on the texture, as far as they
@@ -143,21 +142,24 @@ fn bounds([a, b, c]: [DVec2; 3]) -> [DVec2; 2] {
     [a.min(b).min(c), a.max(b).max(c)]
 }
 
-/// How far a point is from a triangle.
-fn distance(point: DVec2, triangle: [DVec2; 3]) -> f64 {
+/// Whether a point is on a triangle, or as near to it.
+fn is_on(triangle: [DVec2; 3], point: DVec2, near: f64) -> bool {
     let [a, b, c] = triangle;
-    let turn = |from: DVec2, to: DVec2| (to - from).perp_dot(point - from);
-    let turns = [turn(a, b), turn(b, c), turn(c, a)];
+    let sides = [[a, b], [b, c], [c, a]];
+    let turns = sides.map(|[from, to]| (to - from).perp_dot(point - from));
     let has_area = (b - a).perp_dot(c - a) != 0.0;
     if has_area && (turns.iter().all(|t| *t >= 0.0) || turns.iter().all(|t| *t <= 0.0)) {
-        return 0.0;
+        return true;
     }
-    let squares = [[a, b], [b, c], [c, a]].map(|[from, to]| {
-        let way = to - from;
-        let share = (point - from).dot(way) / way.length_squared().max(f64::MIN_POSITIVE);
-        point.distance_squared(from + way * share.clamp(0.0, 1.0))
-    });
-    squares.into_iter().fold(f64::INFINITY, f64::min).sqrt()
+    sides.into_iter().zip(turns).any(|([from, to], turn)| {
+        let (way, square) = (to - from, near * near);
+        let along = (point - from).dot(way);
+        match way.length_squared() {
+            _ if along <= 0.0 => point.distance_squared(from) <= square,
+            length if along >= length => point.distance_squared(to) <= square,
+            length => turn * turn <= square * length,
+        }
+    })
 }
 
 #[cfg(test)]
@@ -169,9 +171,14 @@ mod tests {
     #[test]
     fn a_point_is_as_far_from_a_triangle_as_from_its_nearest_side() {
         let triangle = [DVec2::ZERO, DVec2::X * 2.0, DVec2::Y * 2.0];
-        assert_eq!(distance(DVec2::new(0.5, 0.5), triangle), 0.0);
-        assert_eq!(distance(DVec2::new(1.0, -3.0), triangle), 3.0);
-        assert_eq!(distance(DVec2::new(5.0, 4.0), [DVec2::X * 2.0; 3]), 5.0);
+        let is_as_far = |triangle, point: [f64; 2], distance: f64| {
+            let within = |near| is_on(triangle, point.into(), near);
+            within(distance * 1.01) && !within(distance * 0.99)
+        };
+        assert!(is_on(triangle, DVec2::new(0.5, 0.5), 0.0));
+        assert!(is_as_far(triangle, [1.0, -3.0], 3.0), "from a side");
+        assert!(is_as_far(triangle, [5.0, -4.0], 5.0), "from a corner");
+        assert!(is_as_far([DVec2::X * 2.0; 3], [5.0, 4.0], 5.0), "from a point");
     }
 
     /// The top of the cube is a square of the atlas, 0.3 by 0.45.

@@ -39,7 +39,7 @@ pub fn owners(
     let band = |edge: Edge, side: u8| {
         let hard = &plan.edges.hard[edge];
         let map = StripMap::new(plan, placement, attributes, hard, cuts[edge]);
-        map.band(&attributes.streams, side.into())
+        map.band(side.into())
     };
     let region = regions(plan);
     let side = sides_in_order(plan, &region);

@@ -109,3 +109,25 @@ fn first<'a, T>(rest: &mut &'a [T], count: u32) -> &'a [T] {
     *rest = others;
     first
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::TriangleKind;
+
+    #[test]
+    fn patches_come_out_one_by_one_with_their_own_parts() {
+        let mut patches = Patches::default();
+        let source = |index| TriangleSource { kind: TriangleKind::Edge, index };
+        let joint = |corner| Joint { corner: Corner(corner), taken: None };
+        let middle = Middle { joints: Few::from_slice(&[0, 1, 2]), taken: None };
+        patches.push(source(4), (Triangle(1), 0), [7, 8, 9].map(joint), [], &[[0, 1, 2]]);
+        patches.push(source(5), (Triangle(2), 1), [5, 6].map(joint), [middle], &[]);
+        let corners = |parts: Parts| parts.joints.iter().map(|j| j.corner.0).collect::<Vec<_>>();
+        let counts = |parts: Parts| (parts.patch.face, parts.middles.len(), parts.triangles.len());
+        assert!(patches.iter().map(counts).eq([(Triangle(1), 0, 1), (Triangle(2), 1, 0)]));
+        assert!(patches.iter().map(corners).eq([vec![7, 8, 9], vec![5, 6]]));
+        patches.clear();
+        assert_eq!(patches.iter().count(), 0);
+    }
+}

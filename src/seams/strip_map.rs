@@ -3,11 +3,11 @@
 use glam::{DVec2, DVec3};
 
 use super::density::{Facing, Lie, MOST_STRETCH, misfit};
-use super::feet::{Depth, Spread, band_foot, corner_lay, inside};
+use super::feet::{Depth, End, Spread, band_foot, corner_lay, inside};
 use super::ground::Ground;
 use super::patch::{Joint, Patches, Taken};
 use super::{Owners, channels_of, place_of};
-use crate::attributes::{Attributes, Streams};
+use crate::attributes::Attributes;
 use crate::edges::HardEdge;
 use crate::ids::{Corner, Edge, Few};
 use crate::math::{area_vector, unit};
@@ -54,14 +54,12 @@ type Feet = [Option<Blend>; 4];
 /// A strip, and what is around it.
 pub struct StripMap<'a> {
     plan: &'a Plan<'a>,
-    placement: &'a Placement,
+    attributes: &'a Attributes,
     edge: &'a HardEdge,
-    points: [DVec3; 4],
     cut: Cut,
-    /// Twice the areas of the strip's triangles.
-    areas: [f64; 2],
-    /// The strip's own vertices: b1, a1, a2, b2.
-    vertices: [u32; 4],
+    points: [DVec3; 4],
+    /// Those of the strip: b1, a1, a2, b2.
+    corners: [Corner; 4],
     /// The corners at the edge's ends, on either side.
     ends: [[Corner; 2]; 2],
 }
@@ -69,20 +67,15 @@ pub struct StripMap<'a> {
 impl<'a> StripMap<'a> {
     pub fn new(
         plan: &'a Plan,
-        placement: &'a Placement,
-        attributes: &Attributes,
+        placement: &Placement,
+        attributes: &'a Attributes,
         edge: &'a HardEdge,
         cut: Cut,
     ) -> Self {
         let corners = strips::corners(edge);
         let points = corners.map(|corner| placement.position_at(plan, corner));
-        let vertices = corners.map(|corner| attributes.vertex_at[corner]);
         let ends = edge.sides.map(|side| [side, side.next()]);
-        let mut areas = [0.0; 2];
-        for (area, triangle) in areas.iter_mut().zip(cut.triangles()) {
-            *area = area_vector(triangle.map(|k| points[k])).length();
-        }
-        StripMap { plan, placement, edge, points, cut, areas, vertices, ends }
+        StripMap { plan, attributes, edge, cut, points, corners, ends }
     }
 
     fn feet(&self, way: Way) -> Feet {
@@ -90,26 +83,48 @@ impl<'a> StripMap<'a> {
         match way {
             Way::Own => {}
             Way::Band(owner, spread, depth) => {
-                for (end, place) in far_places(owner).into_iter().enumerate() {
-                    let at = (self.edge, owner, end);
-                    feet[place] = band_foot(self.plan, self.placement, at, spread, depth);
+                for (end, [_, far]) in self.strip_ends(owner).into_iter().zip(places(owner)) {
+                    feet[far] = band_foot(self.plan, &end, spread, depth);
                 }
             }
             Way::Flat(owner) => feet = self.flat(owner),
             Way::Inside(owner) => {
-                for (end, place) in far_places(owner).into_iter().enumerate() {
-                    let [near, far] = inside(self.plan, self.placement, (self.edge, owner, end));
-                    feet[place] = Some(far);
-                    feet[far_places(1 - owner)[1 - end]] = Some(near);
+                for (end, ends) in self.strip_ends(owner).into_iter().zip(places(owner)) {
+                    for (place, foot) in ends.into_iter().zip(inside(self.plan, &end)) {
+                        feet[place] = Some(foot);
+                    }
                 }
             }
         }
-        std::array::from_fn(|place| feet[place].filter(|_| self.is_used(place)))
+        for place in (0..4).filter(|&place| !self.is_used(place)) {
+            feet[place] = None;
+        }
+        feet
+    }
+
+    /// The strip at the start and at the end of the owner's half-edge.
+    fn strip_ends(&self, owner: usize) -> [End; 2] {
+        let half_edge = self.edge.sides[owner];
+        let edge = [half_edge, half_edge.next()].map(|corner| self.plan.view.position_at(corner));
+        let end = |(place, [near, far]): (f64, [usize; 2])| End {
+            half_edge,
+            edge,
+            place,
+            near: self.points[near],
+            far: self.points[far],
+        };
+        let [start, stop] = places(owner);
+        [(0.0, start), (1.0, stop)].map(end)
     }
 
     /// Whether some triangle has the corner.
     fn is_used(&self, place: usize) -> bool {
-        self.cut.triangles().iter().any(|triangle| triangle.contains(&place))
+        match self.cut {
+            Cut::Closed => false,
+            Cut::OpenAtB => place != 2,
+            Cut::OpenAtA => place != 3,
+            Cut::FromB1 | Cut::FromA1 => true,
+        }
     }
 
     fn flat(&self, owner: usize) -> Feet {
@@ -126,10 +141,13 @@ impl<'a> StripMap<'a> {
     }
 
     /// How badly the strip lies on a channel in some way: see [`misfit`].
-    fn misfit(&self, streams: &Streams, channel: usize, way: Way, feet: &Feet) -> f64 {
+    fn misfit(&self, channel: usize, way: Way, feet: &Feet) -> f64 {
         let uv = |place: usize| match &feet[place] {
             Some(foot) => place_of(self.plan, channel, foot),
-            None => streams.uv(self.vertices[place], channel),
+            None => {
+                let vertex = self.attributes.vertex_at[self.corners[place]];
+                self.attributes.streams.uv(vertex, channel)
+            }
         };
         let uvs = [0, 1, 2, 3].map(uv);
         match way {
@@ -145,7 +163,7 @@ impl<'a> StripMap<'a> {
 
     fn misfit_on(&self, owner: usize, channel: usize, uvs: [DVec2; 4]) -> f64 {
         let ground = Ground::new(self.plan, channel, &self.ends[owner]);
-        let lie = Lie { triangles: self.cut.triangles(), areas: &self.areas, uvs: &uvs };
+        let lie = Lie { triangles: self.cut.triangles(), points: &self.points, uvs: &uvs };
         misfit(self.plan, self.edge.sides[owner], Facing::AsFace, channel, &ground, &lie)
     }
 
@@ -156,21 +174,21 @@ impl<'a> StripMap<'a> {
 
     /// Which of [`BANDS`] is the first on which the strip fits in its first channel with a seam, of
     /// those of a side; the first where nothing needs to fit.
-    pub fn band(&self, streams: &Streams, owner: usize) -> Option<u8> {
+    pub fn band(&self, owner: usize) -> Option<u8> {
         if self.edge.skipped.is_some() || self.edge.seams == 0 {
             return Some(0);
         }
         let channel = self.first_seam();
         let fits = |way: Way| {
             let feet = self.feet(way);
-            self.misfit(streams, channel, way, &feet) <= MOST_STRETCH
+            self.misfit(channel, way, &feet) <= MOST_STRETCH
         };
         bands(owner).position(fits).map(|place| place as u8)
     }
 
     /// The feet of the first way that fits, or else of the one that fits best, among those that
     /// agree with what other channels have taken.
-    fn lay(&self, streams: &Streams, channel: usize, owner: usize, taken: &Feet) -> Feet {
+    fn lay(&self, channel: usize, owner: usize, taken: &Feet) -> Feet {
         let own = (self.edge.seams >> channel & 1 == 0).then_some(Way::Own);
         let ways = own.into_iter().chain(bands(owner)).chain(bands(1 - owner));
         let sides = [owner, 1 - owner];
@@ -186,7 +204,7 @@ impl<'a> StripMap<'a> {
             if !(0..4).all(agrees) {
                 continue;
             }
-            let misfit = self.misfit(streams, channel, way, &feet);
+            let misfit = self.misfit(channel, way, &feet);
             if misfit < best.0 || is_first {
                 (best, is_first) = ((misfit, feet), false);
             }
@@ -198,9 +216,10 @@ impl<'a> StripMap<'a> {
     }
 }
 
-/// The places of the far side's corners, at the start and at the end of the owner's half-edge.
-fn far_places(owner: usize) -> [usize; 2] {
-    if owner == 0 { [2, 3] } else { [0, 1] }
+/// The places of the owner's corner and of the far one, at the start and at the end of its
+/// half-edge.
+fn places(owner: usize) -> [[usize; 2]; 2] {
+    if owner == 0 { [[1, 2], [0, 3]] } else { [[3, 0], [2, 1]] }
 }
 
 /// Lays a strip into the owner's chart where its own is another, or folds or ends under the
@@ -221,16 +240,15 @@ pub fn add_strip(
         let known = owners.band[edge].filter(|_| map.first_seam() == channel && taken == [None; 4]);
         let feet = match known {
             Some(band) => map.feet(on_band(owner, band.into())),
-            None => map.lay(&attributes.streams, channel, owner, &taken),
+            None => map.lay(channel, owner, &taken),
         };
         for place in (0..4).filter(|&place| feet[place].is_some()) {
             taken[place] = feet[place];
             channels[place] |= 1 << channel;
         }
     }
-    let corners = strips::corners(hard);
     let joints = (0..4).map(|k| Joint {
-        corner: corners[k],
+        corner: map.corners[k],
         taken: taken[k].map(|place| Taken { channels: channels[k], place }),
     });
     let source = TriangleSource { kind: TriangleKind::Edge, index: edge.0 };

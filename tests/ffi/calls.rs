@@ -188,6 +188,20 @@ fn each_element_has_a_source() {
 }
 
 #[test]
+fn vertex_sources_are_made_once() {
+    let result = run(&Cube::new().view(), &options());
+    let ask = || {
+        let (mut sources, mut count) = (ptr::null(), 0);
+        // SAFETY: the result lives, and both places are writable.
+        let status =
+            unsafe { (LIBRARY.chamfer_result_vertex_sources)(result.0, &mut sources, &mut count) };
+        assert_eq!(status, CHAMFER_STATUS_OK);
+        sources
+    };
+    assert_eq!(ask(), ask());
+}
+
+#[test]
 fn a_result_can_be_chamfered_again() {
     let first = run(&Cube::new().view(), &options());
     let second = run(&mesh_of(&first), &options());
