@@ -316,13 +316,10 @@ pub fn fill(plan: &Plan, placement: &Placement, ring: Ring) -> Option<corners::F
 /// Gives back to every sector that was shrunk, up to its room, as much as it can take with all
 /// others where they are.
 fn grow(plan: &Plan, room: &IdVec<Sector, f64>, limits: &mut Limits) {
-    let may_grow = |sector: &Sector| {
-        let ring = plan.sectors.ring(plan.sectors.fans[*sector].ring);
-        plan.offsets[*sector].moves() && ring.len() <= LONGEST_GROWN
-    };
-    for sector in room.ids().filter(may_grow) {
+    for sector in room.ids() {
         let (mut good, mut bad) = (limits.placement.share[sector], room[sector]);
-        if good == bad {
+        let ring = plan.sectors.fans[sector].ring;
+        if good == bad || plan.sectors.ring(ring).len() > LONGEST_GROWN {
             continue;
         }
         let mut found = obstacle(plan, &mut limits.placement, sector, bad, None);

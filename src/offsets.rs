@@ -119,6 +119,7 @@ fn unfold(
 }
 
 /// From a corner to the next and to the previous corner.
+#[inline(always)]
 fn arms(view: &View, corner: Corner) -> [DVec3; 2] {
     let at = view.position_at(corner);
     [view.position_at(corner.next()) - at, view.position_at(corner.prev()) - at]
@@ -309,13 +310,31 @@ fn place(view: &View, faces: &Faces, spread: &[Blade], course: &Course) -> Optio
         Some((vector, foot))
     };
     let own = on(within)?;
+    if is_flat(view, faces, spread, course) && own.1.reach() <= FARTHEST {
+        return sound(faces, course, own);
+    }
     let steadiest = steadiest(view, faces, spread, within);
     let steady = if steadiest == within { own } else { on(steadiest)? };
     let is_level = own.0.distance(steady.0) <= view.resolution * LEVEL_HEIGHT;
     let is_near = own.1.reach() <= steady.1.reach().max(FARTHEST);
-    let (vector, foot) = if is_level && is_near { own } else { steady };
+    sound(faces, course, if is_level && is_near { own } else { steady })
+}
+
+fn sound(faces: &Faces, course: &Course, (vector, foot): (DVec3, Foot)) -> Option<Offset> {
+    let within = course.corner;
     let is_sound = faces.normal[within.triangle()] != DVec3::ZERO && vector.is_finite();
     is_sound.then_some(Offset { vector, within, foot, is_capped: course.is_capped })
+}
+
+/// Whether all planes in a fan that could be the corner's own lead to the same place.
+fn is_flat(view: &View, faces: &Faces, spread: &[Blade], course: &Course) -> bool {
+    let own = faces.normal[course.corner.triangle()];
+    // A way in a plane turns with its normal, and is then put down onto it.
+    let most = view.resolution * LEVEL_HEIGHT / (4.0 * course.distance);
+    spread.iter().all(|blade| {
+        let normal = faces.normal[blade.corner.triangle()];
+        normal.distance_squared(own) <= most * most || normal.dot(own) <= LEVEL_COSINE
+    })
 }
 
 /// A corner of the triangle whose plane a corner lies in.
@@ -327,7 +346,8 @@ fn carrier(faces: &Faces, corner: Corner) -> Corner {
 /// The way of a course in the plane of a triangle at the fan's centre.
 fn way(view: &View, faces: &Faces, course: &Course, plane: Corner) -> DVec3 {
     let normal = faces.normal[plane.triangle()];
-    let [ahead, _] = arms(view, course.corner).map(unit);
+    let [ahead, _] = arms(view, course.corner);
+    let ahead = unit(ahead);
     let aside = normal.cross(ahead);
     let way = (ahead * course.angle.cos() + aside * course.angle.sin()) * course.distance;
     way - normal * way.dot(normal)

@@ -66,7 +66,9 @@ pub fn locate(view: &View, corner: Corner, from: DVec3, vector: DVec3) -> Option
             if weight.abs() < LEAST_WEIGHT { 0.0 } else { weight }
         })
     };
-    let foot = Foot { corner, start: in_edges(from - at), along: in_edges(vector) };
+    // Nearly all ways begin at the corner.
+    let start = if from == at { [0.0; 2] } else { in_edges(from - at) };
+    let foot = Foot { corner, start, along: in_edges(vector) };
     let is_sound = foot.start.iter().chain(&foot.along).all(|weight| weight.is_finite());
     is_sound.then_some(foot)
 }

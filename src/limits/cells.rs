@@ -333,3 +333,68 @@ fn fill_items(plan: &Plan, placement: &Placement, ring: crate::ids::Ring) -> Few
     let item = |corners: &[usize; 3]| Item::new(corners.map(|place| points[place]), true);
     fill.triangles.iter().map(item).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ids::{Id, IdVec};
+    use crate::mesh::MeshBuffers;
+    use crate::plan::tests::plan_of;
+    use crate::shapes;
+
+    /// What cuts, by comparing each with each.
+    fn each_with_each(cells: &Cells) -> Vec<[u32; 2]> {
+        let pairs = (0..cells.items.len()).flat_map(|a| (0..a).map(move |b| [b, a]));
+        let cut = |&[a, b]: &[usize; 2]| {
+            let [one, other] = [a, b].map(|item| &cells.items[item]);
+            (one.is_changed || other.is_changed) && cut_each_other(&one.corners, &other.corners)
+        };
+        pairs.filter(cut).map(|pair| pair.map(|item| item as u32)).collect()
+    }
+
+    fn found(cells: &Cells) -> Vec<[u32; 2]> {
+        let mut found = cells.cuts().expect("the source does not cut itself");
+        found.iter_mut().for_each(|pair| pair.sort_unstable());
+        found.sort_unstable_by_key(|&[a, b]| [b, a]);
+        found
+    }
+
+    /// Places every sector at its full width, whether there is room or not, and then brings some
+    /// back; tells how many pairs cut before and after.
+    fn follow(mesh: &MeshBuffers, width: f32) -> [usize; 2] {
+        let plan = plan_of(mesh, width);
+        let sectors = plan.sectors.fans.len();
+        let mut placement = Placement::at(&plan, &IdVec::filled(1.0, sectors));
+        let mut cells = Cells::new(&plan, plan.parts());
+        assert_eq!(plan.parts().len(), 1);
+        cells.enter(0, &placement);
+        let before = found(&cells);
+        assert_eq!(before, each_with_each(&cells));
+        cells.new_cuts();
+        let back: Vec<Sector> = (0..sectors).step_by(3).map(Sector::new).collect();
+        back.iter().for_each(|&sector| placement.set(&plan, sector, 0.25));
+        cells.follow(&placement, &back);
+        let after = found(&cells);
+        assert_eq!(after, each_with_each(&cells));
+        [before.len(), after.len()]
+    }
+
+    #[test]
+    fn all_cuts_are_found_and_followed() {
+        for (mesh, width) in [(shapes::plate(), 0.6), (shapes::l_shape(), 0.7)] {
+            let [before, after] = follow(&mesh, width);
+            assert!(before > 0 && after > 0 && before != after, "{before} and {after}");
+        }
+    }
+
+    #[test]
+    fn all_cuts_in_crowds_are_found_and_followed() {
+        let [before, after] = follow(&shapes::pyramid(60), 0.3);
+        assert!(before > 0 && after > 0 && before != after, "{before} and {after}");
+    }
+
+    #[test]
+    fn where_there_is_room_nothing_cuts() {
+        assert_eq!(follow(&shapes::plain_cube(1.0), 0.1), [0; 2]);
+    }
+}

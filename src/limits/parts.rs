@@ -413,3 +413,47 @@ fn crowded_sides(topology: &Topology) -> Vec<[Corner; 2]> {
     sides.sort_unstable();
     sides
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::MeshBuffers;
+    use crate::plan::tests::plan_of;
+    use crate::shapes;
+
+    /// For each part, how many cells it has.
+    fn sizes(mesh: &MeshBuffers) -> Vec<usize> {
+        let plan = plan_of(mesh, 0.1);
+        let parts = plan.parts();
+        (0..parts.len()).map(|part| parts.tree(part).order.len()).collect()
+    }
+
+    #[test]
+    fn a_part_is_its_faces_edges_and_corners() {
+        assert_eq!(sizes(&shapes::plain_cube(1.0)), [12 + 12 + 8]);
+        assert_eq!(sizes(&shapes::cube_field(3)), [32; 3]);
+        assert_eq!(sizes(&shapes::sphere(4, 6)), [], "nothing is chamfered");
+    }
+
+    #[test]
+    fn a_cell_has_a_number_and_a_place() {
+        let cube = shapes::plain_cube(1.0);
+        let plan = plan_of(&cube, 0.1);
+        let parts = plan.parts();
+        for (place, &number) in parts.tree(0).order.iter().enumerate() {
+            assert_eq!(parts.counts.number(parts.cell(number)), number);
+            assert_eq!(parts.place_of(parts.cell(number)), place);
+        }
+    }
+
+    #[test]
+    fn many_faces_at_one_corner_are_a_crowd() {
+        let (few, many) = (shapes::pyramid(8), shapes::pyramid(40));
+        assert!(plan_of(&few, 0.1).parts().crowds().is_none());
+        let plan = plan_of(&many, 0.1);
+        let crowds = plan.parts().crowds().unwrap();
+        // The faces around the tip, and the floor, whose triangles have one corner in common.
+        assert!(crowds.crowds.iter().any(|crowd| matches!(crowd, Crowd::Ring(_))));
+        assert!(crowds.crowds.iter().any(|crowd| matches!(crowd, Crowd::Sector(_))));
+    }
+}

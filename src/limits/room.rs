@@ -183,6 +183,11 @@ impl Moving {
         if spare <= self.slack {
             return (linear < 0.0).then_some(from);
         }
+        // Where even what both terms take together leaves some, there is no root before share 1.
+        let taken = linear.min(0.0) + square.min(0.0);
+        if spare + taken > self.slack {
+            return None;
+        }
         first_root(square, linear, spare).map(|further| from + further)
     }
 
