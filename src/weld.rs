@@ -23,7 +23,7 @@ pub fn weld(mesh: &Mesh) -> Weld {
         let slot = slot_of(
             &table,
             |cluster| key(positions[first_vertex[cluster].index()]) == key(*position),
-            hash(key(*position)),
+            hash_of(*position),
         );
         if table[slot].is_none() {
             table[slot] = first_vertex.push(Vertex::new(vertex));
@@ -42,6 +42,12 @@ fn slot_of(table: &[Cluster], is_wanted: impl Fn(Cluster) -> bool, hash: u64) ->
         slot = (slot + 1) & mask;
     }
     slot
+}
+
+/// Well mixed in its high half, and the same for positions that weld.
+#[inline]
+pub fn hash_of(position: [f32; 3]) -> u64 {
+    hash(key(position))
 }
 
 /// Adding zero turns -0 into +0.

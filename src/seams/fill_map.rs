@@ -37,6 +37,10 @@ const WAYS: [Way; 5] = [
     Way::Corner,
 ];
 
+/// So many places of a ring are tried as owners: where more meet, as at the tip of a huge cone, it
+/// would take the square of their number.
+const MOST_OWNERS: usize = 64;
+
 /// Whether a sector has moved, whether it is convex, and how many of the strips beside it have it
 /// for their owner.
 type Rank = (bool, bool, usize);
@@ -139,13 +143,13 @@ impl FillMap<'_> {
         best.1
     }
 
-    /// The places of the ring, best owner first.
+    /// The places of the ring that are tried as owners, the best first.
     fn ranked(&self, owners: &Owners) -> Few<usize> {
         let places = 0..self.sectors.len();
         let mut ranked: Few<_> =
             places.map(|place| (Reverse(self.rank(place, owners)), place)).collect();
         ranked.sort_unstable();
-        ranked.iter().map(|&(_, place)| place).collect()
+        ranked.iter().take(MOST_OWNERS).map(|&(_, place)| place).collect()
     }
 
     /// Lays the fill in one way, and tells how badly it lies on the worst of some channels.
@@ -222,7 +226,7 @@ impl FillMap<'_> {
         uvs.extend(middles.map(|blend| place_of(self.plan, channel, &blend)));
         let facing = self.facing(channel);
         let on = |owner: usize| self.misfit_on(channel, owner, self.first(owner), facing, &uvs);
-        (0..self.sectors.len()).map(on).fold(f64::INFINITY, f64::min)
+        (0..self.sectors.len().min(MOST_OWNERS)).map(on).fold(f64::INFINITY, f64::min)
     }
 
     /// How the fill may lie between the faces around the corner.

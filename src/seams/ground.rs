@@ -85,7 +85,7 @@ impl<'a> Ground<'a> {
         };
         self.any_corner(|corner| {
             add(&mut found, corner.triangle());
-            false
+            found.len() >= MOST_FACES
         });
         let mut visited = 0;
         while visited < found.len() && found.len() < MOST_FACES {
