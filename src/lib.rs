@@ -22,6 +22,7 @@
 //! ```
 
 pub mod check;
+pub mod see_through;
 pub mod shapes;
 
 mod attributes;

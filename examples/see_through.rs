@@ -1,0 +1,151 @@
+//! Looks through a folder of models: after which does light show where none did before?
+//!
+//! `cargo run --release --example see_through -- [--fast] [--verbose] [--only NAME] [--folder DIR]
+//! [--views N] [--resolution N] [PERCENT..]`
+
+#[path = "../tests/corpus/measure.rs"]
+#[allow(dead_code)]
+mod measure;
+
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
+
+use chamfer::see_through::{Eyes, Leak, SceneTriangle, leaks};
+use chamfer::{Chamfered, MeshBuffers, Options, Verify, Width, chamfer};
+use chamfer_cli::document::{Instance, ReadOptions};
+use chamfer_cli::format;
+use glam::{Mat4, Vec3};
+
+struct Request {
+    verify: Verify,
+    is_verbose: bool,
+    only: Option<String>,
+    folder: String,
+    eyes: Eyes,
+    percents: Vec<f32>,
+}
+
+impl Request {
+    fn new(mut arguments: impl Iterator<Item = String>) -> Request {
+        let mut request = Request {
+            verify: Verify::Full,
+            is_verbose: false,
+            only: None,
+            folder: measure::FOLDER.to_owned(),
+            eyes: Eyes::default(),
+            percents: Vec::new(),
+        };
+        while let Some(argument) = arguments.next() {
+            let mut number = || arguments.next().and_then(|text| text.parse().ok());
+            match argument.as_str() {
+                "--fast" => request.verify = Verify::Fast,
+                "--verbose" => request.is_verbose = true,
+                "--views" => request.eyes.views = number().unwrap_or(request.eyes.views),
+                "--resolution" => {
+                    request.eyes.resolution = number().unwrap_or(request.eyes.resolution);
+                }
+                "--only" => request.only = arguments.next(),
+                "--folder" => request.folder = arguments.next().unwrap_or(request.folder),
+                percent => request.percents.extend(percent.parse::<f32>().ok()),
+            }
+        }
+        request
+    }
+
+    fn paths(&self) -> Vec<PathBuf> {
+        let mut paths = measure::models(Path::new(&self.folder));
+        paths.retain(|path| {
+            self.only.as_ref().is_none_or(|name| path.to_string_lossy().contains(name.as_str()))
+        });
+        paths
+    }
+}
+
+fn main() {
+    let request = Request::new(std::env::args().skip(1));
+    let paths = request.paths();
+    for &percent in &request.percents {
+        let (next, leaking) = (AtomicUsize::new(0), AtomicUsize::new(0));
+        std::thread::scope(|scope| {
+            for _ in 0..2 {
+                scope.spawn(|| {
+                    while let Some(path) = paths.get(next.fetch_add(1, Ordering::Relaxed)) {
+                        let leaks = look(&request, path, percent);
+                        leaking.fetch_add(usize::from(leaks > 0), Ordering::Relaxed);
+                    }
+                });
+            }
+        });
+        println!("{percent} %: light shows in {leaking:?} of {} models", paths.len());
+    }
+}
+
+/// How many samples leak in a file. Prints where.
+fn look(request: &Request, path: &Path, percent: f32) -> usize {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let read = ReadOptions { smoothing_angle: 30.0 };
+    let document = match format::read(path, &read) {
+        Ok(document) => document,
+        Err(error) => {
+            println!("{name}: {error:#}");
+            return 0;
+        }
+    };
+    let options = Options {
+        width: Width::PercentOfExtent(percent),
+        verify: request.verify,
+        ..Options::default()
+    };
+    let chamfered: Vec<Chamfered> = document
+        .meshes()
+        .iter()
+        .map(|mesh| chamfer(&mesh.mesh.as_mesh(), &options).expect("meshes that were read are sound"))
+        .collect();
+    let mut width = 0.0_f32;
+    let (mut before, mut after) = (Vec::new(), Vec::new());
+    for instance in document.instances() {
+        let transform = Mat4::from_cols_array_2d(&instance.transform);
+        let result = &chamfered[instance.mesh];
+        add(&mut before, &document.meshes()[instance.mesh].mesh, &instance);
+        add(&mut after, &result.mesh, &instance);
+        let scale = transform.transform_vector3(Vec3::X).length();
+        width = width.max(result.width * scale);
+    }
+    let start = Instant::now();
+    let found = leaks(&before, &after, width, request.eyes);
+    let seconds = start.elapsed().as_secs_f64();
+    let samples: usize = found.iter().map(|leak| leak.places.len()).sum();
+    if samples > 0 || request.is_verbose {
+        println!(
+            "{name} at {percent} %: {samples} samples in {} leaks; {} triangles, {:.0} ms",
+            found.len(),
+            after.len(),
+            seconds * 1e3
+        );
+        let mut worst: Vec<&Leak> = found.iter().collect();
+        worst.sort_by_key(|leak| std::cmp::Reverse(leak.places.len()));
+        for leak in worst.into_iter().take(if request.is_verbose { 12 } else { 0 }) {
+            println!(
+                "    {} samples at {:?} seen from {:?}, {:.2} widths deep",
+                leak.places.len(),
+                leak.middle(),
+                leak.toward_eye,
+                leak.depth / width
+            );
+        }
+    }
+    samples
+}
+
+fn add(scene: &mut Vec<SceneTriangle>, mesh: &MeshBuffers, instance: &Instance) {
+    let transform = Mat4::from_cols_array_2d(&instance.transform);
+    let mirrors = transform.determinant() < 0.0;
+    let place = |index: u32| {
+        transform.transform_point3(Vec3::from(mesh.positions[index as usize])).to_array()
+    };
+    for triangle in mesh.indices.chunks_exact(3) {
+        let [a, b, c] = [triangle[0], triangle[1], triangle[2]].map(place);
+        scene.push(if mirrors { [a, c, b] } else { [a, b, c] });
+    }
+}
