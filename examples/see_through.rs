@@ -1,7 +1,7 @@
 //! Looks through a folder of models: after which does light show where none did before?
 //!
 //! `cargo run --release --example see_through -- [--fast] [--verbose] [--only NAME] [--folder DIR]
-//! [--views N] [--resolution N] [PERCENT..]`
+//! [--views N] [--resolution N] [--close-ups DIR] [PERCENT..]`
 
 #[path = "../tests/corpus/measure.rs"]
 #[allow(dead_code)]
@@ -13,8 +13,10 @@ use std::time::Instant;
 
 use chamfer::see_through::{Eyes, Leak, SceneTriangle, leaks};
 use chamfer::{Chamfered, MeshBuffers, Options, Verify, Width, chamfer};
-use chamfer_cli::document::{Instance, ReadOptions};
+use chamfer_cli::document::{Document, Instance, ReadOptions};
 use chamfer_cli::format;
+use chamfer_cli::pictures::write_png;
+use chamfer_cli::preview::{Line, Panel, Placed, Zoom, contact_sheet};
 use glam::{Mat4, Vec3};
 
 struct Request {
@@ -23,6 +25,7 @@ struct Request {
     only: Option<String>,
     folder: String,
     eyes: Eyes,
+    close_ups: Option<PathBuf>,
     percents: Vec<f32>,
 }
 
@@ -34,6 +37,7 @@ impl Request {
             only: None,
             folder: measure::FOLDER.to_owned(),
             eyes: Eyes::default(),
+            close_ups: None,
             percents: Vec::new(),
         };
         while let Some(argument) = arguments.next() {
@@ -45,6 +49,7 @@ impl Request {
                 "--resolution" => {
                     request.eyes.resolution = number().unwrap_or(request.eyes.resolution);
                 }
+                "--close-ups" => request.close_ups = arguments.next().map(PathBuf::from),
                 "--only" => request.only = arguments.next(),
                 "--folder" => request.folder = arguments.next().unwrap_or(request.folder),
                 percent => request.percents.extend(percent.parse::<f32>().ok()),
@@ -100,7 +105,9 @@ fn look(request: &Request, path: &Path, percent: f32) -> usize {
     let chamfered: Vec<Chamfered> = document
         .meshes()
         .iter()
-        .map(|mesh| chamfer(&mesh.mesh.as_mesh(), &options).expect("meshes that were read are sound"))
+        .map(|mesh| {
+            chamfer(&mesh.mesh.as_mesh(), &options).expect("meshes that were read are sound")
+        })
         .collect();
     let mut width = 0.0_f32;
     let (mut before, mut after) = (Vec::new(), Vec::new());
@@ -125,6 +132,15 @@ fn look(request: &Request, path: &Path, percent: f32) -> usize {
         );
         let mut worst: Vec<&Leak> = found.iter().collect();
         worst.sort_by_key(|leak| std::cmp::Reverse(leak.places.len()));
+        if let Some(folder) = &request.close_ups {
+            let shown = worst.iter().take(CLOSE_UPS);
+            let panels: Vec<Panel> = shown
+                .map(|leak| close_up(&name, &*document, &chamfered, leak, width, [&before, &after]))
+                .collect();
+            std::fs::create_dir_all(folder).expect("the folder can be made");
+            let file = folder.join(format!("{name}.{percent}.png"));
+            write_png(&file, &contact_sheet(&panels)).expect("the picture can be written");
+        }
         for leak in worst.into_iter().take(if request.is_verbose { 12 } else { 0 }) {
             println!(
                 "    {} samples at {:?} seen from {:?}, {:.2} widths deep",
@@ -136,6 +152,42 @@ fn look(request: &Request, path: &Path, percent: f32) -> usize {
         }
     }
     samples
+}
+
+/// How many of a file's leaks are drawn.
+const CLOSE_UPS: usize = 4;
+
+/// The surroundings of a leak before and after, its places marked.
+fn close_up<'a>(
+    name: &str,
+    document: &'a dyn Document,
+    chamfered: &'a [Chamfered],
+    leak: &Leak,
+    width: f32,
+    scenes: [&[SceneTriangle]; 2],
+) -> Panel<'a> {
+    let mut panel = Panel { caption: name.to_owned(), ..Panel::default() };
+    for instance in document.instances() {
+        let transform = instance.transform;
+        let mesh = document.meshes()[instance.mesh].mesh.as_mesh();
+        panel.before.push(Placed { mesh, transform });
+        panel.after.push(Placed { mesh: chamfered[instance.mesh].mesh.as_mesh(), transform });
+    }
+    let mark = |place: &[f32; 3], color| {
+        let place = Vec3::from(*place) + Vec3::from(leak.toward_eye) * width * 0.1;
+        let step = Vec3::from(leak.toward_eye).any_orthonormal_vector() * width * 0.1;
+        Line { ends: [(place - step).to_array(), (place + step).to_array()], color }
+    };
+    panel.before_lines = leak.places.iter().map(|place| mark(place, [255, 60, 40])).collect();
+    panel.toward_eye = Some(leak.toward_eye);
+    let points = || scenes[0].as_flattened().iter().map(|point| Vec3::from(*point));
+    let (low, high) = points().fold((Vec3::MAX, Vec3::MIN), |(l, h), p| (l.min(p), h.max(p)));
+    let middle = Vec3::from(leak.middle());
+    let spread = leak.places.iter().map(|place| middle.distance(Vec3::from(*place)));
+    let shown = spread.fold(width * 12.0, f32::max) * 2.0;
+    let factor = ((high - low).length() / shown).max(1.0);
+    panel.zoom = Some(Zoom { factor, focus: Some(leak.middle()) });
+    panel
 }
 
 fn add(scene: &mut Vec<SceneTriangle>, mesh: &MeshBuffers, instance: &Instance) {

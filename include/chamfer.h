@@ -153,6 +153,9 @@
 /// `reason`: the width is too small for the precision of the positions here.
 #define CHAMFER_REASON_TOO_FINE 8
 
+/// `reason`: something rests on the edge, or right beside it; light would show behind a chamfer.
+#define CHAMFER_REASON_CONTACT 9
+
 /// How many reasons `skipped_by_reason` has room for: more than there are, so that reasons can be
 /// added.
 #define CHAMFER_REASON_SLOTS 16

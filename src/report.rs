@@ -158,6 +158,8 @@ pub enum Reason {
     NoArea = 7,
     /// The width is too small for the precision of the positions here.
     TooFine = 8,
+    /// Something rests on the edge, or on a face right beside it: light would show behind a chamfer.
+    Contact = 9,
 }
 
 impl Outcome {
@@ -173,7 +175,7 @@ impl Outcome {
 
 impl Reason {
     /// Every reason, in the order of their numbers.
-    pub const ALL: [Reason; 9] = [
+    pub const ALL: [Reason; 10] = [
         Reason::None,
         Reason::NoRoom,
         Reason::Folds,
@@ -183,6 +185,7 @@ impl Reason {
         Reason::ZeroThickness,
         Reason::NoArea,
         Reason::TooFine,
+        Reason::Contact,
     ];
 
     /// A short name in lower case with underscores, for reports.
@@ -197,6 +200,7 @@ impl Reason {
             Reason::ZeroThickness => "zero_thickness",
             Reason::NoArea => "no_area",
             Reason::TooFine => "too_fine",
+            Reason::Contact => "contact",
         }
     }
 }

@@ -15,7 +15,7 @@ mod console;
 mod demo;
 pub mod format;
 mod jobs;
-mod pictures;
+pub mod pictures;
 mod process;
 mod report;
 mod verdict_lines;

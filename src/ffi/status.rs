@@ -102,6 +102,7 @@ pub fn reason_text(reason: u32) -> &'static CStr {
         CHAMFER_REASON_ZERO_THICKNESS => c"zero_thickness",
         CHAMFER_REASON_NO_AREA => c"no_area",
         CHAMFER_REASON_TOO_FINE => c"too_fine",
+        CHAMFER_REASON_CONTACT => c"contact",
         _ => c"unknown_reason",
     }
 }

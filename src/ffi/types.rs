@@ -110,6 +110,8 @@ pub const CHAMFER_REASON_ZERO_THICKNESS: u32 = 6;
 pub const CHAMFER_REASON_NO_AREA: u32 = 7;
 /// `reason`: the width is too small for the precision of the positions here.
 pub const CHAMFER_REASON_TOO_FINE: u32 = 8;
+/// `reason`: something rests on the edge, or right beside it; light would show behind a chamfer.
+pub const CHAMFER_REASON_CONTACT: u32 = 9;
 
 /// How many reasons `skipped_by_reason` has room for: more than there are, so that reasons can be
 /// added.

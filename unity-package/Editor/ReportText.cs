@@ -32,7 +32,7 @@ namespace ChamferEditor
 
         private static void AppendReasons(StringBuilder text, ChamferReport report, EdgeOutcome outcome, string name)
         {
-            for (var reason = EdgeReason.None; reason <= EdgeReason.TooFine; reason++)
+            for (var reason = EdgeReason.None; reason <= EdgeReason.Contact; reason++)
             {
                 int count = report.Count(outcome, reason);
                 if (count == 0) { continue; }
@@ -52,6 +52,7 @@ namespace ChamferEditor
                 case EdgeReason.ZeroThickness: return "the faces lie back to back";
                 case EdgeReason.NoArea: return "a triangle beside has no area";
                 case EdgeReason.TooFine: return "the width is too small for the precision here";
+                case EdgeReason.Contact: return "something rests there, light would show behind a chamfer";
                 default: return "no reason known";
             }
         }

@@ -31,7 +31,9 @@ namespace Chamfer
         /// <summary>A triangle beside the edge has no area.</summary>
         NoArea = 7,
         /// <summary>The width is too small for the precision of the positions here.</summary>
-        TooFine = 8
+        TooFine = 8,
+        /// <summary>Something rests on the edge, or right beside it: light would show behind a chamfer.</summary>
+        Contact = 9
     }
 
     /// <summary>What became of one hard edge.</summary>

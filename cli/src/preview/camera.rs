@@ -43,7 +43,11 @@ pub(super) struct Projected {
 
 impl Camera {
     /// A square view, `size` samples wide, that holds all points; `None` where they have no extent.
-    pub fn frame(points: impl Iterator<Item = DVec3> + Clone, size: usize) -> Option<Camera> {
+    pub fn frame(
+        toward_eye: DVec3,
+        points: impl Iterator<Item = DVec3> + Clone,
+        size: usize,
+    ) -> Option<Camera> {
         let (low, high) =
             points.clone().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), point| {
                 (low.min(point), high.max(point))
@@ -53,7 +57,7 @@ impl Camera {
         if !(radius > 0.0 && radius.is_finite()) {
             return None;
         }
-        Camera::looking_at(middle, radius, size).fitted(points)
+        Camera::looking_at(toward_eye, middle, radius, size).fitted(points)
     }
 
     /// The same view `factor` times larger around `focus`.
@@ -88,9 +92,10 @@ impl Camera {
         samples / self.scale * inverse_depth
     }
 
-    fn looking_at(middle: DVec3, radius: f64, size: usize) -> Camera {
-        let back = TOWARD_EYE.normalize();
-        let right = DVec3::Y.cross(back).normalize();
+    fn looking_at(toward_eye: DVec3, middle: DVec3, radius: f64, size: usize) -> Camera {
+        let back = toward_eye.normalize_or(TOWARD_EYE.normalize());
+        // Straight from above or below, up is away from the viewer.
+        let right = DVec3::Y.cross(back).try_normalize().unwrap_or(DVec3::X);
         Camera {
             eye: middle + back * radius * EYE_DISTANCE,
             right,
@@ -140,7 +145,7 @@ mod tests {
     fn all_corners_are_inside_the_tile_and_touch_its_margin() {
         for high in [DVec3::ONE, DVec3::new(100.0, 1.0, 1.0), DVec3::new(1e-6, 3e-6, 0.0)] {
             let corners = box_corners(DVec3::ZERO, high);
-            let camera = Camera::frame(corners.iter().copied(), 100).unwrap();
+            let camera = Camera::frame(TOWARD_EYE, corners.iter().copied(), 100).unwrap();
             let seen: Vec<_> = corners.iter().map(|&corner| camera.project(corner)).collect();
             let coordinates = || seen.iter().flat_map(|p| [p.x, p.y]);
             assert!(coordinates().all(|c| c > 6.9 && c < 93.1), "{high}: {seen:?}");
@@ -150,14 +155,16 @@ mod tests {
 
     #[test]
     fn points_without_extent_have_no_view() {
-        assert!(Camera::frame([].into_iter(), 100).is_none());
-        assert!(Camera::frame([DVec3::ONE; 3].into_iter(), 100).is_none());
+        assert!(Camera::frame(TOWARD_EYE, [].into_iter(), 100).is_none());
+        assert!(Camera::frame(TOWARD_EYE, [DVec3::ONE; 3].into_iter(), 100).is_none());
     }
 
     #[test]
     fn a_zoom_centers_its_focus() {
         let corners = box_corners(DVec3::ZERO, DVec3::ONE);
-        let camera = Camera::frame(corners.iter().copied(), 100).unwrap().zoomed(5.0, corners[7]);
+        let camera = Camera::frame(TOWARD_EYE, corners.iter().copied(), 100)
+            .unwrap()
+            .zoomed(5.0, corners[7]);
         let seen = camera.project(corners[7]);
         assert!((seen.x - 50.0).abs() < 1e-9 && (seen.y - 50.0).abs() < 1e-9);
     }
@@ -165,7 +172,7 @@ mod tests {
     #[test]
     fn up_is_up() {
         let corners = box_corners(DVec3::ZERO, DVec3::ONE);
-        let camera = Camera::frame(corners.iter().copied(), 100).unwrap();
+        let camera = Camera::frame(TOWARD_EYE, corners.iter().copied(), 100).unwrap();
         assert!(camera.project(DVec3::Y).y < camera.project(DVec3::ZERO).y);
         assert!(camera.project(DVec3::X).x > camera.project(DVec3::ZERO).x);
     }

@@ -2,11 +2,11 @@
 
 use image::{Rgb, RgbImage, imageops};
 
-use super::camera::Camera;
+use super::Panel;
+use super::camera::{Camera, TOWARD_EYE};
 use super::caption::{self, TEXT_HEIGHT, TextBox};
 use super::scene::Scene;
 use super::tile::{SAMPLES, Tile};
-use super::{Panel, Zoom};
 
 /// Pixels per side of a tile of a picture of its own, and of one on a sheet.
 const LARGE_TILE: u32 = 600;
@@ -60,11 +60,13 @@ struct Drawn<'a> {
 impl<'a> Drawn<'a> {
     fn new(panel: &'a Panel, tile: u32) -> Self {
         let scenes = [Scene::gather(&panel.before), Scene::gather(&panel.after)];
-        let camera = camera(&scenes, panel.zoom, tile as usize * SAMPLES);
+        let camera = camera(&scenes, panel, tile as usize * SAMPLES);
         let [before, after] = &scenes;
         let render = |scene, lines| {
             let camera = camera.as_ref();
-            Tile { scene, lines, surface: panel.surface, camera, pixels: tile as usize }.render()
+            let culls_backs = panel.toward_eye.is_some();
+            let pixels = tile as usize;
+            Tile { scene, lines, surface: panel.surface, camera, pixels, culls_backs }.render()
         };
         Drawn {
             title: &panel.caption,
@@ -113,10 +115,15 @@ fn grouped(number: usize) -> String {
 }
 
 /// One view of both scenes; `None` where neither has an extent.
-fn camera(scenes: &[Scene; 2], zoom: Option<Zoom>, samples: usize) -> Option<Camera> {
+fn camera(scenes: &[Scene; 2], panel: &Panel, samples: usize) -> Option<Camera> {
     let [before, after] = scenes;
-    let camera = Camera::frame(before.corners().chain(after.corners()), samples)?;
-    let Some(zoom) = zoom.filter(|zoom| zoom.factor > 0.0 && zoom.factor.is_finite()) else {
+    let toward_eye = panel.toward_eye.map(|direction| glam::Vec3::from(direction).as_dvec3());
+    let camera = Camera::frame(
+        toward_eye.unwrap_or(TOWARD_EYE),
+        before.corners().chain(after.corners()),
+        samples,
+    )?;
+    let Some(zoom) = panel.zoom.filter(|zoom| zoom.factor > 0.0 && zoom.factor.is_finite()) else {
         return Some(camera);
     };
     let given = zoom.focus.map(|focus| glam::Vec3::from(focus).as_dvec3());
@@ -136,7 +143,7 @@ fn nearest(camera: &Camera, scene: &Scene) -> Option<glam::DVec3> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Placed;
+    use super::super::{Placed, Zoom};
     use super::*;
 
     const IDENTITY: [[f32; 4]; 4] =

@@ -77,6 +77,7 @@ impl Stroke {
 
 #[cfg(test)]
 mod tests {
+    use super::super::camera::TOWARD_EYE;
     use super::super::raster::{NOTHING, ScreenTriangle};
     use super::*;
 
@@ -86,7 +87,7 @@ mod tests {
     /// faces the eye.
     fn wall() -> (Camera, Visibility) {
         let corners = [DVec3::NEG_ONE, DVec3::ONE];
-        let camera = Camera::frame(corners.into_iter(), SIZE).unwrap();
+        let camera = Camera::frame(TOWARD_EYE, corners.into_iter(), SIZE).unwrap();
         let inverse_depth = camera.project(DVec3::ZERO).inverse_depth;
         let corner = |x, y| Projected { x, y, inverse_depth };
         let whole = [corner(0.0, 0.0), corner(0.0, 100.0), corner(100.0, 0.0)];

@@ -44,6 +44,9 @@ pub struct Panel<'a> {
     pub surface: Surface<'a>,
     /// A close-up instead of the whole model.
     pub zoom: Option<Zoom>,
+    /// Seen from here instead, with faces from behind left out, as an engine does: from the model
+    /// to the eye.
+    pub toward_eye: Option<[f32; 3]>,
 }
 
 /// What a model seems to be made of.

@@ -27,6 +27,8 @@ pub(super) struct Tile<'a> {
     pub camera: Option<&'a Camera>,
     /// Pixels per side.
     pub pixels: usize,
+    /// Whether triangles seen from behind are left out.
+    pub culls_backs: bool,
 }
 
 impl Tile<'_> {
@@ -67,7 +69,8 @@ impl<'a> Drawing<'a> {
             lights: Lights::studio(),
         };
         for item in 0..tile.scene.triangles.len() {
-            if let Some(triangle) = drawing.screen_triangle(item) {
+            let shown = |triangle: &ScreenTriangle| !(tile.culls_backs && triangle.is_back);
+            if let Some(triangle) = drawing.screen_triangle(item).filter(shown) {
                 drawing.seen.draw(&triangle, item as u32);
             }
         }
@@ -213,8 +216,16 @@ mod tests {
         let transform = glam::Mat4::IDENTITY.to_cols_array_2d();
         let placed = meshes.iter().map(|mesh| Placed { mesh: mesh.as_mesh(), transform });
         let scene = Scene::gather(&placed.collect::<Vec<_>>());
-        let camera = Camera::frame(scene.corners(), 20 * SAMPLES);
-        Tile { scene: &scene, lines, surface, camera: camera.as_ref(), pixels: 20 }.render()
+        let camera = Camera::frame(TOWARD_EYE, scene.corners(), 20 * SAMPLES);
+        Tile {
+            scene: &scene,
+            lines,
+            surface,
+            camera: camera.as_ref(),
+            pixels: 20,
+            culls_backs: false,
+        }
+        .render()
     }
 
     fn middle(image: &RgbImage) -> Rgb<u8> {
