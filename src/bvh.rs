@@ -271,6 +271,24 @@ impl Tree<'_> {
         })
     }
 
+    /// The places whose boxes overlap one, in the order of the tree.
+    pub fn overlapping(self, bounds: &Bounds, target: Aabb) -> impl Iterator<Item = usize> {
+        let mut node = 0;
+        std::iter::from_fn(move || {
+            while node < self.nodes.len() {
+                let met = node;
+                let is_apart = !bounds.node_boxes[met].overlaps(&target);
+                node = if is_apart { self.nodes[met].next as usize } else { met + 1 };
+                if !is_apart && self.nodes[met].count > 0 {
+                    return Some(self.places(met));
+                }
+            }
+            None
+        })
+        .flatten()
+        .filter(move |&place| bounds.boxes[place].overlaps(&target))
+    }
+
     /// The pairs of places that are not apart, each once.
     pub fn pairs(self, bounds: &Bounds) -> impl Iterator<Item = (usize, usize)> {
         self.leaves()

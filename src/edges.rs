@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use crate::contacts::Contacts;
 use crate::faces::Faces;
 use crate::ids::{Corner, Edge, Id, IdVec, Vertex};
 use crate::mesh::UV_CHANNELS;
@@ -55,7 +56,7 @@ pub fn may_be_hard(view: &View, weld: &Weld) -> bool {
     weld.cluster_of.ids().any(differs)
 }
 
-pub fn edges(view: &View, topology: &Topology, faces: &Faces) -> Edges {
+pub fn edges(view: &View, topology: &Topology, faces: &Faces, contacts: &Contacts) -> Edges {
     let mut hard = IdVec::default();
     let mut chamfered_at = IdVec::filled(Edge::NONE, view.corner_count());
     for corner in topology.twin.ids() {
@@ -63,7 +64,9 @@ pub fn edges(view: &View, topology: &Topology, faces: &Faces) -> Edges {
         if twin.is_none() || twin < corner || !is_hard(view, corner, twin) {
             continue;
         }
-        let skipped = obstacle(topology, faces, corner, twin);
+        let skipped = obstacle(topology, faces, corner, twin).or_else(|| {
+            contacts.holds(view, topology, faces, corner).then_some(Reason::Contact)
+        });
         let edge = hard.push(HardEdge {
             sides: [corner, twin],
             skipped,
@@ -119,6 +122,7 @@ pub fn seam_between(view: &View, channel: usize, one: Corner, other: Corner) -> 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contacts::contacts;
     use crate::faces::faces;
     use crate::mesh::Mesh;
     use crate::options::Options;
@@ -154,7 +158,9 @@ mod tests {
         };
         let view = view(&mesh, &Options::default()).unwrap();
         let topology = topology(&view, &weld(&mesh));
-        let edges = edges(&view, &topology, &faces(&view, &topology));
+        let faces = faces(&view, &topology);
+        let contacts = contacts(&view, &topology);
+        let edges = edges(&view, &topology, &faces, &contacts);
         edges.hard.iter().map(|edge| edge.skipped).collect()
     }
 

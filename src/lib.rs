@@ -27,6 +27,7 @@ pub mod shapes;
 
 mod attributes;
 mod bvh;
+mod contacts;
 mod corners;
 mod edges;
 mod error;

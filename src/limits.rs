@@ -104,6 +104,9 @@ fn shrink(plan: &Plan, limits: &mut Limits, mut bad: Vec<Element>) -> Vec<Sector
         for element in bad {
             let reason = match element {
                 Element::Surface(_) => Reason::NoRoom,
+                Element::Strip(edge) if !contacts_are_kept(plan, &limits.placement, edge) => {
+                    Reason::Contact
+                }
                 Element::Strip(_) | Element::Fill(_) => Reason::Folds,
             };
             blame(plan, limits, element, reason, &mut shrunk);
@@ -250,7 +253,9 @@ fn elements_of<'a>(plan: &'a Plan, sector: Sector) -> impl Iterator<Item = Eleme
 fn is_valid(plan: &Plan, placement: &Placement, element: Element) -> bool {
     match element {
         Element::Surface(triangle) => surface_is_valid(plan, placement, triangle),
-        Element::Strip(edge) => strip_is_valid(plan, placement, edge),
+        Element::Strip(edge) => {
+            strip_is_valid(plan, placement, edge) && contacts_are_kept(plan, placement, edge)
+        }
         Element::Fill(ring) => fill_is_valid(plan, placement, ring),
     }
 }
@@ -288,6 +293,13 @@ fn strip_is_valid(plan: &Plan, placement: &Placement, edge: Edge) -> bool {
     let quad = strips::quad(plan, placement, edge);
     let [from, to] = [edge.sides[0], edge.sides[0].next()].map(|c| plan.view.position_at(c));
     strips::is_valid(&quad, strips::cut(&quad), unit(to - from), plan.view.resolution)
+}
+
+/// Whether a strip leaves everything covered that rests beside its edge.
+fn contacts_are_kept(plan: &Plan, placement: &Placement, edge: Edge) -> bool {
+    let [b1, a1, a2, b2] =
+        strips::corners(&plan.edges.hard[edge]).map(|corner| placement.position_at(plan, corner));
+    plan.rests.are_kept(plan, edge, [[a1, b1], [a2, b2]])
 }
 
 fn fill_is_valid(plan: &Plan, placement: &Placement, ring: Ring) -> bool {

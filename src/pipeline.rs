@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use crate::attributes::attributes;
+use crate::contacts::contacts;
 use crate::edges::{edges, may_be_hard};
 use crate::error::Error;
 use crate::faces::faces;
@@ -187,7 +188,8 @@ pub(crate) fn shape(view: &View, weld: Weld, done: &mut Done) -> Result<Shape, E
     done(Stage::Topology)?;
     let faces = faces(view, &topology);
     done(Stage::Faces)?;
-    let edges = edges(view, &topology, &faces);
+    let contacts = contacts(view, &topology);
+    let edges = edges(view, &topology, &faces, &contacts);
     done(Stage::Edges)?;
     let sectors = sectors(&topology, &edges);
     done(Stage::Sectors)?;
@@ -195,6 +197,7 @@ pub(crate) fn shape(view: &View, weld: Weld, done: &mut Done) -> Result<Shape, E
         weld: weld.into(),
         topology: topology.into(),
         faces: faces.into(),
+        contacts: contacts.into(),
         edges: edges.into(),
         sectors: sectors.into(),
         parts: Arc::default(),

@@ -2,6 +2,7 @@
 
 use std::sync::{Arc, OnceLock};
 
+use crate::contacts::{Contacts, Rests, rests};
 use crate::edges::Edges;
 use crate::faces::Faces;
 use crate::ids::{IdVec, Sector};
@@ -18,6 +19,7 @@ pub struct Shape {
     pub weld: Arc<Weld>,
     pub topology: Arc<Topology>,
     pub faces: Arc<Faces>,
+    pub contacts: Arc<Contacts>,
     pub edges: Arc<Edges>,
     pub sectors: Arc<Sectors>,
     /// Only looked for once collisions are.
@@ -30,18 +32,22 @@ pub struct Plan<'a> {
     pub weld: Arc<Weld>,
     pub topology: Arc<Topology>,
     pub faces: Arc<Faces>,
+    pub contacts: Arc<Contacts>,
     pub edges: Arc<Edges>,
     pub sectors: Arc<Sectors>,
     parts: Arc<OnceLock<Parts>>,
     /// `#sectors`: the move at full width.
     pub offsets: IdVec<Sector, Offset>,
+    /// What must not lose what it rests on.
+    pub rests: Rests,
 }
 
 impl<'a> Plan<'a> {
     /// What is known of a mesh, with the moves at one width.
     pub fn new(view: View<'a>, shape: &Shape, offsets: IdVec<Sector, Offset>) -> Plan<'a> {
-        let Shape { weld, topology, faces, edges, sectors, parts } = shape.clone();
-        Plan { view, weld, topology, faces, edges, sectors, parts, offsets }
+        let Shape { weld, topology, faces, contacts, edges, sectors, parts } = shape.clone();
+        let rests = rests(&view, &topology, &faces, &edges, &contacts);
+        Plan { view, weld, topology, faces, contacts, edges, sectors, parts, offsets, rests }
     }
 
     /// The parts with chamfered edges, which no width has a say in either.

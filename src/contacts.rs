@@ -1,0 +1,195 @@
+//! Contacts: what rests on the surface, and so must not lose what it rests on.
+//!
+//! A chamfer cuts a wedge off along its edge. Behind it the solid stays closed, but game models are
+//! put together from open parts that hide each other's holes: where the open border of one part
+//! lies on another, the wedge may be all that hid what is behind. So a stretch of border that lies
+//! in the wedge of an edge keeps that wedge from being cut off.
+
+mod wedge;
+
+use glam::DVec3;
+
+use crate::bvh::{Aabb, Bounds, Forest};
+use crate::faces::Faces;
+use crate::ids::{Corner, Edge, Few, IdVec};
+use crate::edges::Edges;
+use crate::plan::Plan;
+use crate::topology::Topology;
+use crate::view::View;
+
+pub use wedge::Stretch;
+use wedge::{Cut, Wedge};
+
+/// Parts that were modelled to touch are off each other by what exporters round to: within this
+/// share of the mesh's extent (a hundredth of a millimetre on a metre) they touch.
+const TOUCHING: f64 = 1e-5;
+
+/// As many times the resolution, if that is more: both parts are rounded.
+const TOUCHING_STEPS: f64 = 2.0;
+
+/// The open borders of a mesh, in a tree.
+pub struct Contacts {
+    /// `#borders`: half-edges without twin.
+    borders: Vec<Corner>,
+    forest: Forest,
+    bounds: Bounds,
+    /// Within this distance, in mesh units, something touches.
+    tolerance: f64,
+}
+
+/// Finds the borders of a mesh.
+pub fn contacts(view: &View, topology: &Topology) -> Contacts {
+    let is_border = |corner: &Corner| {
+        topology.twin[*corner].is_none() && !topology.is_collapsed(corner.triangle())
+    };
+    let borders: Vec<Corner> = topology.twin.ids().filter(is_border).collect();
+    let tolerance = if borders.is_empty() { 0.0 } else { tolerance(view) };
+    let around = |&border: &Corner| around(ends(view, border), tolerance);
+    let boxes: Vec<Aabb> = borders.iter().map(around).collect();
+    let numbers = (0..borders.len() as u32).collect();
+    let forest = Forest::new(numbers, &[borders.len() as u32], &boxes, None);
+    let tree = forest.tree(0);
+    let boxes = tree.order.iter().map(|&number| boxes[number as usize]).collect();
+    let bounds = Bounds::new(tree, boxes, Vec::new());
+    Contacts { borders, forest, bounds, tolerance }
+}
+
+fn tolerance(view: &View) -> f64 {
+    (f64::from(view.mesh.extent()) * TOUCHING).max(view.resolution * TOUCHING_STEPS)
+}
+
+fn ends(view: &View, half_edge: Corner) -> [DVec3; 2] {
+    [half_edge, half_edge.next()].map(|corner| view.position_at(corner))
+}
+
+/// The box around some points, and so far beyond.
+fn around(points: [DVec3; 2], reach: f64) -> Aabb {
+    let [low, high] = [points[0].min(points[1]) - reach, points[0].max(points[1]) + reach];
+    Aabb::around(&[low, high].map(|point| point.as_vec3().to_array()))
+}
+
+impl Contacts {
+    /// Whether something rests on an edge, elsewhere than at its ends alone.
+    pub fn holds(&self, view: &View, topology: &Topology, faces: &Faces, side: Corner) -> bool {
+        if self.borders.is_empty() {
+            return false;
+        }
+        let Some(wedge) = Wedge::new(view, faces, [side, topology.twin[side]]) else {
+            return false;
+        };
+        let reach = self.tolerance * 2.0;
+        let stretches = self.in_wedge(view, topology, side, &wedge, reach);
+        stretches.iter().any(|stretch| wedge.is_inside_ends(stretch, self.tolerance * 4.0))
+    }
+
+    /// The stretches of border that lie in the wedge that is cut off along an edge where both its
+    /// sides are pulled by `width`.
+    fn in_wedge(
+        &self,
+        view: &View,
+        topology: &Topology,
+        side: Corner,
+        wedge: &Wedge,
+        width: f64,
+    ) -> Few<Stretch> {
+        let tree = self.forest.tree(0);
+        let reach = width + self.tolerance;
+        let near = tree.overlapping(&self.bounds, around(wedge.ends(), reach));
+        near.map(|place| self.borders[tree.order[place] as usize])
+            .filter_map(|border| {
+                let stretch = wedge.clip(ends(view, border), width, self.tolerance)?;
+                let is_own = || is_own_border(topology, side, border);
+                (!is_own()).then_some(stretch)
+            })
+            .collect()
+    }
+}
+
+/// Whether a border belongs to one of the fans around the ends of an edge: it is where that fan
+/// ends, and moves with it.
+fn is_own_border(topology: &Topology, side: Corner, border: Corner) -> bool {
+    let ends = [side, side.next()].map(|corner| topology.cluster_at[corner]);
+    let border_ends = [border, border.next()].map(|corner| topology.cluster_at[corner]);
+    let meets = |end: usize| border_ends.contains(&ends[end]);
+    (meets(0) && is_around(topology, side, border))
+        || (meets(1) && is_around(topology, topology.twin[side], border))
+}
+
+/// Whether a border is met when one turns around the start of a half-edge, either way.
+fn is_around(topology: &Topology, half_edge: Corner, border: Corner) -> bool {
+    let mut onward = half_edge;
+    // Out of the fan's last corner, its border runs into the cluster.
+    let arrives = loop {
+        let before = onward.prev();
+        if topology.twin[before].is_none() {
+            break before;
+        }
+        onward = topology.twin[before];
+        if onward == half_edge {
+            return false;
+        }
+    };
+    let mut leaves = half_edge;
+    while topology.twin[leaves].is_some() {
+        leaves = topology.twin[leaves].next();
+    }
+    border == arrives || border == leaves
+}
+
+/// For each hard edge, the stretches of border in the wedge that it loses at full width.
+#[derive(Default)]
+pub struct Rests {
+    /// `#rests`, edge by edge: each with the wedge that it lies in.
+    stretches: Vec<Stretch>,
+    /// `#hard edges`: where its stretches end; empty where nothing rests on anything.
+    ends: IdVec<Edge, u32>,
+}
+
+/// What rests in the wedges that chamfers of full width cut off.
+pub fn rests(
+    view: &View,
+    topology: &Topology,
+    faces: &Faces,
+    edges: &Edges,
+    contacts: &Contacts,
+) -> Rests {
+    if contacts.borders.is_empty() {
+        return Rests::default();
+    }
+    let mut rests = Rests::default();
+    for edge in edges.hard.iter() {
+        if edge.skipped.is_none() {
+            let wedge = Wedge::new(view, faces, edge.sides);
+            let stretches = wedge.map(|wedge| {
+                contacts.in_wedge(view, topology, edge.sides[0], &wedge, view.width)
+            });
+            rests.stretches.extend(stretches.unwrap_or_default());
+        }
+        rests.ends.push(rests.stretches.len() as u32);
+    }
+    rests
+}
+
+impl Rests {
+    /// Whether all that rests beside an edge is still covered where its sides are pulled to these
+    /// ends: `[side][end]`, both sides in the direction of the first.
+    pub fn are_kept(&self, plan: &Plan, edge: Edge, pulled: [[DVec3; 2]; 2]) -> bool {
+        let stretches = self.of(edge);
+        if stretches.is_empty() {
+            return true;
+        }
+        let sides = plan.edges.hard[edge].sides;
+        let Some(wedge) = Wedge::new(&plan.view, &plan.faces, sides) else { return true };
+        let (cut, tolerance) = (Cut::new(&wedge, pulled), plan.contacts.tolerance);
+        !stretches.as_flattened().iter().any(|place| cut.uncovers(place, tolerance))
+    }
+
+    /// What rests beside an edge.
+    fn of(&self, edge: Edge) -> &[Stretch] {
+        if self.ends.len() == 0 {
+            return &[];
+        }
+        let start = if edge.0 == 0 { 0 } else { self.ends[Edge(edge.0 - 1)] };
+        &self.stretches[start as usize..self.ends[edge] as usize]
+    }
+}

@@ -1,0 +1,146 @@
+//! The wedge that a chamfer cuts off along a convex edge.
+//!
+//! ```text
+//!        edge
+//!         /\
+//!    x1  /  \  x2        across the edge: x1 and x2 count along the two faces;
+//!       /----\           the chamfer runs where x1 / width1 + x2 / width2 = 1
+//!      /      \
+//! ```
+
+use glam::{DVec2, DVec3};
+
+use crate::faces::Faces;
+use crate::ids::Corner;
+use crate::math::unit;
+use crate::view::View;
+
+/// Faces that meet at less than half a degree lose nothing that one could see.
+const FLAT_SINE: f64 = 0.01;
+
+/// The frame of a convex edge.
+pub struct Wedge {
+    ends: [DVec3; 2],
+    /// Unit, from its first to its second end.
+    along: DVec3,
+    length: f64,
+    /// Unit, from the edge into its two faces.
+    into: [DVec3; 2],
+    /// Of the angle between these.
+    cosine: f64,
+    sine: f64,
+}
+
+/// A place as seen from an edge.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    /// How far along the edge.
+    pub along: f64,
+    /// How far into each of the two faces.
+    pub into: DVec2,
+}
+
+/// A stretch of something that rests in a wedge, from one place to another.
+pub type Stretch = [Place; 2];
+
+impl Wedge {
+    /// None where the edge is not convex: the chamfer of a concave one cuts nothing off.
+    pub fn new(view: &View, faces: &Faces, sides: [Corner; 2]) -> Option<Wedge> {
+        let ends = [sides[0], sides[0].next()].map(|corner| view.position_at(corner));
+        let length = ends[0].distance(ends[1]);
+        let along = unit(ends[1] - ends[0]);
+        let [one, two] = sides.map(|side| faces.normal[side.triangle()]);
+        let into = [one.cross(along), along.cross(two)];
+        let (cosine, sine) = (into[0].dot(into[1]), -into[1].dot(one));
+        (sine > FLAT_SINE).then_some(Wedge { ends, along, length, into, cosine, sine })
+    }
+
+    pub fn ends(&self) -> [DVec3; 2] {
+        self.ends
+    }
+
+    pub fn place(&self, point: DVec3) -> Place {
+        let from = point - self.ends[0];
+        let [one, two] = self.into.map(|into| from.dot(into));
+        let across = DVec2::new(one - self.cosine * two, two - self.cosine * one);
+        Place { along: from.dot(self.along), into: across / (self.sine * self.sine) }
+    }
+
+    /// Whether a stretch reaches farther than this from both ends of the edge.
+    pub fn is_inside_ends(&self, stretch: &Stretch, far: f64) -> bool {
+        let [one, two] = stretch.map(|place| place.along);
+        one.max(two) > far && one.min(two) < self.length - far
+    }
+
+    /// The part of a segment that is cut off where both sides are pulled by `width`; what is
+    /// farther above the faces than the tolerance is outside.
+    pub fn clip(&self, segment: [DVec3; 2], width: f64, tolerance: f64) -> Option<Stretch> {
+        let places = segment.map(|point| self.place(point));
+        let mut span = [0.0, 1.0];
+        // Each is to be positive, and linear along the segment.
+        let bounds: [&dyn Fn(&Place) -> f64; 5] = [
+            &|place| place.along + tolerance,
+            &|place| self.length + tolerance - place.along,
+            &|place| place.into.x * self.sine + tolerance,
+            &|place| place.into.y * self.sine + tolerance,
+            &|place| width - place.into.x - place.into.y,
+        ];
+        for bound in bounds {
+            cut(&mut span, places.each_ref().map(bound))?;
+        }
+        Some(span.map(|share| Place {
+            along: mix(places[0].along, places[1].along, share),
+            into: places[0].into.lerp(places[1].into, share),
+        }))
+    }
+}
+
+/// Keeps the part of a span in which a linear function, of these values at 0 and 1, is positive.
+fn cut(span: &mut [f64; 2], [start, end]: [f64; 2]) -> Option<()> {
+    if start < 0.0 && end < 0.0 {
+        return None;
+    }
+    if (start < 0.0) != (end < 0.0) {
+        let zero = start / (start - end);
+        if start < 0.0 { span[0] = span[0].max(zero) } else { span[1] = span[1].min(zero) }
+    }
+    (span[0] <= span[1]).then_some(())
+}
+
+fn mix(from: f64, to: f64, share: f64) -> f64 {
+    from + (to - from) * share
+}
+
+/// How wide each side of a chamfer is along its edge: pulled from one end to the other.
+pub struct Cut {
+    /// The pulled ends of both sides: `[side][end]`.
+    pulled: [[DVec2; 2]; 2],
+}
+
+impl Cut {
+    /// From the pulled ends of each side.
+    pub fn new(wedge: &Wedge, pulled: [[DVec3; 2]; 2]) -> Cut {
+        let side = |k: usize| {
+            pulled[k].map(|point| {
+                let from = point - wedge.ends[0];
+                DVec2::new(from.dot(wedge.along), from.dot(wedge.into[k]))
+            })
+        };
+        Cut { pulled: [side(0), side(1)] }
+    }
+
+    /// How wide a side is so far along the edge.
+    fn width(&self, side: usize, along: f64) -> f64 {
+        let [from, to] = self.pulled[side];
+        let share = (along - from.x) / (to.x - from.x);
+        mix(from.y, to.y, if share.is_finite() { share.clamp(0.0, 1.0) } else { 0.0 })
+    }
+
+    /// Whether a place is left uncovered by the chamfer: the cut goes deeper than it by more than
+    /// the tolerance.
+    pub fn uncovers(&self, place: &Place, tolerance: f64) -> bool {
+        let [one, two] = [0, 1].map(|side| self.width(side, place.along).max(0.0));
+        let into = place.into.max(DVec2::ZERO) + tolerance;
+        into.x * two + into.y * one < one * two
+    }
+}
