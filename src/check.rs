@@ -63,7 +63,7 @@ pub fn compare(before: &Mesh, after: &Mesh, depth: Verify) -> Findings {
     let surfaces = [before, after].map(Surface::new);
     state_facts(&surfaces, &mut findings);
     let (origins, mut findings) = likelier_origins(&surfaces, findings);
-    if depth == Verify::Full {
+    if depth != Verify::Fast {
         let [source, result] = &surfaces;
         intersections::check_intersections(source, result, &origins, &mut findings);
     }
@@ -134,7 +134,7 @@ fn check_geometry(
     triangles::check_triangles(source, result, origins, findings);
     flatness::check_flatness(source, result, origins, findings);
     hardness::check_hard_edges(source, result, origins, findings);
-    if depth == Verify::Full {
+    if depth != Verify::Fast {
         intersections::check_intersections(source, result, origins, findings);
     }
     findings.edges = Ruler::new(surfaces, origins).measure_all();

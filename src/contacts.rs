@@ -10,12 +10,15 @@ mod wedge;
 use glam::DVec3;
 
 use crate::bvh::{Aabb, Bounds, Forest};
+use crate::edges::Edges;
 use crate::faces::Faces;
 use crate::ids::{Corner, Edge, Few, IdVec};
-use crate::edges::Edges;
+use crate::mesh::Mesh;
+use crate::options::{Options, Width};
 use crate::plan::Plan;
-use crate::topology::Topology;
-use crate::view::View;
+use crate::topology::{Topology, topology};
+use crate::view::{View, view, wide};
+use crate::weld::weld;
 
 pub use wedge::Stretch;
 use wedge::{Cut, Wedge};
@@ -27,39 +30,67 @@ const TOUCHING: f64 = 1e-5;
 /// As many times the resolution, if that is more: both parts are rounded.
 const TOUCHING_STEPS: f64 = 2.0;
 
-/// The open borders of a mesh, in a tree.
+/// A line that may rest on the mesh.
+struct Rim {
+    ends: [DVec3; 2],
+    /// So far around it nothing is cut away; 0 where it only rests.
+    radius: f64,
+    /// The half-edge without twin that it is; none if it lies outside of the mesh.
+    border: Corner,
+}
+
+/// All that may rest on a mesh, in a tree: its own open borders, and what the caller told.
 pub struct Contacts {
-    /// `#borders`: half-edges without twin.
-    borders: Vec<Corner>,
+    /// `#rims`.
+    rims: Vec<Rim>,
     forest: Forest,
     bounds: Bounds,
     /// Within this distance, in mesh units, something touches.
     tolerance: f64,
 }
 
-/// Finds the borders of a mesh.
+/// Gathers what may rest on a mesh.
 pub fn contacts(view: &View, topology: &Topology) -> Contacts {
-    let is_border = |corner: &Corner| {
-        topology.twin[*corner].is_none() && !topology.is_collapsed(corner.triangle())
-    };
-    let borders: Vec<Corner> = topology.twin.ids().filter(is_border).collect();
-    let tolerance = if borders.is_empty() { 0.0 } else { tolerance(view) };
-    let around = |&border: &Corner| around(ends(view, border), tolerance);
-    let boxes: Vec<Aabb> = borders.iter().map(around).collect();
-    let numbers = (0..borders.len() as u32).collect();
-    let forest = Forest::new(numbers, &[borders.len() as u32], &boxes, None);
+    let borders = open_borders(topology).map(|border| Rim {
+        ends: [border, border.next()].map(|corner| view.position_at(corner)),
+        radius: 0.0,
+        border,
+    });
+    let outside = view.mesh.held.iter().map(|held| Rim {
+        ends: [held.from, held.to].map(wide),
+        radius: f64::from(held.radius),
+        border: Corner::NONE,
+    });
+    let rims: Vec<Rim> = borders.chain(outside).collect();
+    let tolerance = if rims.is_empty() { 0.0 } else { tolerance(view) };
+    let boxes: Vec<Aabb> =
+        rims.iter().map(|rim| around(rim.ends, rim.radius.max(tolerance))).collect();
+    let numbers = (0..rims.len() as u32).collect();
+    let forest = Forest::new(numbers, &[rims.len() as u32], &boxes, None);
     let tree = forest.tree(0);
     let boxes = tree.order.iter().map(|&number| boxes[number as usize]).collect();
     let bounds = Bounds::new(tree, boxes, Vec::new());
-    Contacts { borders, forest, bounds, tolerance }
+    Contacts { rims, forest, bounds, tolerance }
+}
+
+/// The open borders of a mesh, in mesh units; none of a mesh that breaks a rule.
+pub fn border_lines(mesh: &Mesh) -> Vec<[DVec3; 2]> {
+    let none = Options { width: Width::Units(0.0), threads: 1, ..Options::default() };
+    let Ok(view) = view(mesh, &none) else { return Vec::new() };
+    let topology = topology(&view, &weld(&view.mesh));
+    let line = |border: Corner| [border, border.next()].map(|corner| view.position_at(corner));
+    open_borders(&topology).map(line).collect()
+}
+
+/// The half-edges without twin.
+fn open_borders(topology: &Topology) -> impl Iterator<Item = Corner> + '_ {
+    topology.twin.ids().filter(|&corner| {
+        topology.twin[corner].is_none() && !topology.is_collapsed(corner.triangle())
+    })
 }
 
 fn tolerance(view: &View) -> f64 {
     (f64::from(view.mesh.extent()) * TOUCHING).max(view.resolution * TOUCHING_STEPS)
-}
-
-fn ends(view: &View, half_edge: Corner) -> [DVec3; 2] {
-    [half_edge, half_edge.next()].map(|corner| view.position_at(corner))
 }
 
 /// The box around some points, and so far beyond.
@@ -71,38 +102,64 @@ fn around(points: [DVec3; 2], reach: f64) -> Aabb {
 impl Contacts {
     /// Whether something rests on an edge, elsewhere than at its ends alone.
     pub fn holds(&self, view: &View, topology: &Topology, faces: &Faces, side: Corner) -> bool {
-        if self.borders.is_empty() {
+        if self.rims.is_empty() {
             return false;
+        }
+        let ends = [side, side.next()].map(|corner| view.position_at(corner));
+        if self
+            .near(ends, 0.0)
+            .any(|rim| rim.radius > self.tolerance && distance_between(rim.ends, ends) < rim.radius)
+        {
+            return true;
         }
         let Some(wedge) = Wedge::new(view, faces, [side, topology.twin[side]]) else {
             return false;
         };
         let reach = self.tolerance * 2.0;
-        let stretches = self.in_wedge(view, topology, side, &wedge, reach);
+        let stretches = self.in_wedge(topology, side, &wedge, reach);
         stretches.iter().any(|stretch| wedge.is_inside_ends(stretch, self.tolerance * 4.0))
+    }
+
+    /// What may come within a distance of a segment.
+    fn near(&self, segment: [DVec3; 2], reach: f64) -> impl Iterator<Item = &Rim> {
+        let tree = self.forest.tree(0);
+        let places = tree.overlapping(&self.bounds, around(segment, reach));
+        places.map(move |place| &self.rims[tree.order[place] as usize])
     }
 
     /// The stretches of border that lie in the wedge that is cut off along an edge where both its
     /// sides are pulled by `width`.
     fn in_wedge(
         &self,
-        view: &View,
         topology: &Topology,
         side: Corner,
         wedge: &Wedge,
         width: f64,
     ) -> Few<Stretch> {
-        let tree = self.forest.tree(0);
-        let reach = width + self.tolerance;
-        let near = tree.overlapping(&self.bounds, around(wedge.ends(), reach));
-        near.map(|place| self.borders[tree.order[place] as usize])
-            .filter_map(|border| {
-                let stretch = wedge.clip(ends(view, border), width, self.tolerance)?;
-                let is_own = || is_own_border(topology, side, border);
-                (!is_own()).then_some(stretch)
+        self.near(wedge.ends(), width + self.tolerance)
+            .filter_map(|rim| {
+                let stretch = wedge.clip(rim.ends, width, self.tolerance)?;
+                let is_own = rim.border.is_some() && is_own_border(topology, side, rim.border);
+                (!is_own).then_some(stretch)
             })
             .collect()
     }
+}
+
+/// The distance between two segments.
+fn distance_between(one: [DVec3; 2], other: [DVec3; 2]) -> f64 {
+    let (along_one, along_other) = (one[1] - one[0], other[1] - other[0]);
+    let between = one[0] - other[0];
+    let (a, b, c) =
+        (along_one.length_squared(), along_one.dot(along_other), along_other.length_squared());
+    let (d, e) = (along_one.dot(between), along_other.dot(between));
+    let share =
+        |above: f64, below: f64| if below > 0.0 { (above / below).clamp(0.0, 1.0) } else { 0.0 };
+    // Where both lines come nearest, kept within one segment, and from there to the other.
+    let on_one = share(b * e - c * d, a * c - b * b);
+    let on_other = share(b * on_one + e, c);
+    let on_one = share(b * on_other - d, a);
+    (between + along_one * on_one - along_other * on_other).length()
 }
 
 /// Whether a border belongs to one of the fans around the ends of an edge: it is where that fan
@@ -153,16 +210,15 @@ pub fn rests(
     edges: &Edges,
     contacts: &Contacts,
 ) -> Rests {
-    if contacts.borders.is_empty() {
+    if contacts.rims.is_empty() {
         return Rests::default();
     }
     let mut rests = Rests::default();
     for edge in edges.hard.iter() {
         if edge.skipped.is_none() {
             let wedge = Wedge::new(view, faces, edge.sides);
-            let stretches = wedge.map(|wedge| {
-                contacts.in_wedge(view, topology, edge.sides[0], &wedge, view.width)
-            });
+            let stretches =
+                wedge.map(|wedge| contacts.in_wedge(topology, edge.sides[0], &wedge, view.width));
             rests.stretches.extend(stretches.unwrap_or_default());
         }
         rests.ends.push(rests.stretches.len() as u32);

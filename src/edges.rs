@@ -64,9 +64,8 @@ pub fn edges(view: &View, topology: &Topology, faces: &Faces, contacts: &Contact
         if twin.is_none() || twin < corner || !is_hard(view, corner, twin) {
             continue;
         }
-        let skipped = obstacle(topology, faces, corner, twin).or_else(|| {
-            contacts.holds(view, topology, faces, corner).then_some(Reason::Contact)
-        });
+        let skipped = obstacle(topology, faces, corner, twin)
+            .or_else(|| contacts.holds(view, topology, faces, corner).then_some(Reason::Contact));
         let edge = hard.push(HardEdge {
             sides: [corner, twin],
             skipped,

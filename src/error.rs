@@ -15,6 +15,8 @@ pub enum Stream {
     Colors,
     /// The UV channel of this number.
     Uv(u32),
+    /// The held places: not by vertex, but by their own number.
+    Held,
 }
 
 impl fmt::Display for Stream {
@@ -25,6 +27,7 @@ impl fmt::Display for Stream {
             Stream::Tangents => f.write_str("tangents"),
             Stream::Colors => f.write_str("colors"),
             Stream::Uv(channel) => write!(f, "uv channel {channel}"),
+            Stream::Held => f.write_str("held places"),
         }
     }
 }

@@ -51,6 +51,7 @@ mod placement;
 mod plan;
 mod report;
 mod resample;
+mod scene;
 mod seams;
 mod sectors;
 mod smoothing;
@@ -64,13 +65,14 @@ mod weld;
 
 pub use error::{Error, Stream};
 pub use memory::most_memory;
-pub use mesh::{Mesh, MeshBuffers, UV_CHANNELS, Uv, UvBuffer};
+pub use mesh::{Held, Mesh, MeshBuffers, UV_CHANNELS, Uv, UvBuffer};
 pub use options::{ChamferSubmesh, Options, Verify, Width};
 pub use pipeline::{Prepared, chamfer, chamfer_with_progress};
 pub use report::{
     Blend, Chamfered, EdgeVerdict, Outcome, Reason, Totals, TriangleKind, TriangleSource,
     VertexSource, VertexSources,
 };
+pub use scene::{ChamferedScene, Placed, chamfer_scene, scene_triangles};
 pub use smoothing::{Smoothed, split_by_angle};
 
 /// For benchmarks, which time each stage.

@@ -58,7 +58,7 @@ pub fn limits(plan: &Plan, verify: Verify) -> Limits {
     for _ in 0..GROW_PASSES {
         grow(plan, &room, &mut limits);
     }
-    if verify == Verify::Full {
+    if verify != Verify::Fast {
         collisions::resolve(plan, &mut limits);
     }
     limits

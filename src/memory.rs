@@ -36,7 +36,7 @@ pub fn most_memory(mesh: &Mesh, verify: Verify) -> u64 {
     let (vertices, corners) = (mesh.positions.len() as u64, mesh.indices.len() as u64);
     let per_corner = match verify {
         Verify::Fast => BYTES_PER_CORNER,
-        Verify::Full => BYTES_PER_CORNER + BYTES_PER_CORNER_IN_FULL,
+        Verify::Full | Verify::Seen => BYTES_PER_CORNER + BYTES_PER_CORNER_IN_FULL,
     };
     BYTES_PER_CALL
         + vertices * BYTES_PER_VERTEX

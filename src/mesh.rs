@@ -26,6 +26,25 @@ pub struct Mesh<'a> {
     pub indices: &'a [u32],
     /// `#submeshes`: how many of the indices belong to each.
     pub submesh_index_counts: &'a [u32],
+    /// Where something outside of the mesh rests on it, such as another object of the scene.
+    pub held: &'a [Held],
+}
+
+/// A place where the surface of a mesh is not to be cut away: all that is within a radius of a
+/// segment.
+///
+/// With radius 0 it is a line that rests on the surface, such as the open rim of another object:
+/// chamfers are narrowed to leave what it lies on. With a larger one, hard edges that come nearer
+/// stay as they are.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C)]
+pub struct Held {
+    /// Where the segment begins, in mesh units.
+    pub from: [f32; 3],
+    /// Where it ends; the same for a point.
+    pub to: [f32; 3],
+    /// In mesh units; below what counts as touching, a line rests there.
+    pub radius: f32,
 }
 
 /// One UV channel of a [`Mesh`].
@@ -76,6 +95,7 @@ impl MeshBuffers {
             uvs: self.uvs.each_ref().map(|uv| Uv { components: uv.components, values: &uv.values }),
             indices: &self.indices,
             submesh_index_counts: &self.submesh_index_counts,
+            held: &[],
         }
     }
 }

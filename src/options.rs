@@ -41,6 +41,9 @@ pub enum Verify {
     Fast,
     /// As `Fast`, and no part of the mesh cuts through itself where it did not before.
     Full,
+    /// As `Full`, and no light shows through it where none did before: it is looked at from many
+    /// sides, and the edges around a place that leaks are left hard (see [`crate::see_through`]).
+    Seen,
 }
 
 /// Which submesh the new triangles go to.

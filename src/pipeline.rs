@@ -11,11 +11,13 @@ use crate::faces::faces;
 use crate::limits::limits;
 use crate::mesh::Mesh;
 use crate::offsets::offsets;
-use crate::options::{Options, Width};
+use crate::options::{Options, Verify, Width};
 use crate::output::{output, unchanged};
 use crate::plan::{Plan, Shape};
 use crate::report::Chamfered;
+use crate::scene::{Placed, chamfer_scene};
 use crate::sectors::sectors;
+use crate::see_through::Eyes;
 use crate::strips::strips;
 use crate::topology::topology;
 use crate::view::{View, view, view_of_checked};
@@ -42,8 +44,20 @@ pub fn chamfer_with_progress(
     options: &Options,
     progress: &mut dyn FnMut(f32) -> ControlFlow<()>,
 ) -> Result<Chamfered, Error> {
-    chamfer_by_stages(mesh, options, &mut |stage| progress(stage.share_done()))
+    if options.verify != Verify::Seen {
+        return chamfer_by_stages(mesh, options, &mut |stage| progress(stage.share_done()));
+    }
+    let alone = [Placed { mesh: 0, transform: IDENTITY }];
+    let mut run = |_: usize, mesh: &Mesh| {
+        chamfer_by_stages(mesh, options, &mut |stage| progress(stage.share_done()))
+    };
+    let mut scene = chamfer_scene(&[*mesh], &alone, Some(Eyes::default()), &mut run)?;
+    Ok(scene.meshes.swap_remove(0))
 }
+
+/// Where a mesh stands that is alone.
+const IDENTITY: [[f32; 4]; 4] =
+    [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
 
 /// A stage of the pipeline that can be timed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -158,6 +172,10 @@ impl<'a> Prepared<'a> {
         options: &Options,
         progress: &mut dyn FnMut(f32) -> ControlFlow<()>,
     ) -> Result<Chamfered, Error> {
+        if options.verify == Verify::Seen {
+            // What leaks changes what is held, and so all that was prepared.
+            return chamfer_with_progress(&self.mesh, options, progress);
+        }
         let view = view_of_checked(&self.mesh, options)?;
         let mut after = |stage: Stage| progress(stage.share_done());
         chamfer_shape(view, self.shape.as_ref(), options, &mut or_cancelled(&mut after))

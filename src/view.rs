@@ -7,7 +7,7 @@ use glam::DVec3;
 use crate::error::{Error, Stream};
 use crate::ids::{Corner, Id, Triangle, Vertex};
 use crate::memory;
-use crate::mesh::{Mesh, UV_CHANNELS, Uv};
+use crate::mesh::{Held, Mesh, UV_CHANNELS, Uv};
 use crate::options::{ChamferSubmesh, Options, Width};
 use crate::threads::Threads;
 
@@ -182,10 +182,18 @@ pub fn check_finite(mesh: &Mesh) -> Result<(), Error> {
     check_stream(Stream::Normals, mesh.normals.as_flattened(), 3)?;
     check_stream(Stream::Tangents, mesh.tangents.as_flattened(), 4)?;
     check_stream(Stream::Colors, mesh.colors.as_flattened(), 4)?;
+    if let Some(place) = mesh.held.iter().position(|held| !is_finite(held)) {
+        return Err(Error::NotFinite { stream: Stream::Held, vertex: place as u32 });
+    }
     for (channel, uv) in mesh.uvs.iter().enumerate() {
         check_stream(Stream::Uv(channel as u32), uv.values, uv.components as usize)?;
     }
     Ok(())
+}
+
+fn is_finite(held: &Held) -> bool {
+    [held.from, held.to].as_flattened().iter().all(|value| value.is_finite())
+        && held.radius.is_finite()
 }
 
 /// Whether all values of a stream, so many to a vertex, are finite.

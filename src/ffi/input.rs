@@ -3,6 +3,7 @@
 //! Only what concerns pointers, sizes and numbered options is checked here; what the values mean
 //! is the core's to check.
 
+use std::mem::offset_of;
 use std::{array, ptr, slice};
 
 use super::sized::{self, StatesSize, check_pointer};
@@ -34,6 +35,7 @@ pub unsafe fn borrow_mesh<'a>(mesh: *const chamfer_mesh) -> Result<Mesh<'a>, Fai
                 mesh.submesh_count as usize,
                 "mesh->submesh_index_counts",
             )?,
+            held: required(mesh.held.cast(), mesh.held_count as usize, "mesh->held")?,
         })
     }
 }
@@ -116,6 +118,7 @@ pub unsafe fn read_options(options: *const chamfer_options) -> Result<Options, F
         verify: match options.verify {
             CHAMFER_VERIFY_FAST => Verify::Fast,
             CHAMFER_VERIFY_FULL => Verify::Full,
+            CHAMFER_VERIFY_SEEN => Verify::Seen,
             other => return Err(bad_option("verify", other)),
         },
         chamfer_submesh: match options.submesh_mode {
@@ -137,7 +140,8 @@ fn bad_option(field: &str, value: u32) -> Failure {
 
 // SAFETY: numbers and pointers only, the size first.
 unsafe impl StatesSize for chamfer_mesh {
-    const SIZES: &'static [usize] = &[size_of::<chamfer_mesh>()];
+    const SIZES: &'static [usize] =
+        &[offset_of!(chamfer_mesh, held_count), size_of::<chamfer_mesh>()];
 
     fn defaults() -> Self {
         chamfer_mesh {
@@ -152,6 +156,8 @@ unsafe impl StatesSize for chamfer_mesh {
             index_count: 0,
             submesh_index_counts: ptr::null(),
             indices: ptr::null(),
+            held_count: 0,
+            held: ptr::null(),
         }
     }
 }
@@ -178,6 +184,7 @@ unsafe impl StatesSize for chamfer_options {
             verify: match options.verify {
                 Verify::Fast => CHAMFER_VERIFY_FAST,
                 Verify::Full => CHAMFER_VERIFY_FULL,
+                Verify::Seen => CHAMFER_VERIFY_SEEN,
             },
             submesh_mode,
             submesh,

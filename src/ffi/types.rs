@@ -77,6 +77,8 @@ pub const CHAMFER_WIDTH_PERCENT: u32 = 1;
 pub const CHAMFER_VERIFY_FAST: u32 = 0;
 /// `verify`: also, no part of the mesh cuts through itself where it did not before.
 pub const CHAMFER_VERIFY_FULL: u32 = 1;
+/// `verify`: also, no light shows through the mesh where none did before, seen from many sides.
+pub const CHAMFER_VERIFY_SEEN: u32 = 2;
 
 /// `submesh_mode`: new triangles go to the submesh of the face whose texture chart they continue.
 pub const CHAMFER_SUBMESH_OWNER: u32 = 0;
@@ -161,6 +163,26 @@ pub struct chamfer_mesh {
     pub submesh_index_counts: *const u32,
     /// `#triangles by 3`: the triangles of all submeshes, one submesh after the other.
     pub indices: *const u32,
+    /// How many places are held.
+    pub held_count: u32,
+    /// `#held`, or NULL: where something outside of the mesh rests on it. Results hold none.
+    pub held: *const chamfer_held,
+}
+
+/// A place where the surface of a mesh is not to be cut away: all within a radius of a segment.
+///
+/// With radius 0 it is a line that rests on the surface, such as the open rim of another object of
+/// the scene: chamfers are narrowed to leave what it lies on. With a larger one, hard edges that
+/// come nearer stay as they are.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct chamfer_held {
+    /// Where the segment begins, in mesh units.
+    pub from: [f32; 3],
+    /// Where it ends; the same for a point.
+    pub to: [f32; 3],
+    /// In mesh units.
+    pub radius: f32,
 }
 
 /// How to chamfer a mesh. `chamfer_options_init` fills in the defaults.
@@ -173,7 +195,7 @@ pub struct chamfer_options {
     pub width: f32,
     /// One of `CHAMFER_WIDTH_MESH_UNITS`, `CHAMFER_WIDTH_PERCENT` (default).
     pub width_unit: u32,
-    /// One of `CHAMFER_VERIFY_FAST`, `CHAMFER_VERIFY_FULL` (default).
+    /// One of `CHAMFER_VERIFY_FAST`, `CHAMFER_VERIFY_FULL` (default), `CHAMFER_VERIFY_SEEN`.
     pub verify: u32,
     /// One of `CHAMFER_SUBMESH_OWNER` (default), `CHAMFER_SUBMESH_OWN`, `CHAMFER_SUBMESH_GIVEN`.
     pub submesh_mode: u32,

@@ -1,0 +1,208 @@
+//! Scenes: meshes that stand together, so that none loses what another rests on.
+//!
+//! What hides a hole in one mesh may be another mesh, or another object of the same one. So the
+//! open borders of all others are told to each mesh as [`Held`] lines before it is chamfered; and
+//! where that is asked for, the whole is looked at afterwards ([`see_through`](crate::see_through)):
+//! what leaks holds the edges around it, and the meshes that have them are done again.
+
+use std::collections::BTreeSet;
+
+use glam::{DMat4, DVec3};
+
+use crate::contacts::border_lines;
+use crate::mesh::{Held, Mesh};
+use crate::report::Chamfered;
+use crate::see_through::{Eyes, Leak, REACH, SceneTriangle, leaks};
+use crate::view::wide;
+
+/// An object of a scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placed {
+    /// Which of the meshes.
+    pub mesh: usize,
+    /// Column-major, from mesh to scene. It may mirror.
+    pub transform: [[f32; 4]; 4],
+}
+
+/// The meshes of a scene, chamfered.
+#[derive(Clone, Debug, Default)]
+pub struct ChamferedScene {
+    /// `#meshes`.
+    pub meshes: Vec<Chamfered>,
+    /// In how many rounds edges were held because light would have shown.
+    pub rounds: u32,
+    /// Where light shows all the same; empty too where nobody looked.
+    pub leaks: Vec<Leak>,
+}
+
+/// Light that shows is gone after a round or two: the second time, edges farther off are held.
+const MOST_ROUNDS: u32 = 6;
+
+/// What lets light through lies within so many widths of where it shows; from the second round on,
+/// within [`REACH`].
+const FIRST_REACH: f64 = 1.5;
+
+/// Chamfers the meshes of a scene by `run`, which is given the number of a mesh and the mesh with
+/// all that is held, and may be asked for a mesh several times. With `eyes`, the scene is looked at
+/// until no light shows.
+///
+/// # Errors
+/// Whatever `run` gives.
+pub fn chamfer_scene<E>(
+    meshes: &[Mesh],
+    placed: &[Placed],
+    eyes: Option<Eyes>,
+    run: &mut dyn FnMut(usize, &Mesh) -> Result<Chamfered, E>,
+) -> Result<ChamferedScene, E> {
+    let objects: Vec<Object> = placed.iter().filter_map(Object::new).collect();
+    let mut held = contacts_across(meshes, &objects);
+    let mut chamfer = |mesh: usize, held: &[Held]| run(mesh, &Mesh { held, ..meshes[mesh] });
+    let all = (0..meshes.len()).map(|mesh| chamfer(mesh, &held[mesh]));
+    let mut scene = ChamferedScene { meshes: all.collect::<Result<_, E>>()?, ..Default::default() };
+    let Some(eyes) = eyes else { return Ok(scene) };
+    let before = triangles(&objects, |mesh| &meshes[mesh]);
+    let mut may_leak = true;
+    while may_leak {
+        let width = width(&objects, &scene.meshes);
+        let borrowed: Vec<Mesh> = scene.meshes.iter().map(|mesh| mesh.mesh.as_mesh()).collect();
+        let after = triangles(&objects, |mesh| &borrowed[mesh]);
+        scene.leaks = leaks(&before, &after, width as f32, eyes);
+        may_leak = !scene.leaks.is_empty() && scene.rounds < MOST_ROUNDS;
+        if may_leak {
+            scene.rounds += 1;
+            let reach = if scene.rounds == 1 { FIRST_REACH } else { REACH };
+            for mesh in hold(&objects, &scene.leaks, width, width * reach, &mut held) {
+                scene.meshes[mesh] = chamfer(mesh, &held[mesh])?;
+            }
+        }
+    }
+    Ok(scene)
+}
+
+/// A placed mesh with both ways between mesh and scene.
+struct Object {
+    mesh: usize,
+    to_scene: DMat4,
+    to_mesh: DMat4,
+    /// How much longer lengths of the mesh are in the scene, at most.
+    scale: f64,
+}
+
+impl Object {
+    /// None where the transform flattens: nothing can be told back to such a mesh.
+    fn new(placed: &Placed) -> Option<Object> {
+        let to_scene = DMat4::from_cols_array_2d(&placed.transform.map(|c| c.map(f64::from)));
+        let to_mesh = to_scene.inverse();
+        let axes = [to_scene.x_axis, to_scene.y_axis, to_scene.z_axis];
+        let scale = axes.iter().map(|axis| axis.truncate().length()).fold(0.0, f64::max);
+        (to_scene.is_finite() && to_mesh.is_finite() && scale > 0.0).then_some(Object {
+            mesh: placed.mesh,
+            to_scene,
+            to_mesh,
+            scale,
+        })
+    }
+}
+
+/// All triangles of a scene, counter-clockwise where seen from outside.
+pub fn scene_triangles(meshes: &[Mesh], placed: &[Placed]) -> Vec<SceneTriangle> {
+    let objects: Vec<Object> = placed.iter().filter_map(Object::new).collect();
+    triangles(&objects, |mesh| &meshes[mesh])
+}
+
+fn triangles<'a>(objects: &[Object], mesh: impl Fn(usize) -> &'a Mesh<'a>) -> Vec<SceneTriangle> {
+    let mut triangles = Vec::new();
+    for object in objects {
+        let mesh = mesh(object.mesh);
+        let mirrors = object.to_scene.determinant() < 0.0;
+        let place = |&index: &u32| {
+            let position = wide(mesh.positions[index as usize]);
+            object.to_scene.transform_point3(position).as_vec3().to_array()
+        };
+        triangles.extend(mesh.indices.as_chunks::<3>().0.iter().map(|corners| {
+            let [a, b, c] = corners.each_ref().map(place);
+            if mirrors { [a, c, b] } else { [a, b, c] }
+        }));
+    }
+    triangles
+}
+
+/// The largest width in the scene.
+fn width(objects: &[Object], meshes: &[Chamfered]) -> f64 {
+    let widths = objects.iter().map(|object| f64::from(meshes[object.mesh].width) * object.scale);
+    widths.fold(0.0, f64::max)
+}
+
+/// `#meshes`: what the caller holds, and the open borders of all other objects.
+fn contacts_across(meshes: &[Mesh], objects: &[Object]) -> Vec<Vec<Held>> {
+    let mut held: Vec<Vec<Held>> = meshes.iter().map(|mesh| mesh.held.to_vec()).collect();
+    if objects.len() < 2 {
+        return held;
+    }
+    let borders: Vec<Vec<[DVec3; 2]>> = meshes.iter().map(border_lines).collect();
+    let bounds: Vec<[DVec3; 2]> = objects.iter().map(|o| bounds(o, &meshes[o.mesh])).collect();
+    for (number, object) in objects.iter().enumerate() {
+        for (other_number, other) in objects.iter().enumerate() {
+            if number == other_number || !overlap(bounds[number], bounds[other_number]) {
+                continue;
+            }
+            let way = object.to_mesh * other.to_scene;
+            let lines = borders[other.mesh].iter().map(|line| {
+                let [from, to] = line.map(|point| way.transform_point3(point).as_vec3().to_array());
+                Held { from, to, radius: 0.0 }
+            });
+            held[object.mesh].extend(lines.filter(|held| is_finite(held)));
+        }
+    }
+    held
+}
+
+fn is_finite(held: &Held) -> bool {
+    [held.from, held.to].as_flattened().iter().all(|value| value.is_finite())
+}
+
+/// The box around an object in the scene: its low and its high corner. Boxes of objects that touch
+/// may be apart by rounding, so it is a thousandth larger.
+fn bounds(object: &Object, mesh: &Mesh) -> [DVec3; 2] {
+    let points = mesh.positions.iter().map(|&at| object.to_scene.transform_point3(wide(at)));
+    let start = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+    let [low, high] = points.fold(start, |[low, high], point| [low.min(point), high.max(point)]);
+    let slack = (high - low).max_element() / 1000.0;
+    [low - slack, high + slack]
+}
+
+fn overlap(one: [DVec3; 2], other: [DVec3; 2]) -> bool {
+    one[0].cmple(other[1]).all() && other[0].cmple(one[1]).all()
+}
+
+/// Holds all within `reach` of where light shows; tells the meshes that have something new to hold,
+/// in order. Of places within a width of each other one stands for all.
+fn hold(
+    objects: &[Object],
+    leaks: &[Leak],
+    width: f64,
+    reach: f64,
+    held: &mut [Vec<Held>],
+) -> BTreeSet<usize> {
+    let mut cells = BTreeSet::new();
+    let mut changed = BTreeSet::new();
+    for place in leaks.iter().flat_map(|leak| &leak.places) {
+        let place = wide(*place);
+        if !cells.insert((place / width).floor().to_array().map(|cell| cell as i64)) {
+            continue;
+        }
+        for object in objects {
+            let at = object.to_mesh.transform_point3(place).as_vec3().to_array();
+            let radius = ((reach + width) / object.scale) as f32;
+            let new = Held { from: at, to: at, radius };
+            if is_finite(&new) && radius.is_finite() {
+                held[object.mesh].push(new);
+                changed.insert(object.mesh);
+            }
+        }
+    }
+    changed
+}
+
+#[cfg(test)]
+mod tests;
