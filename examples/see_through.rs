@@ -11,13 +11,14 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
-use chamfer::see_through::{Eyes, Leak, SceneTriangle, leaks};
-use chamfer::{Chamfered, MeshBuffers, Options, Verify, Width, chamfer};
-use chamfer_cli::document::{Document, Instance, ReadOptions};
+use chamfer::see_through::{Eyes, Leak, leaks};
+use chamfer::{Chamfered, Options, Verify, Width, chamfer};
+use chamfer_cli::close_up::close_up;
+use chamfer_cli::document::ReadOptions;
 use chamfer_cli::format;
 use chamfer_cli::pictures::write_png;
-use chamfer_cli::preview::{Line, Panel, Placed, Zoom, contact_sheet};
-use glam::{Mat4, Vec3};
+use chamfer_cli::preview::{Panel, contact_sheet};
+use chamfer_cli::scene::{largest_length, placed, scene_triangles};
 
 struct Request {
     verify: Verify,
@@ -109,16 +110,9 @@ fn look(request: &Request, path: &Path, percent: f32) -> usize {
             chamfer(&mesh.mesh.as_mesh(), &options).expect("meshes that were read are sound")
         })
         .collect();
-    let mut width = 0.0_f32;
-    let (mut before, mut after) = (Vec::new(), Vec::new());
-    for instance in document.instances() {
-        let transform = Mat4::from_cols_array_2d(&instance.transform);
-        let result = &chamfered[instance.mesh];
-        add(&mut before, &document.meshes()[instance.mesh].mesh, &instance);
-        add(&mut after, &result.mesh, &instance);
-        let scale = transform.transform_vector3(Vec3::X).length();
-        width = width.max(result.width * scale);
-    }
+    let before = scene_triangles(&*document, |mesh| &document.meshes()[mesh].mesh);
+    let after = scene_triangles(&*document, |mesh| &chamfered[mesh].mesh);
+    let width = largest_length(&*document, |mesh| Some(chamfered[mesh].width)).unwrap_or(0.0);
     let start = Instant::now();
     let found = leaks(&before, &after, width, request.eyes);
     let seconds = start.elapsed().as_secs_f64();
@@ -133,10 +127,13 @@ fn look(request: &Request, path: &Path, percent: f32) -> usize {
         let mut worst: Vec<&Leak> = found.iter().collect();
         worst.sort_by_key(|leak| std::cmp::Reverse(leak.places.len()));
         if let Some(folder) = &request.close_ups {
+            let scenes = || {
+                let before = placed(&*document, |mesh| &document.meshes()[mesh].mesh);
+                [before, placed(&*document, |mesh| &chamfered[mesh].mesh)]
+            };
             let shown = worst.iter().take(CLOSE_UPS);
-            let panels: Vec<Panel> = shown
-                .map(|leak| close_up(&name, &*document, &chamfered, leak, width, [&before, &after]))
-                .collect();
+            let panels: Vec<Panel> =
+                shown.map(|leak| close_up(name.to_string(), scenes(), leak, width)).collect();
             std::fs::create_dir_all(folder).expect("the folder can be made");
             let file = folder.join(format!("{name}.{percent}.png"));
             write_png(&file, &contact_sheet(&panels)).expect("the picture can be written");
@@ -156,48 +153,3 @@ fn look(request: &Request, path: &Path, percent: f32) -> usize {
 
 /// How many of a file's leaks are drawn.
 const CLOSE_UPS: usize = 4;
-
-/// The surroundings of a leak before and after, its places marked.
-fn close_up<'a>(
-    name: &str,
-    document: &'a dyn Document,
-    chamfered: &'a [Chamfered],
-    leak: &Leak,
-    width: f32,
-    scenes: [&[SceneTriangle]; 2],
-) -> Panel<'a> {
-    let mut panel = Panel { caption: name.to_owned(), ..Panel::default() };
-    for instance in document.instances() {
-        let transform = instance.transform;
-        let mesh = document.meshes()[instance.mesh].mesh.as_mesh();
-        panel.before.push(Placed { mesh, transform });
-        panel.after.push(Placed { mesh: chamfered[instance.mesh].mesh.as_mesh(), transform });
-    }
-    let mark = |place: &[f32; 3], color| {
-        let place = Vec3::from(*place) + Vec3::from(leak.toward_eye) * width * 0.1;
-        let step = Vec3::from(leak.toward_eye).any_orthonormal_vector() * width * 0.1;
-        Line { ends: [(place - step).to_array(), (place + step).to_array()], color }
-    };
-    panel.before_lines = leak.places.iter().map(|place| mark(place, [255, 60, 40])).collect();
-    panel.toward_eye = Some(leak.toward_eye);
-    let points = || scenes[0].as_flattened().iter().map(|point| Vec3::from(*point));
-    let (low, high) = points().fold((Vec3::MAX, Vec3::MIN), |(l, h), p| (l.min(p), h.max(p)));
-    let middle = Vec3::from(leak.middle());
-    let spread = leak.places.iter().map(|place| middle.distance(Vec3::from(*place)));
-    let shown = spread.fold(width * 12.0, f32::max) * 2.0;
-    let factor = ((high - low).length() / shown).max(1.0);
-    panel.zoom = Some(Zoom { factor, focus: Some(leak.middle()) });
-    panel
-}
-
-fn add(scene: &mut Vec<SceneTriangle>, mesh: &MeshBuffers, instance: &Instance) {
-    let transform = Mat4::from_cols_array_2d(&instance.transform);
-    let mirrors = transform.determinant() < 0.0;
-    let place = |index: u32| {
-        transform.transform_point3(Vec3::from(mesh.positions[index as usize])).to_array()
-    };
-    for triangle in mesh.indices.chunks_exact(3) {
-        let [a, b, c] = [triangle[0], triangle[1], triangle[2]].map(place);
-        scene.push(if mirrors { [a, c, b] } else { [a, b, c] });
-    }
-}

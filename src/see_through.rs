@@ -8,11 +8,15 @@
 
 mod raster;
 mod views;
+mod windows;
+
+use std::collections::{BTreeSet, HashSet};
 
 use glam::DVec3;
 
-use raster::{Depths, farthest_around};
+use raster::{Depths, Faces};
 use views::View;
+use windows::{Sample, Window};
 
 /// A triangle of a scene, `3 by 3`: counter-clockwise where seen from outside.
 pub type SceneTriangle = [[f32; 3]; 3];
@@ -76,70 +80,114 @@ pub fn leaks(
     width: f32,
     eyes: Eyes,
 ) -> Vec<Leak> {
-    let reach = f64::from(width) * REACH;
-    let Some(frame) = views::Frame::around(before) else { return Vec::new() };
+    let changes = Changes::between(before, after);
+    let frame = views::Frame::around(before).filter(|_| !changes.gone.is_empty());
+    let Some(frame) = frame else { return Vec::new() };
+    let mut pictures = Pictures::default();
     let views = frame.views(eyes.views, eyes.resolution);
-    views.flat_map(|view| leaks_in(&view, before, after, reach)).collect()
+    views.flat_map(|view| pictures.leaks(&view, &changes, f64::from(width) * REACH)).collect()
 }
 
-fn leaks_in(
-    view: &View,
-    before: &[SceneTriangle],
-    after: &[SceneTriangle],
-    reach: f64,
-) -> Vec<Leak> {
-    let [old, new] = [before, after].map(|triangles| Depths::of(view, triangles));
-    let radius = (reach / view.sample_size).ceil() as usize + 1;
-    let most = farthest_around(&old, radius);
-    let is_leak = |sample: usize| new.values[sample] > most[sample] + reach as f32;
-    let mut open: Vec<bool> = (0..most.len()).map(is_leak).collect();
-    let mut leaks = Vec::new();
-    for sample in 0..open.len() {
-        let samples = take_joined(&mut open, old.size, sample);
-        if samples.len() >= LEAST_SAMPLES {
-            leaks.push(leak(view, &old, &new, &samples));
+/// Two scenes, with what is the same in both taken apart: that is drawn once.
+struct Changes {
+    kept: Vec<SceneTriangle>,
+    gone: Vec<SceneTriangle>,
+    added: Vec<SceneTriangle>,
+}
+
+impl Changes {
+    fn between(before: &[SceneTriangle], after: &[SceneTriangle]) -> Changes {
+        let bits = |triangle: &SceneTriangle| triangle.map(|corner| corner.map(f32::to_bits));
+        let [had, has] =
+            [before, after].map(|scene| scene.iter().map(bits).collect::<HashSet<[[u32; 3]; 3]>>());
+        let (kept, gone) = before.iter().partition(|triangle| has.contains(&bits(triangle)));
+        let added = after.iter().filter(|triangle| !had.contains(&bits(triangle)));
+        Changes { kept, gone, added: added.copied().collect() }
+    }
+}
+
+/// The memory of one view, used for the next.
+#[derive(Default)]
+struct Pictures {
+    kept: Faces,
+    gone: Faces,
+    added: Faces,
+    old: Depths,
+    new: Depths,
+}
+
+impl Pictures {
+    fn leaks(&mut self, view: &View, changes: &Changes, reach: f64) -> Vec<Leak> {
+        if !self.draw(view, changes) {
+            return Vec::new();
+        }
+        let radius = (reach / view.sample_size).ceil().min(view.size as f64) as usize + 1;
+        let window = Window { radius, reach: reach as f32 };
+        let open = window.open_samples(&self.old, &self.new);
+        let groups = joined(&open).into_iter().filter(|samples| samples.len() >= LEAST_SAMPLES);
+        groups.map(|samples| self.leak(view, &samples)).collect()
+    }
+
+    /// The old picture as far as there is something to see, and the new one where something is
+    /// gone: it can be deeper only there. Whether there is such a place.
+    fn draw(&mut self, view: &View, changes: &Changes) -> bool {
+        self.gone.project(view, &changes.gone);
+        let gone = self.gone.bounds(view.size);
+        if gone.is_empty() {
+            return false;
+        }
+        self.kept.project(view, &changes.kept);
+        self.added.project(view, &changes.added);
+        let seen = self.kept.bounds(view.size).around(&gone);
+        self.old.clear(seen.widened(1, view.size));
+        self.old.draw(&self.kept);
+        self.new.copy(&self.old, gone);
+        self.old.draw(&self.gone);
+        self.new.draw(&self.added);
+        true
+    }
+
+    fn leak(&self, view: &View, samples: &[Sample]) -> Leak {
+        let place = |&[column, row]: &Sample| {
+            let depth = f64::from(self.old.at(column, row));
+            view.place(column, row, depth).as_vec3().to_array()
+        };
+        let deeper = samples
+            .iter()
+            .map(|&[column, row]| self.new.at(column, row) - self.old.at(column, row));
+        Leak {
+            toward_eye: view.toward_eye.as_vec3().to_array(),
+            places: samples.iter().map(place).collect(),
+            depth: deeper.fold(0.0, f32::max),
         }
     }
-    leaks
 }
 
-/// The open samples joined to one, itself included; they are no longer open then.
-fn take_joined(open: &mut [bool], size: usize, first: usize) -> Vec<usize> {
-    let mut joined = Vec::new();
-    if std::mem::take(&mut open[first]) {
-        joined.push(first);
-    }
-    let mut looked = 0;
-    while let Some(&sample) = joined.get(looked) {
-        looked += 1;
-        let (column, row) = (sample % size, sample / size);
-        for row in row.saturating_sub(1)..(row + 2).min(size) {
-            for column in column.saturating_sub(1)..(column + 2).min(size) {
-                if std::mem::take(&mut open[row * size + column]) {
-                    joined.push(row * size + column);
+/// Samples that touch, also by a corner, come together.
+fn joined(samples: &[Sample]) -> Vec<Vec<Sample>> {
+    let mut free: BTreeSet<Sample> = samples.iter().copied().collect();
+    let mut groups = Vec::new();
+    for &first in samples.iter() {
+        let mut group: Vec<Sample> = free.take(&first).into_iter().collect();
+        let mut looked = 0;
+        while let Some(&[column, row]) = group.get(looked) {
+            looked += 1;
+            for row in row.saturating_sub(1)..row + 2 {
+                for column in column.saturating_sub(1)..column + 2 {
+                    group.extend(free.take(&[column, row]));
                 }
             }
         }
+        groups.push(group);
     }
-    joined
-}
-
-fn leak(view: &View, old: &Depths, new: &Depths, samples: &[usize]) -> Leak {
-    let place = |&sample: &usize| {
-        let (column, row) = (sample % old.size, sample / old.size);
-        view.place(column, row, f64::from(old.values[sample])).as_vec3().to_array()
-    };
-    let deeper = samples.iter().map(|&sample| new.values[sample] - old.values[sample]);
-    Leak {
-        toward_eye: view.toward_eye.as_vec3().to_array(),
-        places: samples.iter().map(place).collect(),
-        depth: deeper.fold(0.0, f32::max),
-    }
+    groups
 }
 
 fn wide(point: [f32; 3]) -> DVec3 {
     DVec3::from(point.map(f64::from))
 }
 
+#[cfg(test)]
+mod reference;
 #[cfg(test)]
 mod tests;

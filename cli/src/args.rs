@@ -113,7 +113,8 @@ pub struct Args {
 pub enum Command {
     /// Chamfer a few built-in models: writes each before and after as .glb, and a picture
     Demo(DemoArgs),
-    /// Check a chamfered model against its source: exits with 0 if it is sound, with 1 if not
+    /// Check a chamfered model against its source: exits with 0 if it is sound, with 1 if not, with
+    /// 3 if something could not be checked
     Check(CheckArgs),
 }
 
@@ -123,7 +124,16 @@ nothing opened, flipped, lost its area, bent or cuts through itself that did not
 normals and tangents are unit length, and if there is no new hard edge. Hard edges that are left \
 are counted; with a width, one that a chamfer of that width would not leave is a defect too.
 
-Exit code: 0 sound, 1 not sound, 2 a file cannot be read or the arguments make no sense.";
+Both models are also looked through from 26 sides, as they stand in their scenes and with faces \
+from behind left out: light may show nowhere where nobody saw through before, but for what lies \
+beside an outline that recedes by a chamfer. How wide that is, the width tells; without one the \
+chamfers are measured.
+
+Sound is said only where all of this was checked. Where some of it was not, a line names it and \
+the last word is \"sound as far as checked\".
+
+Exit code: 0 sound, 1 not sound, 2 a file cannot be read or the arguments make no sense, 3 sound \
+as far as checked.";
 
 /// Arguments of `chamfer check`.
 #[derive(Debug, clap::Args)]
@@ -147,6 +157,15 @@ pub struct CheckArgs {
     /// The same in percent of each mesh's largest side
     #[arg(long, value_name = "P", value_parser = width, allow_negative_numbers = true)]
     pub width_percent: Option<f32>,
+
+    /// Draw the worst places where light shows to this file, before and after; without any, the
+    /// whole model
+    #[arg(long, value_name = "FILE.png")]
+    pub preview: Option<PathBuf>,
+
+    /// Do not look through the models for light
+    #[arg(long)]
+    pub no_see_through: bool,
 
     /// How thoroughly to check; "full" also looks for self-intersections
     #[arg(long, value_enum, default_value = "full")]

@@ -179,7 +179,7 @@ fn progress_bar(files: usize) -> ProgressBar {
     bar
 }
 
-fn name_of(path: &Path) -> String {
+pub fn name_of(path: &Path) -> String {
     path.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }
 

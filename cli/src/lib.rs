@@ -1,11 +1,13 @@
 //! What the `chamfer` command is made of: a reader and writer for each model format, the batch
 //! that runs over many files, the report and the pictures.
 
+pub mod close_up;
 pub mod document;
 pub mod glb;
 pub mod gltf_file;
 pub mod obj_file;
 pub mod preview;
+pub mod scene;
 pub mod stl_file;
 
 mod args;
@@ -29,7 +31,8 @@ use args::{Args, Command};
 
 /// Runs the command that the process was started with. The exit code is 0 when all went well, 1
 /// when a file failed or a check found something, 2 when the arguments make no sense (or a file to
-/// check cannot be read) and 130 after an interrupt.
+/// check cannot be read), 3 when a check found nothing but could not look at all, and 130 after an
+/// interrupt.
 pub fn run() -> ExitCode {
     let args = Args::parse();
     write::clean_up_on_interrupt();

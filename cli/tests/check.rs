@@ -10,7 +10,7 @@ use std::process::Command;
 use chamfer::shapes;
 use chamfer::{Chamfered, MeshBuffers, Options, TriangleKind, Width, chamfer};
 use chamfer_cli::glb;
-use serde_json::Value;
+use serde_json::{Value, json};
 use tempfile::TempDir;
 
 use run::Run;
@@ -329,8 +329,9 @@ fn an_obj_and_an_stl_are_checked_too() {
     });
     folder.write("one.stl", format!("solid one\n{}endsolid one\n", facets.concat()));
     folder.run("one.stl -o soft.stl").exits(0);
-    let out = folder.run("check one.stl soft.stl").exits(0).out();
+    let out = folder.run("check one.stl soft.stl").exits(3).out();
     assert!(out.contains("not fully checked: new hard edge"), "{out}");
+    assert!(out.ends_with("sound as far as checked\n"), "{out}");
     let bad = fs::read_to_string(folder.path("soft.obj")).unwrap().replacen("vn ", "vn 7", 1);
     folder.write("bad.obj", bad);
     let out = folder.run("check cube.obj bad.obj").exits(1).out();
@@ -349,8 +350,101 @@ fn files_that_cannot_be_read_and_nonsense_exit_with_two() {
         "check before.glb after.glb --width -1",
         "check before.glb after.glb --width 1 --width-percent 1",
         "check before.glb after.glb --report .",
+        "check before.glb after.glb --preview .",
+        "check before.glb after.glb --preview before.glb",
+        "check before.glb after.glb --report r --preview r",
     ] {
         let run = folder.run(arguments).exits(2);
         assert!(!run.err().is_empty(), "{arguments}");
+    }
+}
+
+/// A file with a mesh at each of these places: a vertical scale, and how far it is lifted.
+fn glb_with(mesh: &MeshBuffers, places: &[[f32; 2]]) -> Vec<u8> {
+    let glb = glb::encode("shape", mesh, &[]).unwrap();
+    let length = u32::from_le_bytes(glb[12..16].try_into().unwrap()) as usize;
+    let mut root: Value = serde_json::from_slice(&glb[20..20 + length]).unwrap();
+    let node = |[scale, lift]: &[f32; 2]| json!({ "mesh": 0, "scale": [1, scale, 1], "translation": [0, lift, 0] });
+    root["nodes"] = places.iter().map(node).collect();
+    root["scenes"][0]["nodes"] = (0..places.len()).collect();
+    let mut text = serde_json::to_vec(&root).unwrap();
+    text.resize(text.len().next_multiple_of(4), b' ');
+    let rest = &glb[20 + length..];
+    let size = |bytes: usize| (bytes as u32).to_le_bytes();
+    let head = [&glb[..8], &size(20 + text.len() + rest.len()), &size(text.len()), &glb[16..20]];
+    [head.concat(), text, rest.to_vec()].concat()
+}
+
+//   ____          ____
+//  |    |        |    |   the lid's box is the other one, mirrored
+//  |    |        |____ <- lifted by hand: light shows here
+//  |    |   ->
+//  |    |         ____
+//  |    |        |    |
+//  |____|        |____|
+/// A closed box of two open ones, before and after; the upper one is lifted by so much after.
+fn box_of_open_parts(lift: f32) -> Folder {
+    let part = shapes::open_box();
+    let folder = Folder::new();
+    let places = |lift: f32| [[1.0, 0.0], [-1.0, 2.0 + lift]];
+    folder.write("before.glb", glb_with(&part, &places(0.0)));
+    folder.write("after.glb", glb_with(&chamfered(&part).mesh, &places(lift)));
+    folder
+}
+
+#[test]
+fn a_box_of_open_parts_is_sound() {
+    let (code, report) = box_of_open_parts(0.0).check("");
+    assert_eq!((code, &report["verdict"]), (0, &"sound".into()), "{report:#}");
+    let width = report["see_through"]["width"].as_f64().unwrap();
+    assert!((width - f64::from(WIDTH)).abs() < 1e-6, "{width}");
+}
+
+#[test]
+fn light_that_shows_between_its_parts() {
+    let folder = box_of_open_parts(0.3);
+    let (code, report) = folder.check("");
+    assert_eq!((code, &report["verdict"]), (1, &"not sound".into()), "{report:#}");
+    assert_eq!(report["meshes"][0]["sound"], true, "each mesh for itself");
+    let place = &report["see_through"]["places"][0];
+    assert!((place["at"][1].as_f64().unwrap() - 1.15).abs() < 0.2, "{place:#}");
+    assert_eq!(place["deeper"], Value::Null);
+    let out = folder.run("check before.glb after.glb").exits(1).out();
+    assert!(out.contains("light shows at (") && out.contains(" samples, nothing behind"), "{out}");
+    assert!(out.ends_with("not sound\n"), "{out}");
+    folder.run("check before.glb after.glb --width 0.05").exits(1);
+}
+
+#[test]
+fn what_is_left_out_is_named() {
+    let folder = box_of_open_parts(0.3);
+    let told = |more: &str| folder.run(&format!("check before.glb after.glb{more}")).exits(3).out();
+    let out = told(" --no-see-through");
+    assert!(out.contains("not fully checked: see-through: left out by --no-see-through"), "{out}");
+    let cube = shapes::cube(1.0);
+    let folder = Folder::with(&cube, &chamfered(&cube).mesh);
+    let out = folder.run("check before.glb after.glb --verify fast").exits(3).out();
+    assert!(out.contains("self-intersection: left out by --verify fast"), "{out}");
+    assert!(out.ends_with("sound as far as checked\n"), "{out}");
+}
+
+#[test]
+fn a_scene_that_changed_without_chamfers_is_not_looked_through() {
+    let cube = shapes::cube(1.0);
+    let folder = Folder::new();
+    folder.write("before.glb", glb_with(&cube, &[[1.0, 0.0]]));
+    folder.write("after.glb", glb_with(&cube, &[[1.0, 0.5]]));
+    let out = folder.run("check before.glb after.glb").exits(3).out();
+    assert!(out.contains("see-through: there are no chamfers to tell the width"), "{out}");
+}
+
+#[test]
+fn the_picture_shows_the_light_or_the_model() {
+    for (lift, code, size) in [(0.0, 0, (1202, 656)), (0.3, 1, (642, 376))] {
+        let folder = box_of_open_parts(lift);
+        folder.run("check before.glb after.glb --preview p.png").exits(code);
+        let picture = image::open(folder.path("p.png")).unwrap();
+        assert_eq!(picture.width(), size.0, "lifted by {lift}");
+        assert!(picture.height() >= size.1, "lifted by {lift}");
     }
 }

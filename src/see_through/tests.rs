@@ -75,3 +75,55 @@ fn nothing_and_what_is_not_finite_is_left_out() {
     let odd = [wall.to_vec(), vec![[[f32::NAN; 3]; 3], [[f32::INFINITY; 3]; 3]]].concat();
     assert_eq!(found(&odd, &wall, 0.01), 0);
 }
+
+/// Numbers from -1 to 1, always the same.
+struct Numbers(u32);
+
+impl Numbers {
+    fn next(&mut self) -> f32 {
+        self.0 = self.0.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (self.0 >> 8) as f32 / (1 << 23) as f32 - 1.0
+    }
+
+    fn point(&mut self) -> [f32; 3] {
+        [0; 3].map(|_| self.next())
+    }
+}
+
+/// Triangles anywhere, some of which then move a little, some far, and some go.
+fn random_scenes(seed: u32) -> [Vec<SceneTriangle>; 2] {
+    let mut numbers = Numbers(seed);
+    let before: Vec<SceneTriangle> = (0..24).map(|_| [0; 3].map(|_| numbers.point())).collect();
+    let moved = before.iter().enumerate().filter_map(|(k, triangle)| {
+        let by = [0.0, 0.02, 0.3][k % 3] * numbers.next();
+        let moved = triangle.map(|corner| corner.map(|along| along + by));
+        (k % 8 != 7).then_some(moved)
+    });
+    let after = moved.collect();
+    [before, after]
+}
+
+#[test]
+fn random_scenes_leak_where_the_obvious_way_says() {
+    let eyes = Eyes { views: 5, resolution: 48 };
+    let mut found = 0;
+    for seed in 0..4 {
+        let [before, after] = random_scenes(seed);
+        for width in [0.004, 0.02, 0.06, 0.4] {
+            let fast = leaks(&before, &after, width, eyes);
+            let slow = reference::leaks(&before, &after, width, eyes);
+            let counts = |leaks: Vec<usize>| (leaks.len(), leaks);
+            assert_eq!(
+                counts(fast.iter().map(|leak| leak.places.len()).collect()),
+                counts(slow.iter().map(Vec::len).collect()),
+                "seed {seed}, width {width}"
+            );
+            for (fast, slow) in fast.iter().flat_map(|leak| &leak.places).zip(slow.concat()) {
+                let apart = glam::Vec3::from(*fast).distance(glam::Vec3::from(slow));
+                assert!(apart < 1e-5, "{fast:?} is {slow:?}, seed {seed}, width {width}");
+            }
+            found += fast.len();
+        }
+    }
+    assert!(found > 25, "{found} leaks are no test");
+}

@@ -65,13 +65,14 @@ impl Frame {
             let direction = DVec3::from(direction).normalize();
             let toward_eye = (direction + direction.cross(DVec3::from(ASKEW))).normalize();
             let right = toward_eye.any_orthonormal_vector();
+            let sample_size = 2.0 * self.radius * MARGIN / size as f64;
             View {
                 middle: self.middle,
                 toward_eye,
-                right,
-                up: toward_eye.cross(right),
+                samples_right: right / sample_size,
+                samples_up: toward_eye.cross(right) / sample_size,
                 size,
-                sample_size: 2.0 * self.radius * MARGIN / size as f64,
+                sample_size,
             }
         })
     }
@@ -81,8 +82,9 @@ impl Frame {
 pub struct View {
     middle: DVec3,
     pub toward_eye: DVec3,
-    right: DVec3,
-    up: DVec3,
+    /// To the right on the picture and up; their length is one over that of a sample.
+    samples_right: DVec3,
+    samples_up: DVec3,
     /// Samples per side.
     pub size: usize,
     /// In scene units.
@@ -94,14 +96,18 @@ impl View {
     /// units.
     pub fn project(&self, point: DVec3) -> DVec3 {
         let (from, half) = (point - self.middle, self.size as f64 / 2.0);
-        let on_plane = |axis: DVec3| from.dot(axis) / self.sample_size + half;
-        DVec3::new(on_plane(self.right), on_plane(self.up), -from.dot(self.toward_eye))
+        DVec3::new(
+            from.dot(self.samples_right) + half,
+            from.dot(self.samples_up) + half,
+            -from.dot(self.toward_eye),
+        )
     }
 
     /// What is seen at a sample, at a depth.
     pub fn place(&self, column: usize, row: usize, depth: f64) -> DVec3 {
         let half = self.size as f64 / 2.0;
-        let along = |place: usize| (place as f64 + 0.5 - half) * self.sample_size;
-        self.middle + self.right * along(column) + self.up * along(row) - self.toward_eye * depth
+        let along = |place: usize| (place as f64 + 0.5 - half) * self.sample_size.powi(2);
+        self.middle + self.samples_right * along(column) + self.samples_up * along(row)
+            - self.toward_eye * depth
     }
 }

@@ -1,5 +1,6 @@
 //! `chamfer check`: is a chamfered file sound? The whole-mesh checker of the core, file by file.
 
+mod light;
 mod pairs;
 mod report;
 mod table;
@@ -7,24 +8,26 @@ mod table;
 use std::path::Path;
 use std::process::ExitCode;
 
-use anyhow::{Context, Result, anyhow};
+use anyhow::{Context, Result, anyhow, ensure};
 use chamfer::check::{Findings, Rule, compare};
 use chamfer::{EdgeVerdict, MeshBuffers, Options, Outcome, chamfer};
 
-use crate::args::CheckArgs;
-use crate::batch::{USAGE, one_line};
+use crate::args::{CheckArgs, VerifyArg};
+use crate::batch::{USAGE, name_of, one_line};
 use crate::console::{say, warn};
 use crate::document::{Document, NormalsRead, ReadOptions};
 use crate::format;
+use crate::jobs::identity;
+use crate::scene::largest_length;
 use crate::write;
 
 use pairs::Pairs;
-use report::{CheckReport, MeshCheck};
+use report::{CheckReport, MeshCheck, SeeThrough, Verdict};
 
 /// Checks the file that the arguments name.
 pub fn run(args: &CheckArgs) -> ExitCode {
     match check(args) {
-        Ok(sound) => ExitCode::from(u8::from(!sound)),
+        Ok(verdict) => ExitCode::from(verdict.exit_code()),
         Err(error) => {
             warn(one_line(&error));
             ExitCode::from(USAGE)
@@ -32,8 +35,9 @@ pub fn run(args: &CheckArgs) -> ExitCode {
     }
 }
 
-/// Whether the file is sound. Says what was found.
-fn check(args: &CheckArgs) -> Result<bool> {
+/// Says what was found.
+fn check(args: &CheckArgs) -> Result<Verdict> {
+    refuse_to_overwrite(args)?;
     let [before, after] = [&args.before, &args.after].map(|path| read(path, &args.read_options()));
     let (before, after) = (before?, after?);
     let pairs = Pairs::new(before.meshes(), after.meshes());
@@ -41,17 +45,46 @@ fn check(args: &CheckArgs) -> Result<bool> {
         let source = Side { document: &*before, mesh: source };
         check_pair(source, Side { document: &*after, mesh: result }, args)
     });
+    let checks = checks.collect::<Result<Vec<MeshCheck>>>()?;
+    let documents = [&*before as &dyn Document, &*after];
     let report = CheckReport::new(
         [&args.before, &args.after],
-        checks.collect::<Result<Vec<MeshCheck>>>()?,
         pairs.missing.iter().map(|&mesh| before.meshes()[mesh].name.clone()).collect(),
         pairs.added.iter().map(|&mesh| after.meshes()[mesh].name.clone()).collect(),
+        see_through(args, documents, &pairs, &checks),
+        checks,
     );
     say(table::table(&report));
     if let Some(path) = &args.report {
         write::alone(path, report.to_json()?)?;
     }
-    Ok(report.sound)
+    if let Some(path) = &args.preview {
+        light::draw(path, &name_of(&args.after), documents, &report.see_through)?;
+    }
+    Ok(report.verdict)
+}
+
+fn refuse_to_overwrite(args: &CheckArgs) -> Result<()> {
+    let mut taken = vec![identity(&args.before), identity(&args.after)];
+    for path in [&args.report, &args.preview].into_iter().flatten() {
+        ensure!(!taken.contains(&identity(path)), "{}: named for two files", path.display());
+        taken.push(identity(path));
+    }
+    Ok(())
+}
+
+fn see_through(
+    args: &CheckArgs,
+    documents: [&dyn Document; 2],
+    pairs: &Pairs,
+    checks: &[MeshCheck],
+) -> SeeThrough {
+    if args.no_see_through {
+        return SeeThrough::not_checked("left out by --no-see-through");
+    }
+    let check_of = |mesh: usize| pairs.both.iter().position(|[source, _]| *source == mesh);
+    let width = |mesh: usize| checks[check_of(mesh)?].width;
+    light::look(documents, largest_length(documents[0], width))
 }
 
 fn read(path: &Path, options: &ReadOptions) -> Result<Box<dyn Document + Send>> {
@@ -91,6 +124,9 @@ fn check_pair(source: Side, result: Side, args: &CheckArgs) -> Result<MeshCheck>
         for rule in [Rule::FlatNormal, Rule::HardEdges] {
             findings.leave_out(rule, "the result's normals are not in its file");
         }
+    }
+    if matches!(args.verify, VerifyArg::Fast) {
+        findings.leave_out(Rule::SelfIntersection, "left out by --verify fast");
     }
     let mut check = MeshCheck::new(source.name(), &findings);
     if let Some(width) = args.width() {

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use anyhow::Result;
 use chamfer::check::{Facts, Findings, Matching, MeasuredEdge, Rule};
+use chamfer::see_through::Leak;
 use serde::Serialize;
 
 /// The whole report.
@@ -13,16 +14,114 @@ pub struct CheckReport {
     pub before: String,
     /// The file after.
     pub after: String,
-    /// Whether no mesh is missing and all are sound.
+    /// Whether all was checked and nothing is wrong.
     pub sound: bool,
+    /// The last word.
+    pub verdict: Verdict,
     /// In the order of the file before.
     pub meshes: Vec<MeshCheck>,
     /// Meshes that the file after does not have.
     pub missing: Vec<String>,
     /// Meshes that only the file after has. There is nothing to check them against.
     pub added: Vec<String>,
+    /// Where light shows.
+    pub see_through: SeeThrough,
     /// Sums over the meshes.
     pub totals: Counts,
+}
+
+/// What is said of a file in the end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub enum Verdict {
+    /// All was checked, nothing is wrong.
+    #[serde(rename = "sound")]
+    Sound,
+    /// Nothing is wrong, but something was not checked.
+    #[serde(rename = "sound as far as checked")]
+    SoundAsFarAsChecked,
+    /// Something is wrong.
+    #[serde(rename = "not sound")]
+    NotSound,
+}
+
+impl Verdict {
+    /// What the command ends with; 2 is that of files that cannot be read.
+    pub fn exit_code(self) -> u8 {
+        match self {
+            Verdict::Sound => 0,
+            Verdict::NotSound => 1,
+            Verdict::SoundAsFarAsChecked => 3,
+        }
+    }
+
+    /// For the terminal, as in the report.
+    pub fn name(self) -> &'static str {
+        match self {
+            Verdict::Sound => "sound",
+            Verdict::SoundAsFarAsChecked => "sound as far as checked",
+            Verdict::NotSound => "not sound",
+        }
+    }
+}
+
+/// What was found by looking through the whole scene.
+#[derive(Debug, Default, Serialize)]
+pub struct SeeThrough {
+    /// Why nobody looked, if so.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub not_checked: Option<&'static str>,
+    /// The largest width of the chamfers, in scene units: the one asked for where that is known,
+    /// measured otherwise.
+    pub width: Option<f32>,
+    /// Where light shows, the worst first.
+    pub places: Vec<Place>,
+}
+
+impl SeeThrough {
+    /// That nobody looked, and why.
+    pub fn not_checked(reason: &'static str) -> SeeThrough {
+        SeeThrough { not_checked: Some(reason), ..SeeThrough::default() }
+    }
+}
+
+/// A place where light shows.
+#[derive(Debug, Serialize)]
+pub struct Place {
+    /// In scene units, on the old surface.
+    pub at: [f32; 3],
+    /// The unit vector from there to the eye that sees most of it.
+    pub toward_eye: [f32; 3],
+    /// How many samples that eye has of it.
+    pub samples: usize,
+    /// From how many directions it is seen.
+    pub views: usize,
+    /// How much farther the eye sees than before, at most, in scene units; nothing where there is
+    /// nothing behind.
+    pub deeper: Option<f32>,
+    /// The worst one.
+    #[serde(skip)]
+    pub leak: Leak,
+}
+
+impl Place {
+    /// As one view sees it.
+    pub fn new(leak: Leak) -> Place {
+        Place {
+            at: leak.middle(),
+            toward_eye: leak.toward_eye,
+            samples: leak.places.len(),
+            views: 1,
+            deeper: Some(leak.depth).filter(|depth| depth.is_finite()),
+            leak,
+        }
+    }
+
+    /// Adds what another view sees of it, which is not more.
+    pub fn add(&mut self, leak: &Leak) {
+        let deeper = self.deeper.unwrap_or(f32::INFINITY).max(leak.depth);
+        self.deeper = Some(deeper).filter(|depth| depth.is_finite());
+        self.views += usize::from(self.leak.toward_eye != leak.toward_eye);
+    }
 }
 
 /// What was found in one mesh.
@@ -30,7 +129,7 @@ pub struct CheckReport {
 pub struct MeshCheck {
     /// As the file before calls it.
     pub name: String,
-    /// Whether nothing is wrong.
+    /// Whether all of it was checked and nothing is wrong.
     pub sound: bool,
     /// What was counted and measured.
     #[serde(flatten)]
@@ -41,8 +140,11 @@ pub struct MeshCheck {
     pub not_found: usize,
     /// What is wrong.
     pub defects: Vec<Defect>,
-    /// What could not be checked, or only in part.
+    /// What was not checked, or only in part.
     pub unchecked: Vec<Unchecked>,
+    /// The width asked for, otherwise what most chamfers stay within, in mesh units.
+    #[serde(skip)]
+    pub width: Option<f32>,
 }
 
 /// What can be counted and measured in a mesh or in all.
@@ -128,19 +230,33 @@ impl CheckReport {
     /// Adds up the meshes.
     pub fn new(
         [before, after]: [&Path; 2],
-        meshes: Vec<MeshCheck>,
         missing: Vec<String>,
         added: Vec<String>,
+        see_through: SeeThrough,
+        meshes: Vec<MeshCheck>,
     ) -> CheckReport {
         let totals = meshes.iter().map(|mesh| mesh.counts.clone()).reduce(Counts::plus);
+        let is_wrong = !missing.is_empty()
+            || !see_through.places.is_empty()
+            || meshes.iter().any(|mesh| !mesh.defects.is_empty());
+        let is_whole = added.is_empty()
+            && see_through.not_checked.is_none()
+            && meshes.iter().all(|mesh| mesh.unchecked.is_empty());
+        let verdict = match (is_wrong, is_whole) {
+            (true, _) => Verdict::NotSound,
+            (false, false) => Verdict::SoundAsFarAsChecked,
+            (false, true) => Verdict::Sound,
+        };
         CheckReport {
             before: before.display().to_string(),
             after: after.display().to_string(),
-            sound: missing.is_empty() && meshes.iter().all(|mesh| mesh.sound),
+            sound: verdict == Verdict::Sound,
+            verdict,
             totals: totals.unwrap_or_default(),
             meshes,
             missing,
             added,
+            see_through,
         }
     }
 
@@ -169,7 +285,7 @@ impl MeshCheck {
         });
         MeshCheck {
             name: name.into(),
-            sound: findings.is_sound(),
+            sound: findings.is_sound() && findings.unchecked.is_empty(),
             counts: Counts::new(findings),
             matched_by: match findings.matching {
                 Matching::Geometry => "geometry",
@@ -178,12 +294,14 @@ impl MeshCheck {
             not_found: findings.lost,
             defects: defects.collect(),
             unchecked: unchecked.collect(),
+            width: usual_width(&findings.edges),
         }
     }
 
     /// Adds what is known where the width asked for is.
     pub fn expect(&mut self, width: f32, left_without_need: &[[u32; 2]]) {
         self.counts.chamfers.asked = Some(width);
+        self.width = Some(width);
         self.counts.left_without_need = Some(left_without_need.len());
         if !left_without_need.is_empty() {
             self.sound = false;
@@ -195,6 +313,26 @@ impl MeshCheck {
             });
         }
     }
+}
+
+/// Of the length of all chamfers, so much is no wider than the usual width. Not all of it: one
+/// vertex out of place is no wide chamfer.
+const USUAL_SHARE: f64 = 0.9;
+
+/// What most chamfers stay within, by their length; none without any.
+fn usual_width(edges: &[MeasuredEdge]) -> Option<f32> {
+    let ends = edges.iter().flat_map(|edge| {
+        let open = edge.widths().into_iter().zip(edge.is_open).filter(|(_, is_open)| *is_open);
+        open.map(|(width, _)| (width, f64::from(edge.length)))
+    });
+    let mut ends: Vec<(f32, f64)> = ends.collect();
+    ends.sort_unstable_by(|one, other| one.0.total_cmp(&other.0).then(one.1.total_cmp(&other.1)));
+    let mut left = ends.iter().map(|(_, length)| length).sum::<f64>() * USUAL_SHARE;
+    let reaches = |(_, length): &&(f32, f64)| {
+        left -= length;
+        left <= 0.0
+    };
+    ends.iter().find(reaches).or(ends.last()).map(|(width, _)| *width)
 }
 
 /// How many edges a [`Defect`] names.
@@ -316,6 +454,14 @@ mod tests {
         assert_eq!((widths.count, widths.min, widths.max), (2, Some(0.2), Some(0.4)));
         assert!((widths.mean.unwrap() - 0.2).abs() < 1e-6);
         assert_eq!(Widths::new(&[]), Widths::default());
+    }
+
+    #[test]
+    fn a_vertex_out_of_place_is_no_wide_chamfer() {
+        let edges = [edge(30.0, [0.2, 0.1]), edge(1.0, [9.0, 9.0])];
+        assert_eq!(usual_width(&edges), Some(0.2));
+        assert_eq!(usual_width(&edges[1..]), Some(9.0));
+        assert_eq!(usual_width(&[edge(1.0, [0.0, 0.0])]), None);
     }
 
     #[test]

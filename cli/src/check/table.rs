@@ -1,6 +1,6 @@
 //! The report for the terminal: a row for each mesh, and below what is wrong.
 
-use super::report::{CheckReport, Counts, MeshCheck, Widths};
+use super::report::{CheckReport, Counts, MeshCheck, Place, SeeThrough, Widths};
 
 const HEADINGS: [&str; 14] = [
     "mesh",
@@ -33,8 +33,39 @@ pub fn table(report: &CheckReport) -> String {
     lines.extend(report.missing.iter().map(|name| format!("{name}: missing")));
     let added = report.added.iter();
     lines.extend(added.map(|name| format!("{name}: not checked: there was none before")));
-    lines.push(if report.sound { "sound".into() } else { "not sound".into() });
+    lines.extend(light(&report.see_through));
+    lines.push(report.verdict.name().into());
     lines.join("\n")
+}
+
+/// How many places where light shows are named.
+const NAMED_PLACES: usize = 6;
+
+fn light(found: &SeeThrough) -> Vec<String> {
+    if let Some(reason) = found.not_checked {
+        return vec![format!("not fully checked: see-through: {reason}")];
+    }
+    let place = |place: &Place| light_at(place, found.width);
+    let mut lines: Vec<String> = found.places.iter().take(NAMED_PLACES).map(place).collect();
+    if found.places.len() > NAMED_PLACES {
+        lines.push(format!("light shows at {} more places", found.places.len() - NAMED_PLACES));
+    }
+    lines
+}
+
+fn light_at(place: &Place, width: Option<f32>) -> String {
+    let vector = |values: [f32; 3], digit: fn(f32) -> String| {
+        let [x, y, z] = values.map(digit);
+        format!("({x}, {y}, {z})")
+    };
+    let at = vector(place.at, |value| length(Some(value)));
+    let from = vector(place.toward_eye, |value| format!("{value:.2}"));
+    let behind = match (place.deeper, width) {
+        (Some(deeper), Some(width)) => format!("{:.0} widths deeper", deeper / width),
+        _ => "nothing behind".into(),
+    };
+    let samples = place.samples;
+    format!("light shows at {at}, seen from {from}: {samples} samples, {behind}")
 }
 
 fn row(name: &str, counts: &Counts) -> Row {

@@ -65,6 +65,12 @@ impl Camera {
         Camera { center: self.on_plane(focus), scale: self.scale * factor, ..self }
     }
 
+    /// The same view with the eye moved sideways, until a point is straight before it.
+    pub fn straight_before(self, point: DVec3) -> Camera {
+        let to_point = point - self.eye;
+        Camera { eye: point - self.back * to_point.dot(self.back), ..self }
+    }
+
     /// How far a point is from the eye along the view; positive in front of it.
     pub fn depth(&self, point: DVec3) -> f64 {
         (self.eye - point).dot(self.back)
@@ -167,6 +173,16 @@ mod tests {
             .zoomed(5.0, corners[7]);
         let seen = camera.project(corners[7]);
         assert!((seen.x - 50.0).abs() < 1e-9 && (seen.y - 50.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn straight_before_the_eye_a_point_is_seen_from_the_direction_asked_for() {
+        let corners = box_corners(DVec3::ZERO, DVec3::new(9.0, 1.0, 1.0));
+        let camera = Camera::frame(DVec3::Z, corners.iter().copied(), 100).unwrap();
+        let depth = camera.depth(corners[7]);
+        let camera = camera.straight_before(corners[7]).zoomed(5.0, corners[7]);
+        assert!(camera.toward_eye(50.0, 50.0).distance(Vec3::Z) < 1e-6);
+        assert!((camera.depth(corners[7]) - depth).abs() < 1e-9);
     }
 
     #[test]

@@ -132,6 +132,10 @@ fn camera(scenes: &[Scene; 2], panel: &Panel, samples: usize) -> Option<Camera> 
         .or_else(|| nearest(&camera, before))
         .or_else(|| nearest(&camera, after));
     Some(match focus {
+        // Away from the middle of the model the direction would be another one.
+        Some(focus) if toward_eye.is_some() => {
+            camera.straight_before(focus).zoomed(zoom.factor.into(), focus)
+        }
         Some(focus) => camera.zoomed(zoom.factor.into(), focus),
         None => camera,
     })
