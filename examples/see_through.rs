@@ -1,6 +1,6 @@
 //! Looks through a folder of models: after which does light show where none did before?
 //!
-//! `cargo run --release --example see_through -- [--fast] [--verbose] [--only NAME] [--folder DIR]
+//! `cargo run --release --example see_through -- [--fast] [--held] [--verbose] [--only NAME] [--folder DIR]
 //! [--views N] [--resolution N] [--close-ups DIR] [PERCENT..]`
 
 #[path = "../tests/corpus/measure.rs"]
@@ -12,7 +12,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
 use chamfer::see_through::{Eyes, Leak, leaks};
-use chamfer::{Chamfered, Options, Verify, Width, chamfer};
+use chamfer::{Mesh, Options, Placed, Reason, Totals, Verify, Width, chamfer, chamfer_scene};
 use chamfer_cli::close_up::close_up;
 use chamfer_cli::document::ReadOptions;
 use chamfer_cli::format;
@@ -23,6 +23,7 @@ use chamfer_cli::scene::{largest_length, placed, scene_triangles};
 struct Request {
     verify: Verify,
     is_verbose: bool,
+    is_held: bool,
     only: Option<String>,
     folder: String,
     eyes: Eyes,
@@ -35,6 +36,7 @@ impl Request {
         let mut request = Request {
             verify: Verify::Full,
             is_verbose: false,
+            is_held: false,
             only: None,
             folder: measure::FOLDER.to_owned(),
             eyes: Eyes::default(),
@@ -45,6 +47,7 @@ impl Request {
             let mut number = || arguments.next().and_then(|text| text.parse().ok());
             match argument.as_str() {
                 "--fast" => request.verify = Verify::Fast,
+                "--held" => request.is_held = true,
                 "--verbose" => request.is_verbose = true,
                 "--views" => request.eyes.views = number().unwrap_or(request.eyes.views),
                 "--resolution" => {
@@ -103,13 +106,21 @@ fn look(request: &Request, path: &Path, percent: f32) -> usize {
         verify: request.verify,
         ..Options::default()
     };
-    let chamfered: Vec<Chamfered> = document
-        .meshes()
+    let meshes: Vec<Mesh> = document.meshes().iter().map(|mesh| mesh.mesh.as_mesh()).collect();
+    let objects: Vec<Placed> = document
+        .instances()
         .iter()
-        .map(|mesh| {
-            chamfer(&mesh.mesh.as_mesh(), &options).expect("meshes that were read are sound")
-        })
+        .map(|instance| Placed { mesh: instance.mesh, transform: instance.transform })
         .collect();
+    let mut run = |_: usize, mesh: &Mesh| chamfer(mesh, &options);
+    let eyes = request.is_held.then_some(request.eyes);
+    let scene = chamfer_scene(&meshes, &objects, eyes, &mut run).expect("what was read is sound");
+    let (chamfered, rounds) = (scene.meshes, scene.rounds);
+    let counts = chamfered.iter().fold([0; 3], |[hard, contact, skipped], mesh| {
+        let Totals { hard_edges, skipped: left, .. } = mesh.totals;
+        let held = left[Reason::Contact as usize];
+        [hard + hard_edges, contact + held, skipped + left.iter().sum::<u32>()]
+    });
     let before = scene_triangles(&*document, |mesh| &document.meshes()[mesh].mesh);
     let after = scene_triangles(&*document, |mesh| &chamfered[mesh].mesh);
     let width = largest_length(&*document, |mesh| Some(chamfered[mesh].width)).unwrap_or(0.0);
@@ -117,9 +128,10 @@ fn look(request: &Request, path: &Path, percent: f32) -> usize {
     let found = leaks(&before, &after, width, request.eyes);
     let seconds = start.elapsed().as_secs_f64();
     let samples: usize = found.iter().map(|leak| leak.places.len()).sum();
-    if samples > 0 || request.is_verbose {
+    if rounds > 0 || samples > 0 || request.is_verbose {
         println!(
-            "{name} at {percent} %: {samples} samples in {} leaks; {} triangles, {:.0} ms",
+            "{name} at {percent} %: {samples} samples in {} leaks; {rounds} rounds; hard, contact, \
+             skipped: {counts:?}; {} triangles, {:.0} ms",
             found.len(),
             after.len(),
             seconds * 1e3
