@@ -152,8 +152,9 @@ fn look(request: &Request, path: &Path, percent: f32) -> usize {
         }
         for leak in worst.into_iter().take(if request.is_verbose { 12 } else { 0 }) {
             println!(
-                "    {} samples at {:?} seen from {:?}, {:.2} widths deep",
+                "    {} samples{} at {:?} seen from {:?}, {:.2} widths deep",
                 leak.places.len(),
+                if leak.is_past_outlines { " past outlines" } else { "" },
                 leak.middle(),
                 leak.toward_eye,
                 leak.depth / width

@@ -42,6 +42,9 @@ const MOST_ROUNDS: u32 = 6;
 /// within [`REACH`].
 const FIRST_REACH: f64 = 1.5;
 
+/// Of places that are this share of a width apart, each has its say where they only narrow chamfers.
+const FINE: f64 = 0.2;
+
 /// Chamfers the meshes of a scene by `run`, which is given the number of a mesh and the mesh with
 /// all that is held, and may be asked for a mesh several times. With `eyes`, the scene is looked at
 /// until no light shows.
@@ -186,16 +189,22 @@ fn hold(
 ) -> BTreeSet<usize> {
     let mut cells = BTreeSet::new();
     let mut changed = BTreeSet::new();
-    for place in leaks.iter().flat_map(|leak| &leak.places) {
-        let place = wide(*place);
-        if !cells.insert((place / width).floor().to_array().map(|cell| cell as i64)) {
+    let places = |leak: &'_ Leak| {
+        let is_past_outlines = leak.is_past_outlines;
+        leak.places.clone().into_iter().map(move |place| (wide(place), is_past_outlines))
+    };
+    for (place, is_past_outlines) in leaks.iter().flat_map(places) {
+        let size = if is_past_outlines { width * FINE } else { width };
+        let cell = (place / size).floor().to_array().map(|cell| cell as i64);
+        if !cells.insert((cell, is_past_outlines)) {
             continue;
         }
         for object in objects {
             let at = object.to_mesh.transform_point3(place).as_vec3().to_array();
-            let radius = ((reach + width) / object.scale) as f32;
-            let new = Held { from: at, to: at, radius };
-            if is_finite(&new) && radius.is_finite() {
+            // What is seen past outlines is only to be left covered.
+            let reach = if is_past_outlines { 0.0 } else { reach };
+            let new = Held { from: at, to: at, radius: (reach / object.scale) as f32 };
+            if is_finite(&new) && new.radius.is_finite() {
                 held[object.mesh].push(new);
                 changed.insert(object.mesh);
             }

@@ -7,6 +7,7 @@
 //! the outline recedes by a chamfer, but nothing else may.
 
 mod raster;
+mod sight;
 mod views;
 mod windows;
 
@@ -15,6 +16,7 @@ use std::collections::{BTreeSet, HashSet};
 use glam::DVec3;
 
 use raster::{Depths, Faces};
+use sight::Sight;
 use views::View;
 use windows::{Sample, Window};
 
@@ -50,6 +52,9 @@ pub const REACH: f64 = 3.0;
 /// other.
 const LEAST_SAMPLES: usize = 3;
 
+/// In each leak, so many lines of sight are followed through the scene.
+const MOST_SIGHTS: usize = 8;
+
 /// A place where light shows.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Leak {
@@ -60,6 +65,9 @@ pub struct Leak {
     pub places: Vec<[f32; 3]>,
     /// How much farther the eye sees now, in scene units; infinite where it sees nothing.
     pub depth: f32,
+    /// Whether the eye looks past outlines that receded, outside of all solids, as through a narrow
+    /// hole whose two rims were rounded off. Otherwise it looks into a solid.
+    pub is_past_outlines: bool,
 }
 
 impl Leak {
@@ -125,7 +133,7 @@ impl Pictures {
         let window = Window { radius, reach: reach as f32 };
         let open = window.open_samples(&self.old, &self.new);
         let groups = joined(&open).into_iter().filter(|samples| samples.len() >= LEAST_SAMPLES);
-        groups.map(|samples| self.leak(view, &samples)).collect()
+        groups.map(|samples| self.leak(view, changes, window, &samples)).collect()
     }
 
     /// The old picture as far as there is something to see, and the new one where something is
@@ -147,7 +155,7 @@ impl Pictures {
         true
     }
 
-    fn leak(&self, view: &View, samples: &[Sample]) -> Leak {
+    fn leak(&self, view: &View, changes: &Changes, window: Window, samples: &[Sample]) -> Leak {
         let place = |&[column, row]: &Sample| {
             let depth = f64::from(self.old.at(column, row));
             view.place(column, row, depth).as_vec3().to_array()
@@ -159,7 +167,31 @@ impl Pictures {
             toward_eye: view.toward_eye.as_vec3().to_array(),
             places: samples.iter().map(place).collect(),
             depth: deeper.fold(0.0, f32::max),
+            is_past_outlines: self.is_past_outlines(view, changes, window, samples),
         }
+    }
+
+    /// Some samples, spread over the leak, stand for all.
+    fn is_past_outlines(
+        &self,
+        view: &View,
+        changes: &Changes,
+        window: Window,
+        samples: &[Sample],
+    ) -> bool {
+        let step = samples.len().div_ceil(MOST_SIGHTS);
+        samples.iter().step_by(step).all(|&sample| {
+            let [column, row] = sample;
+            let sight = Sight {
+                view,
+                sample,
+                span: [&self.old, &self.new].map(|depths| f64::from(depths.at(column, row))),
+                seen_beside: f64::from(window.farthest(&self.old, sample)),
+                reach: f64::from(window.reach),
+            };
+            let Changes { kept, gone, added } = changes;
+            sight.runs_outside([kept, gone], [kept, added])
+        })
     }
 }
 

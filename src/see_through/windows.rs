@@ -35,6 +35,14 @@ impl Window {
         open
     }
 
+    /// The largest depth around a sample.
+    pub fn farthest(&self, depths: &Depths, [column, row]: Sample) -> f32 {
+        let here = Rect { columns: column..column + 1, rows: row..row + 1 };
+        let around = here.widened(self.radius, usize::MAX).shared(&depths.rect);
+        let rows = around.rows.flat_map(|row| depths.row(row, around.columns.clone()));
+        rows.copied().fold(f32::NEG_INFINITY, f32::max)
+    }
+
     fn deeper_samples(&self, old: &Depths, new: &Depths) -> Vec<Sample> {
         let columns = new.rect.columns.clone();
         let mut deeper = Vec::new();

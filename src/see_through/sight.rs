@@ -1,0 +1,155 @@
+//! What lies along a line of sight: whether a chamfer opened it past outlines, or took away what
+//! hid a hole.
+//!
+//! Chamfers round outlines off, and where two outlines nearly meet, as those of the two rims of a
+//! hole, one sees past both. Such a line of sight runs outside of all solids: in the source it went
+//! through thin wedges only, in at a front and out at a back, and now it meets nothing at all.
+//! Where it met a front that has no back right behind it, or now meets a back, it looks into a
+//! solid.
+
+use glam::DVec3;
+
+use super::views::View;
+use super::{SceneTriangle, wide};
+
+/// Along a line of sight, a wedge that a chamfer cuts off is no thicker than this many times the
+/// reach: along its edge it would be, but there it lies on an outline.
+const THICKEST_WEDGE: f64 = 2.0;
+
+/// Wedges that touch leave no gap that one could have looked through: so much of the reach.
+const LEAST_GAP: f64 = 0.3;
+
+/// A surface that lies this share of the reach before or behind another is the same.
+const SAME_DEPTH: f64 = 1e-3;
+
+/// Where a line of sight meets a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Meeting {
+    depth: f64,
+    is_front: bool,
+}
+
+/// A line of sight between two depths.
+pub struct Sight<'a> {
+    pub view: &'a View,
+    /// Column and row.
+    pub sample: [usize; 2],
+    /// What was seen, and what is seen now.
+    pub span: [f64; 2],
+    /// The farthest that was seen right beside it.
+    pub seen_beside: f64,
+    /// In scene units.
+    pub reach: f64,
+}
+
+impl Sight<'_> {
+    /// Whether it runs outside of all solids, past outlines that receded. Scenes in parts.
+    pub fn runs_outside(
+        &self,
+        before: [&[SceneTriangle]; 2],
+        after: [&[SceneTriangle]; 2],
+    ) -> bool {
+        let met = self.meetings(before);
+        self.meetings(after).is_empty() && self.are_thin_wedges(&met) && self.sees_past(&met)
+    }
+
+    /// All surfaces on the way, in order.
+    fn meetings(&self, parts: [&[SceneTriangle]; 2]) -> Vec<Meeting> {
+        let [from, to] = self.span;
+        let slack = self.reach * SAME_DEPTH;
+        let mut met: Vec<Meeting> = parts
+            .iter()
+            .flat_map(|part| part.iter())
+            .filter_map(|triangle| self.meeting(triangle))
+            .filter(|met| met.depth >= from - slack && met.depth < to - slack)
+            .collect();
+        met.sort_by(|one, other| one.depth.total_cmp(&other.depth));
+        met
+    }
+
+    fn meeting(&self, triangle: &SceneTriangle) -> Option<Meeting> {
+        let corners = triangle.map(|corner| self.view.project(wide(corner)));
+        let [x, y] = self.sample.map(|place| place as f64 + 0.5);
+        let sides = [[0, 1], [1, 2], [2, 0]].map(|side| side.map(|k| corners[k]));
+        let crossed = sides.into_iter().filter(|side| is_left_of(x, y, *side)).count();
+        if crossed % 2 == 0 {
+            return None;
+        }
+        let [a, b, c] = corners;
+        let normal = (b - a).cross(c - a);
+        let depth = a.z - (normal.x * (x - a.x) + normal.y * (y - a.y)) / normal.z;
+        depth.is_finite().then_some(Meeting { depth, is_front: normal.z > 0.0 })
+    }
+
+    /// Whether surfaces come in pairs, a front and a back right behind it, with room between pairs.
+    fn are_thin_wedges(&self, met: &[Meeting]) -> bool {
+        let is_wedge = |pair: &[Meeting]| match *pair {
+            [one, other] => {
+                let thickness = other.depth - one.depth;
+                one.is_front && !other.is_front && thickness <= self.reach * THICKEST_WEDGE
+            }
+            _ => false,
+        };
+        let mut gaps = met.windows(2).skip(1).step_by(2).map(|pair| pair[1].depth - pair[0].depth);
+        met.chunks(2).all(is_wedge) && gaps.all(|gap| gap >= self.reach * LEAST_GAP)
+    }
+
+    /// Whether the gap behind the first wedge was seen right beside it: nothing recedes but
+    /// outlines.
+    fn sees_past(&self, met: &[Meeting]) -> bool {
+        let [Some(front), Some(back)] = [met.first(), met.get(1)] else { return false };
+        let behind = met.get(2).map_or(self.span[1], |next| next.depth);
+        let gap = (behind - back.depth).min(self.reach);
+        self.seen_beside - front.depth >= gap / 2.0
+    }
+}
+
+/// Whether a side of a triangle runs through the row of a point, on its right. Both triangles of an
+/// edge agree to the bit.
+fn is_left_of(x: f64, y: f64, [one, other]: [DVec3; 2]) -> bool {
+    let [low, high] = if one.y <= other.y { [one, other] } else { [other, one] };
+    low.y <= y && y < high.y && x < low.x + (y - low.y) * ((high.x - low.x) / (high.y - low.y))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::views::Frame;
+    use super::*;
+
+    fn met(depths: &[f64]) -> Vec<Meeting> {
+        let each = |(k, &depth): (usize, &f64)| Meeting { depth, is_front: k % 2 == 0 };
+        depths.iter().enumerate().map(each).collect()
+    }
+
+    fn with_sight(test: impl Fn(&Sight)) {
+        let frame = Frame::around(&[[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]]).unwrap();
+        let view = frame.views(1, 8).next().unwrap();
+        let (sample, span) = ([4, 4], [1.0, 9.0]);
+        test(&Sight { view: &view, sample, span, seen_beside: 3.0, reach: 1.0 });
+    }
+
+    //  eye ->   |\      |\
+    //           |/      |/
+    #[test]
+    fn wedges_with_room_between_them_may_be_seen_past() {
+        with_sight(|sight| {
+            let wedges = met(&[1.0, 1.5, 4.0, 4.2]);
+            assert!(sight.are_thin_wedges(&wedges) && sight.sees_past(&wedges));
+            assert!(!Sight { seen_beside: 1.1, ..*sight }.sees_past(&wedges), "no outline is near");
+        });
+    }
+
+    #[test]
+    fn a_front_without_a_back_hides_a_hole() {
+        with_sight(|sight| {
+            assert!(!sight.are_thin_wedges(&met(&[1.0])));
+            assert!(!sight.are_thin_wedges(&met(&[1.0, 1.5, 4.0])));
+            assert!(!sight.are_thin_wedges(&met(&[1.0, 9.0])), "too thick for a wedge");
+        });
+    }
+
+    #[test]
+    fn wedges_that_touch_hid_what_is_behind() {
+        with_sight(|sight| assert!(!sight.are_thin_wedges(&met(&[1.0, 1.5, 1.5, 2.0]))));
+    }
+}
