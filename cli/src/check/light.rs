@@ -90,15 +90,17 @@ pub fn draw(
 mod tests {
     use super::*;
 
+    /// Each seen from another side.
     fn leak(places: &[[f32; 3]], depth: f32) -> Leak {
-        Leak { toward_eye: [0.0, 0.0, 1.0], places: places.to_vec(), depth }
+        Leak { toward_eye: [0.0, depth, 1.0], places: places.to_vec(), depth }
     }
 
     #[test]
     fn leaks_within_three_widths_are_one_place() {
         let slit: Vec<[f32; 3]> = (0..9).map(|k| [k as f32, 0.0, 0.0]).collect();
         let [at_its_end, apart] = [[8.0, 0.25, 0.0], [8.0, 0.4, 0.0]];
-        let found = [leak(&[at_its_end], 7.0), leak(&slit, 2.0), leak(&[apart], 1.0)];
+        let end = leak(&[at_its_end], 7.0);
+        let found = [end.clone(), end, leak(&slit, 2.0), leak(&[apart], 1.0)];
         let places = merged(found.to_vec(), 0.1);
         let told: Vec<_> = places.iter().map(|p| (p.samples, p.views, p.deeper)).collect();
         assert_eq!(told, [(9, 2, Some(7.0)), (1, 1, Some(1.0))]);

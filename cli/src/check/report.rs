@@ -98,6 +98,9 @@ pub struct Place {
     /// How much farther the eye sees than before, at most, in scene units; nothing where there is
     /// nothing behind.
     pub deeper: Option<f32>,
+    /// The eyes of those.
+    #[serde(skip)]
+    eyes: Vec<[f32; 3]>,
     /// The worst one.
     #[serde(skip)]
     pub leak: Leak,
@@ -111,6 +114,7 @@ impl Place {
             toward_eye: leak.toward_eye,
             samples: leak.places.len(),
             views: 1,
+            eyes: vec![leak.toward_eye],
             deeper: Some(leak.depth).filter(|depth| depth.is_finite()),
             leak,
         }
@@ -120,7 +124,10 @@ impl Place {
     pub fn add(&mut self, leak: &Leak) {
         let deeper = self.deeper.unwrap_or(f32::INFINITY).max(leak.depth);
         self.deeper = Some(deeper).filter(|depth| depth.is_finite());
-        self.views += usize::from(self.leak.toward_eye != leak.toward_eye);
+        if !self.eyes.contains(&leak.toward_eye) {
+            self.eyes.push(leak.toward_eye);
+            self.views += 1;
+        }
     }
 }
 
