@@ -71,8 +71,8 @@ pub struct Args {
     #[arg(default_value = "1")]
     pub width_percent: f32,
 
-    /// How thoroughly results are checked; "full" also keeps chamfers from cutting through the mesh
-    #[arg(long, value_enum, default_value = "full")]
+    /// How thoroughly results are checked
+    #[arg(long, value_enum, default_value = "seen")]
     pub verify: VerifyArg,
 
     /// Write what became of every mesh to this file
@@ -169,7 +169,7 @@ pub struct CheckArgs {
 
     /// How thoroughly to check; "full" also looks for self-intersections
     #[arg(long, value_enum, default_value = "full")]
-    pub verify: VerifyArg,
+    pub verify: CheckDepth,
 
     /// For models without normals: faces that meet at up to this angle shade as one surface
     #[arg(long, value_name = "DEG", value_parser = angle, allow_negative_numbers = true)]
@@ -197,9 +197,29 @@ pub struct DemoArgs {
     pub output: PathBuf,
 }
 
+/// How thoroughly files are compared.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum CheckDepth {
+    /// All rules.
+    Full,
+    /// All but self-intersections.
+    Fast,
+}
+
+impl From<CheckDepth> for Verify {
+    fn from(depth: CheckDepth) -> Verify {
+        match depth {
+            CheckDepth::Full => Verify::Full,
+            CheckDepth::Fast => Verify::Fast,
+        }
+    }
+}
+
 /// [`Verify`] as an argument.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub enum VerifyArg {
+    /// As "full", and no light shows through the model where none did before.
+    Seen,
     /// Nothing opens, flips, degenerates or newly cuts through itself.
     Full,
     /// Nothing opens, flips or degenerates.
@@ -209,6 +229,7 @@ pub enum VerifyArg {
 impl From<VerifyArg> for Verify {
     fn from(verify: VerifyArg) -> Verify {
         match verify {
+            VerifyArg::Seen => Verify::Seen,
             VerifyArg::Full => Verify::Full,
             VerifyArg::Fast => Verify::Fast,
         }

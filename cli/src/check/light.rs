@@ -92,7 +92,12 @@ mod tests {
 
     /// Each seen from another side.
     fn leak(places: &[[f32; 3]], depth: f32) -> Leak {
-        Leak { toward_eye: [0.0, depth, 1.0], places: places.to_vec(), depth }
+        Leak {
+            toward_eye: [0.0, depth, 1.0],
+            places: places.to_vec(),
+            depth,
+            is_past_outlines: false,
+        }
     }
 
     #[test]
