@@ -143,7 +143,12 @@ fn course(
 ) -> Option<Course> {
     let (first, last) = (spread.first()?, spread.last()?);
     let total = last.start.plus(last.angle);
-    match (fan.starts_at_border, fan.ends_at_border()) {
+    // The border of a hidden face goes back behind the chamfer, as its pulled edges do.
+    let starts_at_border = fan.starts_at_border && !fan.recedes[0];
+    let ends_at_border = fan.ends_at_border() && !fan.recedes[1];
+    match (starts_at_border, ends_at_border) {
+        // Light would show where one of the solids left the contact.
+        _ if holds_contact(topology, spread) => None,
         (true, true) => None,
         // Parts that only touch, as at a T-junction, would gape where one of them moves.
         (true, false) | (false, true) if fan.borders_meet => None,
@@ -164,6 +169,12 @@ fn course(
             Crease::Several => None,
         },
     }
+}
+
+/// Whether solids touch along an edge inside the fan.
+fn holds_contact(topology: &Topology, spread: &[Blade]) -> bool {
+    !topology.contacts.is_empty()
+        && spread.iter().skip(1).any(|blade| topology.is_contact(blade.corner))
 }
 
 /// Along the direction at half the fan's angle.

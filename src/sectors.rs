@@ -19,6 +19,9 @@ pub struct Fan {
     pub next: Sector,
     /// Whether the first edge is a border.
     pub starts_at_border: bool,
+    /// Whether its first and its last edge are borders that recede from a chamfer as a pulled edge
+    /// does: of a hidden face.
+    pub recedes: [bool; 2],
     /// Whether several borders run through the cluster, of parts that only touch here.
     pub borders_meet: bool,
     pub ring: Ring,
@@ -86,6 +89,10 @@ pub fn sectors(topology: &Topology, edges: &Edges) -> Sectors {
             add_fan(topology, edges, &mut sectors, side.next());
         }
     }
+    for &side in &edges.receding {
+        add_fan(topology, edges, &mut sectors, side);
+        add_fan(topology, edges, &mut sectors, side.next());
+    }
     join_rings(topology, &mut sectors);
     mark_meeting_borders(topology, &mut sectors);
     sectors
@@ -113,6 +120,7 @@ fn add_fan(topology: &Topology, edges: &Edges, sectors: &mut Sectors, corner: Co
         last,
         next: Sector::NONE,
         starts_at_border,
+        recedes: [first, last.prev()].map(|side| edges.receding.binary_search(&side).is_ok()),
         borders_meet: false,
         ring: Ring::NONE,
     });
@@ -147,10 +155,13 @@ fn mark_meeting_borders(topology: &Topology, sectors: &mut Sectors) {
     }
 }
 
-/// The clusters, sorted, that several borders run through.
+/// The clusters, sorted, that several borders run through, but for those of hidden faces: nobody
+/// sees these gape.
 fn meeting_borders(topology: &Topology) -> Vec<Cluster> {
     let is_border = |corner: &Corner| {
-        topology.twin[*corner].is_none() && !topology.is_collapsed(corner.triangle())
+        topology.twin[*corner].is_none()
+            && !topology.is_collapsed(corner.triangle())
+            && !topology.is_hidden(*corner)
     };
     let borders = topology.twin.ids().filter(is_border);
     let mut starts: Vec<Cluster> = borders.map(|corner| topology.cluster_at[corner]).collect();
