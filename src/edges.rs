@@ -7,7 +7,7 @@ use crate::ids::{Corner, Edge, Id, IdVec, Vertex};
 use crate::mesh::UV_CHANNELS;
 use crate::report::Reason;
 use crate::resample::uv_at;
-use crate::topology::{Hidden, Topology};
+use crate::topology::Topology;
 use crate::view::View;
 use crate::weld::Weld;
 
@@ -41,8 +41,6 @@ pub struct Edges {
     pub hard: IdVec<Edge, HardEdge>,
     /// `#corners`: the edge that the half-edge is a side of, where it is to be chamfered.
     pub chamfered_at: IdVec<Corner, Edge>,
-    /// Half-edges, sorted, of hidden faces that a chamfer would lay open.
-    pub receding: Vec<Corner>,
 }
 
 /// Whether any edge can be hard: at one position at least, normals differ.
@@ -76,25 +74,7 @@ pub fn edges(view: &View, topology: &Topology, faces: &Faces) -> Edges {
             chamfered_at[twin] = edge;
         }
     }
-    let receding = receding(view, topology, faces, &chamfered_at);
-    Edges { hard, chamfered_at, receding }
-}
-
-/// The hidden half-edges whose faces end on the very edge that a chamfer cuts away: where the
-/// visible faces bend outwards. Where they bend inwards, the chamfer covers the edge.
-fn receding(
-    view: &View,
-    topology: &Topology,
-    faces: &Faces,
-    chamfered_at: &IdVec<Corner, Edge>,
-) -> Vec<Corner> {
-    let is_cut = |hidden: &&Hidden| {
-        let side = hidden.behind;
-        let across = topology.twin[side].prev();
-        let rise = view.position_at(across) - view.position_at(side);
-        chamfered_at[side].is_some() && rise.dot(faces.normal[side.triangle()]) < 0.0
-    };
-    topology.hidden.iter().filter(is_cut).map(|hidden| hidden.half_edge).collect()
+    Edges { hard, chamfered_at }
 }
 
 /// Whether the stored normals differ between two half-edges that are twins.

@@ -12,11 +12,11 @@ use glam::DVec3;
 
 use crate::edges::{is_hard, seam_between};
 use crate::faces::Faces;
-use crate::ids::{Corner, Id, IdVec, Sector};
+use crate::ids::{Corner, Few, Id, IdVec, Sector};
 use crate::math::{Turn, area_vector, unit};
 use crate::mesh::UV_CHANNELS;
 use crate::resample::{Foot, locate, uv_at};
-use crate::sectors::{Fan, Sectors};
+use crate::sectors::{Fan, Follower, Sectors};
 use crate::topology::Topology;
 use crate::view::View;
 
@@ -78,7 +78,7 @@ pub fn offsets(
     faces: &Faces,
     sectors: &Sectors,
 ) -> IdVec<Sector, Offset> {
-    view.threads.map_with(sectors.fans.len(), Vec::new, |spread, sector| {
+    let mut offsets = view.threads.map_with(sectors.fans.len(), Vec::new, |spread, sector| {
         unfold(view, topology, sectors, sector, spread);
         let fan = &sectors.fans[sector];
         let chosen = course(view, topology, faces, fan, spread)
@@ -89,7 +89,74 @@ pub fn offsets(
             foot: Foot::at(fan.first),
             is_capped: false,
         })
-    })
+    });
+    for followers in sectors.followers.chunk_by(|one, other| one.sector == other.sector) {
+        let sector = followers[0].sector;
+        let corners: Vec<Corner> = sectors.corners(topology, sector).collect();
+        if let Some(offset) = follow(view, faces, &offsets, &corners, followers) {
+            offsets[sector] = offset;
+        }
+    }
+    offsets
+}
+
+/// A hidden face stays behind the visible ones: its corner goes along with theirs, as far as its
+/// own plane lets it, but never out of the solid. None where the fan has no plane.
+fn follow(
+    view: &View,
+    faces: &Faces,
+    offsets: &IdVec<Sector, Offset>,
+    corners: &[Corner],
+    followers: &[Follower],
+) -> Option<Offset> {
+    let area = |corner: &&Corner| area_vector(view.triangle(corner.triangle())).length_squared();
+    let &within = corners.iter().max_by(|one, other| area(one).total_cmp(&area(other)))?;
+    let normal = faces.normal[within.triangle()];
+    let is_level = |corner: &Corner| faces.normal[corner.triangle()].dot(normal) > LEVEL_COSINE;
+    if !corners.iter().all(is_level) {
+        return None;
+    }
+    let at = view.position_at(within);
+    let paths = followers.iter().map(|follower| Path::new(view, normal, at, follower));
+    let paths: Few<Path> = paths.collect();
+    let step = |k: usize| paths[k].step(offsets[followers[k].leader].vector);
+    let vector = match *followers {
+        [one, other] if one.leader != other.leader => {
+            // The chamfer of the edge that leaves a corner outwards cuts the corner off. It covers
+            // one that goes inwards.
+            let is_convex = paths[0].inward.dot(paths[1].along) > 0.0;
+            if is_convex { step(0) + step(1) } else { DVec3::ZERO }
+        }
+        _ => step(0),
+    };
+    let foot = locate(view, within, at, vector)?;
+    let offset = Offset { vector, within, foot, is_capped: false };
+    vector.is_finite().then_some(offset)
+}
+
+/// The border of a hidden face at one of its ends.
+struct Path {
+    /// From there along the border.
+    along: DVec3,
+    /// From the border into the face.
+    inward: DVec3,
+}
+
+impl Path {
+    fn new(view: &View, normal: DVec3, at: DVec3, follower: &Follower) -> Path {
+        let [from, to] = [follower.border, follower.border.next()].map(|end| view.position_at(end));
+        let along = unit(to - from);
+        Path { along: if from == at { along } else { -along }, inward: normal.cross(along) }
+    }
+
+    /// What the face does where the one in front of it moves by a vector. Where that leads inwards
+    /// it goes in as far: a chamfer is less deep anywhere between its sides.
+    fn step(&self, leads: DVec3) -> DVec3 {
+        let along = leads.dot(self.along);
+        let inward =
+            if leads.dot(self.inward) > 0.0 { (leads - self.along * along).length() } else { 0.0 };
+        self.along * along + self.inward * inward
+    }
 }
 
 /// A corner of a fan, unfolded into the plane.
@@ -143,10 +210,7 @@ fn course(
 ) -> Option<Course> {
     let (first, last) = (spread.first()?, spread.last()?);
     let total = last.start.plus(last.angle);
-    // The border of a hidden face goes back behind the chamfer, as its pulled edges do.
-    let starts_at_border = fan.starts_at_border && !fan.recedes[0];
-    let ends_at_border = fan.ends_at_border() && !fan.recedes[1];
-    match (starts_at_border, ends_at_border) {
+    match (fan.starts_at_border, fan.ends_at_border()) {
         // Light would show where one of the solids left the contact.
         _ if holds_contact(topology, spread) => None,
         (true, true) => None,

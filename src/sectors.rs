@@ -6,7 +6,7 @@
 
 use crate::edges::Edges;
 use crate::ids::{Cluster, Corner, Id, IdVec, Ring, Sector};
-use crate::topology::Topology;
+use crate::topology::{Hidden, Topology};
 
 /// An ordered fan of corners, counter-clockwise seen from outside.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,9 +19,6 @@ pub struct Fan {
     pub next: Sector,
     /// Whether the first edge is a border.
     pub starts_at_border: bool,
-    /// Whether its first and its last edge are borders that recede from a chamfer as a pulled edge
-    /// does: of a hidden face.
-    pub recedes: [bool; 2],
     /// Whether several borders run through the cluster, of parts that only touch here.
     pub borders_meet: bool,
     pub ring: Ring,
@@ -40,8 +37,20 @@ pub struct Sectors {
     pub fans: IdVec<Sector, Fan>,
     /// `#rings`: a range of `members` each, and whether it closes.
     pub rings: IdVec<Ring, RingRange>,
+    /// The sectors of hidden faces between two borders, sorted: these have no chamfer of their own.
+    pub followers: Vec<Follower>,
     /// The sectors of all rings, counter-clockwise; an open ring begins and ends at borders.
     pub members: Vec<Sector>,
+}
+
+/// A sector at the border of a hidden face.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Follower {
+    pub sector: Sector,
+    /// The sector in front of it.
+    pub leader: Sector,
+    /// The half-edge of the border.
+    pub border: Corner,
 }
 
 /// Where a ring's sectors stand.
@@ -81,6 +90,7 @@ pub fn sectors(topology: &Topology, edges: &Edges) -> Sectors {
         sector_of: IdVec::filled(Sector::NONE, topology.twin.len()),
         fans: IdVec::default(),
         rings: IdVec::default(),
+        followers: Vec::new(),
         members: Vec::new(),
     };
     for edge in edges.hard.iter().filter(|edge| edge.skipped.is_none()) {
@@ -89,13 +99,34 @@ pub fn sectors(topology: &Topology, edges: &Edges) -> Sectors {
             add_fan(topology, edges, &mut sectors, side.next());
         }
     }
-    for &side in &edges.receding {
-        add_fan(topology, edges, &mut sectors, side);
-        add_fan(topology, edges, &mut sectors, side.next());
+    for hidden in &topology.hidden {
+        add_follower(topology, edges, &mut sectors, hidden);
     }
+    sectors.followers.sort_unstable();
     join_rings(topology, &mut sectors);
     mark_meeting_borders(topology, &mut sectors);
     sectors
+}
+
+/// Adds the fans at both ends of a hidden face's border, where the face in front of it may move.
+fn add_follower(topology: &Topology, edges: &Edges, sectors: &mut Sectors, hidden: &Hidden) {
+    let Hidden { half_edge, behind } = *hidden;
+    let mut leaders = [behind, behind.next()];
+    if topology.cluster_at[half_edge] != topology.cluster_at[behind] {
+        leaders.reverse();
+    }
+    for (corner, leader) in [half_edge, half_edge.next()].into_iter().zip(leaders) {
+        let leader = sectors.sector_of[leader];
+        if leader.is_none() {
+            continue;
+        }
+        add_fan(topology, edges, sectors, corner);
+        let sector = sectors.sector_of[corner];
+        let Fan { first, last, .. } = sectors.fans[sector];
+        if [first, last.prev()].iter().all(|&side| topology.twin[side].is_none()) {
+            sectors.followers.push(Follower { sector, leader, border: half_edge });
+        }
+    }
 }
 
 /// Adds the fan that the corner lies in, if it is not there yet.
@@ -120,7 +151,6 @@ fn add_fan(topology: &Topology, edges: &Edges, sectors: &mut Sectors, corner: Co
         last,
         next: Sector::NONE,
         starts_at_border,
-        recedes: [first, last.prev()].map(|side| edges.receding.binary_search(&side).is_ok()),
         borders_meet: false,
         ring: Ring::NONE,
     });

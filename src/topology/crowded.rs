@@ -40,7 +40,7 @@ pub struct Crowd {
     pub is_contact: bool,
 }
 
-/// A half-edge that is left over where the others of its edge are paired.
+/// A half-edge that is left over where others of its edge are paired in front of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Hidden {
     pub half_edge: Corner,
@@ -284,13 +284,15 @@ impl Around {
         pairs.iter().map(|pair| pair.map(|place| self.faces[place].half_edge)).collect()
     }
 
-    /// What a face that is left over lies behind: the visible face whose plane is nearest.
+    /// What a face that is left over lies behind: the visible face whose plane is nearest. None if
+    /// it lies on a visible one, as a copy does: that is seen as well.
     fn hidden(&self, seen: &[usize], place: usize) -> Option<Hidden> {
         let face = &self.faces[place];
         let lean = |other: usize| self.faces[other].inward.cross(face.inward).length_squared();
         let nearest = seen.iter().min_by(|&&a, &&b| lean(a).total_cmp(&lean(b)))?;
-        let behind = self.faces[*nearest].half_edge;
-        Some(Hidden { half_edge: face.half_edge, behind })
+        let nearest = &self.faces[*nearest];
+        let is_copy = nearest.inward.dot(face.inward) > SAME_DIRECTION;
+        (!is_copy).then_some(Hidden { half_edge: face.half_edge, behind: nearest.half_edge })
     }
 }
 
@@ -307,4 +309,252 @@ fn pseudo_angle(direction: DVec3, x: DVec3, y: DVec3) -> f64 {
     let (along, across) = (direction.dot(x), direction.dot(y));
     let ratio = along / (along.abs() + across.abs());
     if across >= 0.0 { 1.0 - ratio } else { 3.0 + ratio }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ids::Id;
+    use crate::mesh::{Mesh, MeshBuffers};
+    use crate::options::Options;
+    use crate::view::view;
+
+    /// A face that leaves the edge at an angle in degrees, counter-clockwise as the drawings show
+    /// it, and looks that way round too (`Left`), or the other way (`Right`).
+    #[derive(Clone, Copy, PartialEq)]
+    enum Look {
+        Left(f64),
+        Right(f64),
+    }
+    use Look::{Left, Right};
+
+    /// Triangles over one edge along z, each with vertices of its own. The half-edge on the edge is
+    /// the first of its triangle.
+    fn fan(faces: &[Look]) -> MeshBuffers {
+        let mut mesh = MeshBuffers::default();
+        for &face in faces {
+            let (Left(degrees) | Right(degrees)) = face;
+            let (y, x) = degrees.to_radians().sin_cos();
+            let [bottom, top] = [[0.0; 3], [0.0, 0.0, 1.0]];
+            let far = [x as f32, y as f32, 0.5];
+            let (ends, sign) = match face {
+                Left(_) => ([bottom, top], 1.0),
+                Right(_) => ([top, bottom], -1.0),
+            };
+            let first = mesh.positions.len() as u32;
+            mesh.positions.extend([ends[0], ends[1], far]);
+            mesh.normals.extend([[-far[1] * sign, far[0] * sign, 0.0]; 3]);
+            mesh.indices.extend([first, first + 1, first + 2]);
+        }
+        mesh.submesh_index_counts = vec![mesh.indices.len() as u32];
+        mesh
+    }
+
+    fn crowd_of(mesh: &Mesh, faces: &[Look]) -> Crowd {
+        let view = view(mesh, &Options::default()).unwrap();
+        let half_edges = (0..faces.len()).map(|face| Corner::new(3 * face));
+        let looks_left = |corner: &Corner| matches!(faces[corner.index() / 3], Left(_));
+        let (forth, back): (Vec<_>, Vec<_>) = half_edges.partition(looks_left);
+        crowd(&view, &forth, &back)
+    }
+
+    /// The pairs, each and all sorted, and what is left over behind what, as places of faces.
+    fn sorted(found: &Crowd) -> (Vec<[usize; 2]>, Vec<[usize; 2]>) {
+        let face = |corner: Corner| corner.index() / 3;
+        let mut pairs: Vec<[usize; 2]> = found.pairs.iter().map(|pair| pair.map(face)).collect();
+        pairs.iter_mut().for_each(|pair| pair.sort_unstable());
+        pairs.sort_unstable();
+        let hidden = |hidden: &Hidden| [face(hidden.half_edge), face(hidden.behind)];
+        (pairs, found.hidden.iter().map(hidden).collect())
+    }
+
+    /// What is found, whatever the order in which the faces come; and whether solids touch.
+    fn found(faces: &[Look]) -> (Vec<[usize; 2]>, Vec<[usize; 2]>, bool) {
+        let first = crowd_of(&fan(faces).as_mesh(), faces);
+        let (pairs, hidden) = sorted(&first);
+        let count = faces.len();
+        for turn in 1..count {
+            let turned: Vec<Look> = (0..count).map(|k| faces[(k + turn) % count]).collect();
+            let again = crowd_of(&fan(&turned).as_mesh(), &turned);
+            let back =
+                |list: Vec<[usize; 2]>| list.into_iter().map(|p| p.map(|k| (k + turn) % count));
+            let (again_pairs, again_hidden) = sorted(&again);
+            let mut renamed: Vec<[usize; 2]> = back(again_pairs).collect();
+            renamed.iter_mut().for_each(|pair| pair.sort_unstable());
+            renamed.sort_unstable();
+            assert_eq!(renamed, pairs, "beginning with face {turn}");
+            assert_eq!(
+                back(again_hidden).collect::<Vec<_>>(),
+                hidden,
+                "beginning with face {turn}"
+            );
+            assert_eq!(again.is_contact, first.is_contact);
+        }
+        (pairs, hidden, first.is_contact)
+    }
+
+    //  # # # # # #
+    //  --1--+--0--     The ceiling 0 meets the wall 2. Its lid, 1, is inside, where nobody sees it.
+    //  # # #|
+    //  # # #|2
+    #[test]
+    fn of_three_walls_the_one_behind_the_others_is_left_over() {
+        let walls = [Right(0.0), Right(180.0), Left(270.0)];
+        assert_eq!(found(&walls), (vec![[0, 2]], vec![[1, 0]], false));
+    }
+
+    //  |1
+    //  |# # 2
+    //  |# / #          The same with a wall inside an outer edge.
+    //  |/ # #
+    //  +----0--
+    #[test]
+    fn a_wall_inside_an_outer_edge_is_left_over() {
+        let walls = [Right(0.0), Left(90.0), Right(50.0)];
+        assert_eq!(found(&walls), (vec![[0, 1]], vec![[2, 1]], false));
+    }
+
+    //  --2--+--0--
+    //  # # # \ # #     A house cut at its mirror plane: the wall at the cut, 1, is still there.
+    //  # # # #\1 #
+    #[test]
+    fn a_wall_at_a_cut_is_left_over_below_a_roof_that_runs_on() {
+        let roof = [Left(0.0), Left(300.0), Right(180.0)];
+        assert_eq!(found(&roof).0, [[0, 2]]);
+        assert_eq!(found(&roof).1.len(), 1);
+    }
+
+    //       |1
+    //       |          A wall with one side on a smooth floor. Behind it there may be another room,
+    //  --2--+--0--     in which the floor is seen.
+    //  # # # # # #
+    #[test]
+    fn a_smooth_floor_runs_on_below_a_wall() {
+        let room = [Left(0.0), Left(90.0), Right(180.0)];
+        let (pairs, hidden, _) = found(&room);
+        assert_eq!((pairs, hidden[0][0]), (vec![[0, 2]], 1));
+        // A floor that bends there is two floors, and 2 meets the wall.
+        let bent = [Left(20.0), Left(90.0), Right(180.0)];
+        assert_eq!(found(&bent), (vec![[1, 2]], vec![[0, 2]], false));
+    }
+
+    //  2_ # #1   3# #
+    //  # `-_# \ / # #    Two solids with air between them and below; 2 is inside one of them.
+    //  ----0---+---4--
+    #[test]
+    fn five_walls() {
+        let walls = [Left(180.0), Right(110.0), Right(150.0), Left(70.0), Right(0.0)];
+        let (pairs, hidden, is_contact) = found(&walls);
+        assert_eq!(pairs, [[0, 1], [3, 4]]);
+        assert_eq!((hidden.len(), hidden[0][0], is_contact), (1, 2, true));
+    }
+
+    //  # #1  3 # 2 #
+    //  # # \ | / # #    One solid, seen from below, with three walls inside: two of them face each
+    //  ----4-+-0----   other and keep to themselves.
+    #[test]
+    fn of_five_walls_two_are_seen() {
+        let walls = [Right(0.0), Left(130.0), Right(50.0), Right(80.0), Left(180.0)];
+        let (pairs, hidden, is_contact) = found(&walls);
+        assert_eq!((pairs.len(), pairs[0]), (2, [0, 4]));
+        assert!(pairs[1].contains(&1) && !is_contact);
+        assert_eq!(hidden.len(), 1);
+    }
+
+    //      2||1
+    //       ||         A wall with two sides between two rooms. It has nothing to cut off, and no
+    //  --3--++--0--    chamfer of the floor may leave it.
+    //  # # # # # #
+    #[test]
+    fn a_wall_with_two_sides_stands_on_its_floor() {
+        let rooms = [Left(0.0), Right(90.0), Left(90.0), Right(180.0)];
+        assert_eq!(found(&rooms), (vec![[0, 3], [1, 2]], vec![], true));
+    }
+
+    //   3||2
+    //    |+--1--       Two sheets of two sides: the outer skin, and the inner one.
+    //    +---0--
+    #[test]
+    fn sheets_are_paired_skin_by_skin() {
+        let sheets = [Right(0.0), Left(0.0), Right(90.0), Left(90.0)];
+        assert_eq!(found(&sheets), (vec![[0, 3], [1, 2]], vec![], false));
+    }
+
+    //      3||2
+    //  --4--+ +--1--   Three of them: each room has its own walls.
+    //  --5-------0--
+    #[test]
+    fn three_sheets_are_paired_room_by_room() {
+        let sheets = [Right(0.0), Left(0.0), Right(90.0), Left(90.0), Right(180.0), Left(180.0)];
+        assert_eq!(found(&sheets), (vec![[0, 5], [1, 2], [3, 4]], vec![], false));
+    }
+
+    //   1||2
+    //  # ||# #         Two boxes side by side, flush at the bottom: they stay two, and no fin
+    //  # || # #        stands between them.
+    //  -0-+---3--
+    #[test]
+    fn flush_boxes_stay_two() {
+        let boxes = [Left(180.0), Right(90.0), Left(90.0), Right(0.0)];
+        assert_eq!(found(&boxes), (vec![[0, 1], [2, 3]], vec![], false));
+        // And so they do where one reaches further down.
+        let step = [Left(225.0), Right(90.0), Left(90.0), Right(0.0)];
+        assert_eq!(found(&step), (vec![[0, 1], [2, 3]], vec![], false));
+    }
+
+    //  # # |1
+    //  # # |           Two boxes that touch along one edge: between them one looks through.
+    //  --0-+-3---
+    //      | # #
+    //     2| # #
+    #[test]
+    fn boxes_that_touch_along_an_edge_are_a_contact() {
+        let boxes = [Left(180.0), Right(90.0), Left(0.0), Right(270.0)];
+        assert_eq!(found(&boxes), (vec![[0, 1], [2, 3]], vec![], true));
+        // Knife against knife, as in a ring of flat bars.
+        let knives = [Right(0.0), Left(140.0), Right(195.0), Left(311.0)];
+        assert_eq!(found(&knives), (vec![[0, 1], [2, 3]], vec![], true));
+    }
+
+    //  1|# # #
+    //  2|# # #         A solid, and an exact copy of it: 0 and 3 lie on each other as well.
+    //   +==0,3
+    #[test]
+    fn of_copies_each_keeps_its_own_faces() {
+        let copies = [Right(0.0), Left(90.0), Left(90.0), Right(0.0)];
+        let mut mesh = fan(&copies);
+        // The half-edges of 0 and 2 share their vertices, and so do those of 1 and 3.
+        for (one, other) in [(6, 1), (7, 0), (3, 10), (4, 9)] {
+            mesh.indices[one] = other;
+        }
+        let found = sorted(&crowd_of(&mesh.as_mesh(), &copies));
+        assert_eq!(found, (vec![[0, 2], [1, 3]], vec![]));
+        // A copy of one face lies behind nothing.
+        let three = crowd_of(&fan(&copies[..3]).as_mesh(), &copies[..3]);
+        assert_eq!((three.pairs.len(), three.hidden.len()), (1, 0));
+    }
+
+    #[test]
+    fn what_lies_on_the_first_face_but_for_rounding_does_not_come_last() {
+        let boxes = [Left(180.0), Right(90.0), Left(90.0), Right(0.0)];
+        for off in [-1e-3, 1e-3] {
+            let rounded = boxes.map(|face| match face {
+                Left(90.0) => Left(90.0 + off),
+                other => other,
+            });
+            assert_eq!(found(&rounded), (vec![[0, 1], [2, 3]], vec![], false));
+        }
+    }
+
+    #[test]
+    fn many_faces_on_one_edge_are_paired_too() {
+        let solids = (0..5_000).flat_map(|k| {
+            let start = 0.07 * f64::from(k);
+            [Right(start), Left(start + 0.03)]
+        });
+        let faces: Vec<Look> = solids.collect();
+        let (pairs, hidden) = sorted(&crowd_of(&fan(&faces).as_mesh(), &faces));
+        assert!(pairs.iter().enumerate().all(|(k, pair)| *pair == [2 * k, 2 * k + 1]));
+        assert_eq!((pairs.len(), hidden.len()), (5_000, 0));
+    }
 }
