@@ -119,16 +119,9 @@ fn follow(
     let at = view.position_at(within);
     let paths = followers.iter().map(|follower| Path::new(view, normal, at, follower));
     let paths: Few<Path> = paths.collect();
-    let step = |k: usize| paths[k].step(offsets[followers[k].leader].vector);
-    let vector = match *followers {
-        [one, other] if one.leader != other.leader => {
-            // The chamfer of the edge that leaves a corner outwards cuts the corner off. It covers
-            // one that goes inwards.
-            let is_convex = paths[0].inward.dot(paths[1].along) > 0.0;
-            if is_convex { step(0) + step(1) } else { DVec3::ZERO }
-        }
-        _ => step(0),
-    };
+    let leads: Few<DVec3> =
+        followers.iter().map(|follower| offsets[follower.leader].vector).collect();
+    let vector = step(&paths, &leads, normal);
     let foot = locate(view, within, at, vector)?;
     let offset = Offset { vector, within, foot, is_capped: false };
     vector.is_finite().then_some(offset)
@@ -149,13 +142,35 @@ impl Path {
         Path { along: if from == at { along } else { -along }, inward: normal.cross(along) }
     }
 
-    /// What the face does where the one in front of it moves by a vector. Where that leads inwards
-    /// it goes in as far: a chamfer is less deep anywhere between its sides.
-    fn step(&self, leads: DVec3) -> DVec3 {
-        let along = leads.dot(self.along);
-        let inward =
-            if leads.dot(self.inward) > 0.0 { (leads - self.along * along).length() } else { 0.0 };
-        self.along * along + self.inward * inward
+    /// How far the face goes in where the one in front of it moves by a vector. Where that leads
+    /// in at all it goes as far: a chamfer is less deep anywhere between its sides.
+    fn depth(&self, lead: DVec3) -> f64 {
+        let is_inward = lead.dot(self.inward) > 0.0;
+        if is_inward { (lead - self.along * lead.dot(self.along)).length() } else { 0.0 }
+    }
+
+    /// The same, and never past the end of the border.
+    fn step(&self, lead: DVec3) -> DVec3 {
+        self.along * lead.dot(self.along).max(0.0) + self.inward * self.depth(lead)
+    }
+}
+
+/// How a hidden face moves at a corner of its borders, behind faces that lead by some vectors.
+fn step(paths: &[Path], leads: &[DVec3], normal: DVec3) -> DVec3 {
+    let &[ref one, ref other] = paths else { return paths[0].step(leads[0]) };
+    let (lead, is_same) = (leads[0], leads[0] == leads[1]);
+    if is_same && one.along.dot(other.along) < -CREASE_COSINE {
+        // The border runs on: its vertex may slide either way.
+        one.along * lead.dot(one.along) + one.inward * one.depth(lead)
+    } else if is_same {
+        let is_inward = paths.iter().all(|path| lead.dot(path.inward) >= 0.0);
+        if is_inward { lead - normal * lead.dot(normal) } else { DVec3::ZERO }
+    } else if one.inward.dot(other.along) > 0.0 {
+        // The chamfer of the edge that leaves here cuts the corner off.
+        one.step(leads[0]) + other.step(leads[1])
+    } else {
+        // It covers a corner that goes inwards.
+        DVec3::ZERO
     }
 }
 
