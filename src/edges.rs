@@ -98,7 +98,11 @@ fn obstacle(topology: &Topology, faces: &Faces, side: Corner, other: Corner) -> 
         return Some(Reason::NoArea);
     }
     let is_doubled = topology.doubled.binary_search(&side).is_ok();
-    (is_doubled || one.dot(two) < BACK_TO_BACK_COSINE).then_some(Reason::ZeroThickness)
+    if is_doubled || one.dot(two) < BACK_TO_BACK_COSINE {
+        return Some(Reason::ZeroThickness);
+    }
+    // A chamfer of one solid would let light through to the air behind the contact.
+    topology.is_contact(side).then_some(Reason::Contact)
 }
 
 /// The UV channels that differ between two half-edges that are twins, as bits.

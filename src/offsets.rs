@@ -12,11 +12,11 @@ use glam::DVec3;
 
 use crate::edges::{is_hard, seam_between};
 use crate::faces::Faces;
-use crate::ids::{Corner, Id, IdVec, Sector};
+use crate::ids::{Corner, Few, Id, IdVec, Sector};
 use crate::math::{Turn, area_vector, unit};
 use crate::mesh::UV_CHANNELS;
 use crate::resample::{Foot, locate, uv_at};
-use crate::sectors::{Fan, Sectors};
+use crate::sectors::{Fan, Follower, Sectors};
 use crate::topology::Topology;
 use crate::view::View;
 
@@ -78,7 +78,7 @@ pub fn offsets(
     faces: &Faces,
     sectors: &Sectors,
 ) -> IdVec<Sector, Offset> {
-    view.threads.map_with(sectors.fans.len(), Vec::new, |spread, sector| {
+    let mut offsets = view.threads.map_with(sectors.fans.len(), Vec::new, |spread, sector| {
         unfold(view, topology, sectors, sector, spread);
         let fan = &sectors.fans[sector];
         let chosen = course(view, topology, faces, fan, spread)
@@ -89,7 +89,89 @@ pub fn offsets(
             foot: Foot::at(fan.first),
             is_capped: false,
         })
-    })
+    });
+    for followers in sectors.followers.chunk_by(|one, other| one.sector == other.sector) {
+        let sector = followers[0].sector;
+        let corners: Vec<Corner> = sectors.corners(topology, sector).collect();
+        if let Some(offset) = follow(view, faces, &offsets, &corners, followers) {
+            offsets[sector] = offset;
+        }
+    }
+    offsets
+}
+
+/// A hidden face stays behind the visible ones: its corner goes along with theirs, as far as its
+/// own plane lets it, but never out of the solid. None where the fan has no plane.
+fn follow(
+    view: &View,
+    faces: &Faces,
+    offsets: &IdVec<Sector, Offset>,
+    corners: &[Corner],
+    followers: &[Follower],
+) -> Option<Offset> {
+    let area = |corner: &&Corner| area_vector(view.triangle(corner.triangle())).length_squared();
+    let &within = corners.iter().max_by(|one, other| area(one).total_cmp(&area(other)))?;
+    let normal = faces.normal[within.triangle()];
+    let is_level = |corner: &Corner| faces.normal[corner.triangle()].dot(normal) > LEVEL_COSINE;
+    if !corners.iter().all(is_level) {
+        return None;
+    }
+    let at = view.position_at(within);
+    let paths = followers.iter().map(|follower| Path::new(view, normal, at, follower));
+    let paths: Few<Path> = paths.collect();
+    let leads: Few<DVec3> =
+        followers.iter().map(|follower| offsets[follower.leader].vector).collect();
+    let vector = step(&paths, &leads, normal);
+    let foot = locate(view, within, at, vector)?;
+    let offset = Offset { vector, within, foot, is_capped: false };
+    vector.is_finite().then_some(offset)
+}
+
+/// The border of a hidden face at one of its ends.
+struct Path {
+    /// From there along the border.
+    along: DVec3,
+    /// From the border into the face.
+    inward: DVec3,
+}
+
+impl Path {
+    fn new(view: &View, normal: DVec3, at: DVec3, follower: &Follower) -> Path {
+        let [from, to] = [follower.border, follower.border.next()].map(|end| view.position_at(end));
+        let along = unit(to - from);
+        Path { along: if from == at { along } else { -along }, inward: normal.cross(along) }
+    }
+
+    /// How far the face goes in where the one in front of it moves by a vector. Where that leads
+    /// in at all it goes as far: a chamfer is less deep anywhere between its sides.
+    fn depth(&self, lead: DVec3) -> f64 {
+        let is_inward = lead.dot(self.inward) > 0.0;
+        if is_inward { (lead - self.along * lead.dot(self.along)).length() } else { 0.0 }
+    }
+
+    /// The same, and never past the end of the border.
+    fn step(&self, lead: DVec3) -> DVec3 {
+        self.along * lead.dot(self.along).max(0.0) + self.inward * self.depth(lead)
+    }
+}
+
+/// How a hidden face moves at a corner of its borders, behind faces that lead by some vectors.
+fn step(paths: &[Path], leads: &[DVec3], normal: DVec3) -> DVec3 {
+    let &[ref one, ref other] = paths else { return paths[0].step(leads[0]) };
+    let (lead, is_same) = (leads[0], leads[0] == leads[1]);
+    if is_same && one.along.dot(other.along) < -CREASE_COSINE {
+        // The border runs on: its vertex may slide either way.
+        one.along * lead.dot(one.along) + one.inward * one.depth(lead)
+    } else if is_same {
+        let is_inward = paths.iter().all(|path| lead.dot(path.inward) >= 0.0);
+        if is_inward { lead - normal * lead.dot(normal) } else { DVec3::ZERO }
+    } else if one.inward.dot(other.along) > 0.0 {
+        // The chamfer of the edge that leaves here cuts the corner off.
+        one.step(leads[0]) + other.step(leads[1])
+    } else {
+        // It covers a corner that goes inwards.
+        DVec3::ZERO
+    }
 }
 
 /// A corner of a fan, unfolded into the plane.
@@ -144,6 +226,8 @@ fn course(
     let (first, last) = (spread.first()?, spread.last()?);
     let total = last.start.plus(last.angle);
     match (fan.starts_at_border, fan.ends_at_border()) {
+        // Light would show where one of the solids left the contact.
+        _ if holds_contact(topology, spread) => None,
         (true, true) => None,
         // Parts that only touch, as at a T-junction, would gape where one of them moves.
         (true, false) | (false, true) if fan.borders_meet => None,
@@ -164,6 +248,12 @@ fn course(
             Crease::Several => None,
         },
     }
+}
+
+/// Whether solids touch along an edge inside the fan.
+fn holds_contact(topology: &Topology, spread: &[Blade]) -> bool {
+    !topology.contacts.is_empty()
+        && spread.iter().skip(1).any(|blade| topology.is_contact(blade.corner))
 }
 
 /// Along the direction at half the fan's angle.

@@ -6,7 +6,7 @@
 
 use crate::edges::Edges;
 use crate::ids::{Cluster, Corner, Id, IdVec, Ring, Sector};
-use crate::topology::Topology;
+use crate::topology::{Hidden, Topology};
 
 /// An ordered fan of corners, counter-clockwise seen from outside.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,8 +37,20 @@ pub struct Sectors {
     pub fans: IdVec<Sector, Fan>,
     /// `#rings`: a range of `members` each, and whether it closes.
     pub rings: IdVec<Ring, RingRange>,
+    /// The sectors of hidden faces between two borders, sorted: these have no chamfer of their own.
+    pub followers: Vec<Follower>,
     /// The sectors of all rings, counter-clockwise; an open ring begins and ends at borders.
     pub members: Vec<Sector>,
+}
+
+/// A sector at the border of a hidden face.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Follower {
+    pub sector: Sector,
+    /// The sector in front of it.
+    pub leader: Sector,
+    /// The half-edge of the border.
+    pub border: Corner,
 }
 
 /// Where a ring's sectors stand.
@@ -78,6 +90,7 @@ pub fn sectors(topology: &Topology, edges: &Edges) -> Sectors {
         sector_of: IdVec::filled(Sector::NONE, topology.twin.len()),
         fans: IdVec::default(),
         rings: IdVec::default(),
+        followers: Vec::new(),
         members: Vec::new(),
     };
     for edge in edges.hard.iter().filter(|edge| edge.skipped.is_none()) {
@@ -86,9 +99,34 @@ pub fn sectors(topology: &Topology, edges: &Edges) -> Sectors {
             add_fan(topology, edges, &mut sectors, side.next());
         }
     }
+    for hidden in &topology.hidden {
+        add_follower(topology, edges, &mut sectors, hidden);
+    }
+    sectors.followers.sort_unstable();
     join_rings(topology, &mut sectors);
     mark_meeting_borders(topology, &mut sectors);
     sectors
+}
+
+/// Adds the fans at both ends of a hidden face's border, where the face in front of it may move.
+fn add_follower(topology: &Topology, edges: &Edges, sectors: &mut Sectors, hidden: &Hidden) {
+    let Hidden { half_edge, behind } = *hidden;
+    let mut leaders = [behind, behind.next()];
+    if topology.cluster_at[half_edge] != topology.cluster_at[behind] {
+        leaders.reverse();
+    }
+    for (corner, leader) in [half_edge, half_edge.next()].into_iter().zip(leaders) {
+        let leader = sectors.sector_of[leader];
+        if leader.is_none() {
+            continue;
+        }
+        add_fan(topology, edges, sectors, corner);
+        let sector = sectors.sector_of[corner];
+        let Fan { first, last, .. } = sectors.fans[sector];
+        if [first, last.prev()].iter().all(|&side| topology.twin[side].is_none()) {
+            sectors.followers.push(Follower { sector, leader, border: half_edge });
+        }
+    }
 }
 
 /// Adds the fan that the corner lies in, if it is not there yet.
@@ -147,10 +185,13 @@ fn mark_meeting_borders(topology: &Topology, sectors: &mut Sectors) {
     }
 }
 
-/// The clusters, sorted, that several borders run through.
+/// The clusters, sorted, that several borders run through, but for those of hidden faces: nobody
+/// sees these gape.
 fn meeting_borders(topology: &Topology) -> Vec<Cluster> {
     let is_border = |corner: &Corner| {
-        topology.twin[*corner].is_none() && !topology.is_collapsed(corner.triangle())
+        topology.twin[*corner].is_none()
+            && !topology.is_collapsed(corner.triangle())
+            && !topology.is_hidden(*corner)
     };
     let borders = topology.twin.ids().filter(is_border);
     let mut starts: Vec<Cluster> = borders.map(|corner| topology.cluster_at[corner]).collect();
