@@ -82,10 +82,12 @@ pub fn border_lines(mesh: &Mesh) -> Vec<[DVec3; 2]> {
     open_borders(&topology).map(line).collect()
 }
 
-/// The half-edges without twin.
+/// The half-edges without twin, but for those of hidden faces: these follow what they lie behind.
 fn open_borders(topology: &Topology) -> impl Iterator<Item = Corner> + '_ {
     topology.twin.ids().filter(|&corner| {
-        topology.twin[corner].is_none() && !topology.is_collapsed(corner.triangle())
+        topology.twin[corner].is_none()
+            && !topology.is_collapsed(corner.triangle())
+            && !topology.is_hidden(corner)
     })
 }
 
