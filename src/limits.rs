@@ -5,6 +5,7 @@
 //! leave, build strips and fills, shrink the sectors of whatever fails, and give back what is safe.
 //! A ring that still fails keeps its old position, so the result is never worse than the source.
 
+mod breadth;
 mod cells;
 mod collisions;
 mod parts;
@@ -24,6 +25,7 @@ use crate::report::Reason;
 use crate::strips;
 use crate::validity::{opens_along, stays_line, survives};
 
+pub use breadth::deep;
 pub use parts::Parts;
 
 /// How much a sector that takes part in something bad keeps in each round.
@@ -267,6 +269,7 @@ fn surface_is_valid(plan: &Plan, placement: &Placement, triangle: Triangle) -> b
             && opens_along(old, new, facing(plan, placement, triangle).map(unit), resolution)
     } else {
         survives(old, new)
+            && breadth::is_kept(plan, triangle, [old, new])
             && still_faces_out(plan, placement, triangle, [old, new])
     }
 }

@@ -4,8 +4,8 @@ use std::sync::{Arc, OnceLock};
 
 use crate::edges::Edges;
 use crate::faces::Faces;
-use crate::ids::{IdVec, Sector};
-use crate::limits::Parts;
+use crate::ids::{Cluster, IdVec, Sector};
+use crate::limits::{Parts, deep};
 use crate::offsets::Offset;
 use crate::sectors::Sectors;
 use crate::topology::Topology;
@@ -35,13 +35,16 @@ pub struct Plan<'a> {
     parts: Arc<OnceLock<Parts>>,
     /// `#sectors`: the move at full width.
     pub offsets: IdVec<Sector, Offset>,
+    /// `#clusters`: whether a face goes on behind a vertex inside of it.
+    pub deep: IdVec<Cluster, bool>,
 }
 
 impl<'a> Plan<'a> {
     /// What is known of a mesh, with the moves at one width.
     pub fn new(view: View<'a>, shape: &Shape, offsets: IdVec<Sector, Offset>) -> Plan<'a> {
         let Shape { weld, topology, faces, edges, sectors, parts } = shape.clone();
-        Plan { view, weld, topology, faces, edges, sectors, parts, offsets }
+        let deep = deep(&topology, &sectors, weld.first_vertex.len());
+        Plan { view, weld, topology, faces, edges, sectors, parts, offsets, deep }
     }
 
     /// The parts with chamfered edges, which no width has a say in either.
@@ -61,8 +64,12 @@ pub mod tests {
 
     /// The plan of a sound mesh for a width in mesh units.
     pub fn plan_of(mesh: &MeshBuffers, width: f32) -> Plan<'_> {
-        let options = Options { width: Width::Units(width), ..Options::default() };
-        let view = view(&mesh.as_mesh(), &options).unwrap();
+        plan_with(mesh, &Options { width: Width::Units(width), ..Options::default() })
+    }
+
+    /// The plan of a sound mesh.
+    pub fn plan_with<'a>(mesh: &'a MeshBuffers, options: &Options) -> Plan<'a> {
+        let view = view(&mesh.as_mesh(), options).unwrap();
         let weld = weld(&view.mesh);
         let shape = shape(&view, weld, &mut |_| Ok(())).unwrap();
         plan(view, &shape)
