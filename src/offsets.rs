@@ -20,10 +20,11 @@ use crate::sectors::{Fan, Follower, Sectors};
 use crate::topology::Topology;
 use crate::view::View;
 
-/// No vertex moves farther than this many widths: between edges that meet at less than 11.5
-/// degrees the exact distance shoots out as a spike. The thesis gives up there (modifiers above
-/// 10); moving less far keeps a narrower chamfer.
-const MITER_LIMIT: f64 = 10.0;
+/// No vertex moves farther than this many widths: between edges that meet at less than 39 degrees
+/// the exact distance shoots out, and a tip would lose its point. The corners of ramps and
+/// triangles, from 45 degrees on, still get the exact one. The thesis gives up there (modifiers
+/// above 10); moving less far keeps a chamfer, which narrows towards the tip.
+const MITER_LIMIT: f64 = 3.0;
 
 /// Faces that meet at more than five degrees would visibly bend if a vertex left their common
 /// edge for one of them. A round surface of 72 facets or more is smooth enough to be cut across.
@@ -565,5 +566,47 @@ mod tests {
         let tip = offsets_at(&blade, 0.01, [0.0, 0.0, 1.0], [0.0, 0.0, 1.0]);
         assert!(tip[0].is_capped);
         assert!((tip[0].vector.length() - 0.01 * MITER_LIMIT).abs() < 1e-6);
+    }
+
+    // 2
+    // | .            a ramp: at its toe the edges meet at 45 degrees
+    // |    .
+    // 0--------1
+    #[test]
+    fn the_toe_of_a_ramp_gets_the_exact_distance() {
+        let side = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
+        let points: Vec<[f32; 3]> =
+            [0.0, 1.0].into_iter().flat_map(|z| side.map(|[x, y]| [x, y, z])).collect();
+        let indices = vec![0, 2, 1, 3, 4, 5, 0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4, 2, 0, 3, 2, 3, 5];
+        let ramp = split(&points, indices);
+        let toe = offsets_at(&ramp, 0.01, [1.0, 0.0, 1.0], [0.0, 0.0, 1.0]);
+        assert!(!toe[0].is_capped);
+        let exact = 0.01 / (std::f64::consts::FRAC_PI_4 / 2.0).sin();
+        assert!((toe[0].vector.length() - exact).abs() < 1e-6);
+    }
+
+    /// All sectors at the tip are sharp: their angles are 16 degrees, and the exact distance would
+    /// be seven widths.
+    #[test]
+    fn no_vertex_goes_farther_than_three_widths() {
+        let cone = shapes::pyramid(16);
+        let plan = plan_of(&cone, 0.01);
+        let ways = plan.offsets.iter().map(|offset| offset.vector.length());
+        let longest = ways.fold(0.0, f64::max);
+        assert!((longest - 0.03).abs() < 1e-6, "{longest}");
+    }
+
+    //              .  3
+    //          .     /     the edge 0-3 is hard, 0-1 a border: sliding along it, the vertex at 0
+    //      .        /      would be a width away from the edge after nine
+    //  0 --------- 1
+    #[test]
+    fn a_vertex_does_not_slide_far_along_a_border() {
+        let points = [[0.0, 0.0, 0.0], [9.0, 0.0, 0.0], [9.0, -3.0, 0.0], [9.0, 1.0, 0.0]];
+        let folded = [[9.0, 1.0, -5.0]];
+        let sheet = split(&[&points[..], &folded[..]].concat(), vec![0, 1, 3, 0, 3, 4]);
+        let at_origin = offsets_at(&sheet, 0.01, [0.0; 3], [0.0, 0.0, 1.0]);
+        assert!(at_origin[0].is_capped);
+        assert_goes(&at_origin, [0.01 * MITER_LIMIT, 0.0, 0.0]);
     }
 }
