@@ -102,6 +102,16 @@ impl<'a> Surface<'a> {
         self.cluster_of[self.mesh.indices[corner as usize] as usize]
     }
 
+    /// The vertex of a corner.
+    pub fn vertex(&self, corner: u32) -> usize {
+        self.mesh.indices[corner as usize] as usize
+    }
+
+    /// `#vertices`: the first vertex at the same position.
+    pub fn clusters(&self) -> &[u32] {
+        &self.cluster_of
+    }
+
     /// Whether two opposite half-edges have the same normals at both ends.
     pub fn is_soft(&self, a: &HalfEdge, b: &HalfEdge) -> bool {
         [0, 1].iter().all(|&end| self.share_normal([a.corners[end], b.corners[1 - end]]))
