@@ -158,7 +158,7 @@ impl Path {
 
 /// How a hidden face moves at a corner of its borders, behind faces that lead by some vectors.
 fn step(paths: &[Path], leads: &[DVec3], normal: DVec3) -> DVec3 {
-    let &[ref one, ref other] = paths else { return paths[0].step(leads[0]) };
+    let [one, other] = paths else { return paths[0].step(leads[0]) };
     let (lead, is_same) = (leads[0], leads[0] == leads[1]);
     if is_same && one.along.dot(other.along) < -CREASE_COSINE {
         // The border runs on: its vertex may slide either way.

@@ -41,8 +41,8 @@ pub enum Rule {
     Balance,
     /// No edge is open where the source was closed.
     Gapes,
-    /// As many border loops as in the source. Not checked where the source has a border that
-    /// touches a non-manifold edge: its loops are then a matter of opinion.
+    /// As many border loops as in the source. Where a border of the source touches a non-manifold
+    /// edge, loops are a matter of opinion, and [`Rule::Gapes`] alone tells.
     BorderLoops,
     /// No more edges with more than two sides than in the source.
     NonManifold,

@@ -36,7 +36,8 @@ pub struct Crowd {
     pub pairs: Vec<[Corner; 2]>,
     /// What is left over, each with the visible half-edge that it lies behind.
     pub hidden: Vec<Hidden>,
-    /// Whether air meets air here, between solids that touch.
+    /// Whether a chamfer would let light through: from one gap with air to another, or, where solids
+    /// touch all around, along the edge.
     pub is_contact: bool,
 }
 
@@ -70,7 +71,7 @@ pub fn crowd(view: &View, forth: &[Corner], back: &[Corner]) -> Crowd {
     // Of very many, any one will do.
     let seen: Vec<usize> = seen.take(MOST_FACES).collect();
     let hidden = left.iter().filter_map(|&place| around.hidden(&seen, place)).collect();
-    Crowd { pairs: around.half_edges(&pairs), hidden, is_contact: airs.gaps > 1 }
+    Crowd { pairs: around.half_edges(&pairs), hidden, is_contact: airs.gaps != 1 }
 }
 
 /// The pairs that lie on another pair with both their faces: the two sides of a folded sheet.
