@@ -122,6 +122,18 @@ impl Contacts {
         stretches.iter().any(|stretch| wedge.is_inside_ends(stretch, self.tolerance * 4.0))
     }
 
+    /// Whether something other than the borders of a corner's own position runs through it.
+    pub fn touch_corner(&self, view: &View, topology: &Topology, corner: Corner) -> bool {
+        let (at, cluster) = ([view.position_at(corner); 2], topology.cluster_at[corner]);
+        self.near(at, 0.0).any(|rim| {
+            let is_own = rim.border.is_some()
+                && [rim.border, rim.border.next()]
+                    .iter()
+                    .any(|&c| topology.cluster_at[c] == cluster);
+            !is_own && distance_between(rim.ends, at) < rim.radius.max(self.tolerance)
+        })
+    }
+
     /// What may come within a distance of a segment.
     fn near(&self, segment: [DVec3; 2], reach: f64) -> impl Iterator<Item = &Rim> {
         let tree = self.forest.tree(0);

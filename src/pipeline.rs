@@ -209,7 +209,7 @@ pub(crate) fn shape(view: &View, weld: Weld, done: &mut Done) -> Result<Shape, E
     let contacts = contacts(view, &topology);
     let edges = edges(view, &topology, &faces, &contacts);
     done(Stage::Edges)?;
-    let sectors = sectors(&topology, &edges);
+    let sectors = sectors(view, &topology, &edges, &contacts);
     done(Stage::Sectors)?;
     Ok(Shape {
         weld: weld.into(),

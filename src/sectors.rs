@@ -4,9 +4,11 @@
 //! every other edge; one vertex whose corners lie in two sectors is split later (thesis 6.2,
 //! corner-connected vertices). Sectors that are joined by chamfered edges form a ring.
 
+use crate::contacts::Contacts;
 use crate::edges::Edges;
 use crate::ids::{Cluster, Corner, Id, IdVec, Ring, Sector};
 use crate::topology::{Hidden, Topology};
+use crate::view::View;
 
 /// An ordered fan of corners, counter-clockwise seen from outside.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,7 +21,8 @@ pub struct Fan {
     pub next: Sector,
     /// Whether the first edge is a border.
     pub starts_at_border: bool,
-    /// Whether several borders run through the cluster, of parts that only touch here.
+    /// Whether several borders run through the cluster, of parts that only touch here, or a border
+    /// at all where something outside of the mesh rests on it.
     pub borders_meet: bool,
     pub ring: Ring,
 }
@@ -85,7 +88,7 @@ impl Sectors {
     }
 }
 
-pub fn sectors(topology: &Topology, edges: &Edges) -> Sectors {
+pub fn sectors(view: &View, topology: &Topology, edges: &Edges, contacts: &Contacts) -> Sectors {
     let mut sectors = Sectors {
         sector_of: IdVec::filled(Sector::NONE, topology.twin.len()),
         fans: IdVec::default(),
@@ -104,7 +107,7 @@ pub fn sectors(topology: &Topology, edges: &Edges) -> Sectors {
     }
     sectors.followers.sort_unstable();
     join_rings(topology, &mut sectors);
-    mark_meeting_borders(topology, &mut sectors);
+    mark_meeting_borders(view, topology, contacts, &mut sectors);
     sectors
 }
 
@@ -174,14 +177,23 @@ fn join_rings(topology: &Topology, sectors: &mut Sectors) {
     }
 }
 
-fn mark_meeting_borders(topology: &Topology, sectors: &mut Sectors) {
-    if sectors.fans.iter().all(|fan| !fan.starts_at_border) {
+fn mark_meeting_borders(
+    view: &View,
+    topology: &Topology,
+    contacts: &Contacts,
+    sectors: &mut Sectors,
+) {
+    let is_at_border = |fan: &Fan| fan.starts_at_border || fan.ends_at_border();
+    if !sectors.fans.iter().any(is_at_border) {
         return;
     }
     let meeting = meeting_borders(topology);
     for sector in sectors.fans.ids() {
-        let cluster = topology.cluster_at[sectors.fans[sector].first];
-        sectors.fans[sector].borders_meet = meeting.binary_search(&cluster).is_ok();
+        let fan = sectors.fans[sector];
+        let cluster = topology.cluster_at[fan.first];
+        let meets = meeting.binary_search(&cluster).is_ok()
+            || is_at_border(&fan) && contacts.touch_corner(view, topology, fan.first);
+        sectors.fans[sector].borders_meet = meets;
     }
 }
 
