@@ -20,7 +20,7 @@ const ALIKE_COSINE: f64 = 0.999_975_630_705_4;
 
 /// Two faces back to back: their normals are opposite to within a tenth of a degree. Between them
 /// there is nothing to cut off.
-const BACK_TO_BACK_COSINE: f64 = -0.999_998_476_913_288;
+pub const BACK_TO_BACK_COSINE: f64 = -0.999_998_476_913_288;
 
 /// UV values that differ by less than this share of their size are one: exporters round.
 pub const EQUAL_UV: f32 = 1e-6;
@@ -162,7 +162,7 @@ mod tests {
         let view = view(&mesh, &Options::default()).unwrap();
         let topology = topology(&view, &weld(&mesh));
         let faces = faces(&view, &topology);
-        let contacts = contacts(&view, &topology);
+        let contacts = contacts(&view, &topology, &faces);
         let edges = edges(&view, &topology, &faces, &contacts);
         edges.hard.iter().map(|edge| edge.skipped).collect()
     }

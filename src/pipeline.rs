@@ -206,7 +206,7 @@ pub(crate) fn shape(view: &View, weld: Weld, done: &mut Done) -> Result<Shape, E
     done(Stage::Topology)?;
     let faces = faces(view, &topology);
     done(Stage::Faces)?;
-    let contacts = contacts(view, &topology);
+    let contacts = contacts(view, &topology, &faces);
     let edges = edges(view, &topology, &faces, &contacts);
     done(Stage::Edges)?;
     let sectors = sectors(view, &topology, &edges, &contacts);
