@@ -278,3 +278,6 @@ impl Rests {
         &self.stretches[start as usize..self.ends[edge] as usize]
     }
 }
+
+#[cfg(test)]
+mod tests;
