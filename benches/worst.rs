@@ -25,6 +25,8 @@ const SHAPES: &[(&str, u32, Make)] = &[
     ("stack", 10_000, worst::stack),
     ("moebius strip", 25_000, worst::moebius_strip),
     ("klein bottle", 3_000, worst::klein_bottle),
+    // A million borders, each of which may rest on something.
+    ("posts", 125_000, worst::posts),
     ("slivers", 8_000, worst::slivers),
     ("huge cubes", 8_000, |size| worst::placed(shapes::cube_field(size), 1e30, 0.0)),
     ("tiny cubes", 8_000, |size| worst::placed(shapes::cube_field(size), 1e-30, 0.0)),

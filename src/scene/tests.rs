@@ -61,3 +61,52 @@ fn a_mirrored_triangle_still_faces_outward() {
     let triangles = scene_triangles(&[triangle.as_mesh()], &[Placed { mesh: 0, transform }]);
     assert_eq!(triangles, [[[0.0, 0.0, 5.0], [0.0, 1.0, 5.0], [-2.0, 0.0, 5.0]]]);
 }
+
+//  +---+
+//  | A |        the cubes touch along an edge, half a side apart along it, so that no vertex of
+//  +---+---+    one is at a vertex of the other
+//      | B |
+//      +---+
+fn touching_cubes() -> (MeshBuffers, [Placed; 2]) {
+    let placed = |x, y, z| Placed { mesh: 0, transform: at(x, y, z) };
+    (shapes::plain_cube(2.0), [placed(-1.0, 1.0, 0.0), placed(1.0, -1.0, 1.0)])
+}
+
+#[test]
+fn closed_objects_that_touch_let_light_through_unless_somebody_looks() {
+    let (cube, placed) = touching_cubes();
+    let blind = chamfered(&[&cube], &placed, None);
+    let scenes = |scene: &ChamferedScene| {
+        [cube.as_mesh(), scene.meshes[0].mesh.as_mesh()]
+            .map(|mesh| scene_triangles(&[mesh], &placed))
+    };
+    let [before, after] = scenes(&blind);
+    assert!(!leaks(&before, &after, 0.05, Eyes::default()).is_empty());
+    let seen = chamfered(&[&cube], &placed, Some(Eyes::default()));
+    assert_eq!((seen.rounds, seen.leaks.len()), (1, 0));
+    let [before, after] = scenes(&seen);
+    assert_eq!(leaks(&before, &after, 0.05, Eyes::default()), []);
+    let held = seen.meshes[0].verdicts.iter().filter(|v| v.reason == Reason::Contact).count();
+    assert!((2..6).contains(&held), "two edges touch, and few are near: {held}");
+}
+
+#[test]
+fn one_mesh_is_looked_at_as_a_scene_is() {
+    let (cube, placed) = touching_cubes();
+    let mut both = MeshBuffers::default();
+    for object in placed {
+        let first = both.positions.len() as u32;
+        let [x, y, z, _] = object.transform[3];
+        both.positions.extend(cube.positions.iter().map(|p| [p[0] + x, p[1] + y, p[2] + z]));
+        both.normals.extend(&cube.normals);
+        both.indices.extend(cube.indices.iter().map(|index| first + index));
+    }
+    both.submesh_index_counts = vec![both.indices.len() as u32];
+    let of = |verify| {
+        let options = Options { width: Width::Units(0.05), verify, ..Options::default() };
+        chamfer(&both.as_mesh(), &options).unwrap()
+    };
+    let contacts = |result: &Chamfered| result.totals.skipped[Reason::Contact as usize];
+    assert_eq!(contacts(&of(Verify::Full)), 0);
+    assert!(contacts(&of(Verify::Seen)) >= 2);
+}

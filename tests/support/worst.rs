@@ -137,3 +137,33 @@ pub fn placed(mut mesh: MeshBuffers, scale: f32, shift: f32) -> MeshBuffers {
     }
     mesh
 }
+
+/// Posts on plinths: on each cube stands a box without floor and lid, right beside the cube's
+/// edges. So every second edge has an open rim within its chamfer, eight of them for each post.
+pub fn posts(count: u32) -> MeshBuffers {
+    let across = f64::from(count).sqrt().ceil() as u32;
+    let corner = |low: f32, high: f32, k: u32| [low, high][k as usize];
+    let (mut points, mut indices) = (Vec::new(), Vec::new());
+    for post in 0..count {
+        let (x, z) = ((post % across) as f32 * 3.0, (post / across) as f32 * 3.0);
+        for (inset, y, height, sides) in [(0.0, 0.0, 1.0, 6), (0.004, 1.0, 1.0, 4)] {
+            let first = points.len() as u32;
+            points.extend((0..8).map(|k| {
+                let along = |k: u32| corner(inset, 1.0 - inset, k);
+                [x + along(k & 1), y + corner(0.0, height, k >> 1 & 1), z + along(k >> 2)]
+            }));
+            let quads = [
+                [0, 2, 3, 1],
+                [4, 5, 7, 6],
+                [0, 4, 6, 2],
+                [1, 3, 7, 5],
+                [0, 1, 5, 4],
+                [2, 6, 7, 3],
+            ];
+            for [a, b, c, d] in &quads[..sides] {
+                indices.extend([a, b, c, a, c, d].map(|k| first + k));
+            }
+        }
+    }
+    shaded(&points, &indices, FLAT)
+}
