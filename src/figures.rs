@@ -3,6 +3,7 @@
 //! `CHAMFER_UPDATE_FIGURES=1 cargo test --lib figures` writes them to `docs/figures`; without that
 //! variable the test fails where a committed figure is not what the code draws.
 
+mod contacts;
 mod drawing;
 mod models;
 mod moves;
@@ -20,11 +21,12 @@ use drawing::Drawing;
 type Draw = fn() -> Drawing;
 
 /// The stages, in the order of the pipeline.
-const FIGURES: [(&str, Draw); 14] = [
+const FIGURES: [(&str, Draw); 15] = [
     ("view", source::view),
     ("weld", source::weld),
     ("topology", source::topology),
     ("faces", source::faces),
+    ("contacts", contacts::contacts),
     ("edges", source::edges),
     ("sectors", moves::sectors),
     ("offsets", moves::offsets),

@@ -133,7 +133,7 @@ pub fn verdicts() -> Drawing {
     drawing
 }
 
-fn outcome_paint(outcome: Outcome) -> Paint {
+pub fn outcome_paint(outcome: Outcome) -> Paint {
     match outcome {
         Outcome::Full => [85.0, 165.0, 115.0],
         Outcome::Narrowed => [226.0, 150.0, 65.0],

@@ -1,0 +1,66 @@
+//! What rests on what, and what becomes of the edges below.
+
+use glam::DVec3;
+
+use super::drawing::{BLUE, Drawing, INK, ORANGE, Pen, RED};
+use super::models::{add_block, nothing};
+use super::result::outcome_paint;
+use super::scene::{CLAY, Camera, FRONT, Facet, Scene, triangles};
+use crate::mesh::{Held, Mesh};
+use crate::options::{Options, Width};
+use crate::report::{Outcome, TriangleKind};
+use crate::view::wide;
+
+pub fn contacts() -> Drawing {
+    let mut drawing = Drawing::new(720, 300);
+    drawing.title(125.0, "on an edge: held");
+    drawing.title(360.0, "beside an edge: narrowed");
+    drawing.title(595.0, "past the chamfer: full");
+    for (x, inset) in [(125.0, 0.0), (360.0, 0.08), (595.0, 0.4)] {
+        let camera = Camera::new(FRONT, [0.0, 0.4, 0.0], 80.0, [x, 155.0]);
+        draw_block_below_rim(&mut drawing, camera, inset);
+    }
+    drawing.legend(&[
+        (BLUE, "the rim of another object"),
+        ("#55a573", "full"),
+        (ORANGE, "narrowed"),
+        (RED, "contact"),
+    ]);
+    drawing
+}
+
+/// A block on whose top a square rim rests, so far behind its edges in front and on the right.
+fn draw_block_below_rim(drawing: &mut Drawing, camera: Camera, inset: f32) {
+    let mut block = nothing();
+    add_block(&mut block, [-1.0, 0.0, -1.0], [1.0, 0.8, 1.0]);
+    let (low, high) = (-0.3, 1.0 - inset);
+    let rim = [[low, low], [high, low], [high, high], [low, high]].map(|[x, z]| [x, 0.8, z]);
+    let line = |k: usize| Held { from: rim[k], to: rim[(k + 1) % 4], radius: 0.0 };
+    let held = [0, 1, 2, 3].map(line);
+    let options = Options { width: Width::Units(0.2), ..Options::default() };
+    let mesh = Mesh { held: &held, ..block.as_mesh() };
+    let result = crate::chamfer(&mesh, &options).unwrap();
+    let paint = |place: usize| {
+        let source = result.triangle_sources[place];
+        match source.kind {
+            TriangleKind::Edge => outcome_paint(result.verdicts[source.index as usize].outcome),
+            _ => CLAY,
+        }
+    };
+    let facets = triangles(&result.mesh)
+        .enumerate()
+        .map(|(place, points)| Facet { points, paint: paint(place) })
+        .collect();
+    let scene = Scene::new(camera, facets);
+    scene.paint(drawing);
+    for verdict in result.verdicts.iter().filter(|verdict| verdict.outcome == Outcome::Skipped) {
+        let ends = verdict.vertices.map(|vertex| wide(block.positions[vertex as usize]));
+        scene.line(drawing, ends, Pen::new(RED, 2.6));
+    }
+    for Held { from, to, .. } in held {
+        let [from, to] = [from, to].map(wide);
+        scene.line(drawing, [from, to], Pen::new(BLUE, 1.8));
+        scene.line(drawing, [from, from + DVec3::Y * 0.45], Pen::new(INK, 0.6));
+        scene.line(drawing, [from + DVec3::Y * 0.45, to + DVec3::Y * 0.45], Pen::new(INK, 0.6));
+    }
+}
