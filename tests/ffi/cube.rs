@@ -40,8 +40,6 @@ impl Cube {
             index_count: self.indices.len() as u32,
             submesh_index_counts: self.submesh_index_counts.as_ptr(),
             indices: self.indices.as_ptr(),
-            held_count: 0,
-            held: ptr::null(),
             ..Cube::empty_view()
         }
     }
@@ -60,6 +58,8 @@ impl Cube {
             index_count: 0,
             submesh_index_counts: ptr::null(),
             indices: ptr::null(),
+            held_count: 0,
+            held: ptr::null(),
         }
     }
 }

@@ -188,7 +188,7 @@ fn counts_past_the_address_space() {
 fn bad_options() {
     const BAD: (i32, u32) = (CHAMFER_STATUS_BAD_OPTION, NONE);
     assert_eq!(with_options(|options| options.width_unit = 2), BAD);
-    assert_eq!(with_options(|options| options.verify = 2), BAD);
+    assert_eq!(with_options(|options| options.verify = 3), BAD);
     assert_eq!(with_options(|options| options.submesh_mode = u32::MAX), BAD);
     for width in [-1.0, f32::NAN, f32::INFINITY] {
         let bad = (CHAMFER_STATUS_BAD_WIDTH, NONE);
