@@ -73,8 +73,7 @@ fn message_of(text: &str) -> [c_char; CHAMFER_MESSAGE_SIZE] {
 
 // SAFETY: numbers and characters only, the size first.
 unsafe impl StatesSize for chamfer_error {
-    const SIZES: &'static [usize] =
-        &[offset_of!(chamfer_error, mesh), size_of::<chamfer_error>()];
+    const SIZES: &'static [usize] = &[offset_of!(chamfer_error, mesh), size_of::<chamfer_error>()];
 
     fn defaults() -> Self {
         chamfer_error {

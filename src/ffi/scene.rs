@@ -123,7 +123,8 @@ fn run(
     let mut stands = vec![false; meshes.len()];
     placed.iter().for_each(|object| stands[object.mesh] = true);
     // What stands in the scene is looked at there, with all others.
-    let in_scene = Options { verify: if looks { Verify::Full } else { options.verify }, ..*options };
+    let in_scene =
+        Options { verify: if looks { Verify::Full } else { options.verify }, ..*options };
     let mut steps = Steps { of: meshes.len(), begun: 0, done: 0.0, looks };
     let mut chamfer = |number: usize, mesh: &Mesh| {
         let options = if stands[number] { &in_scene } else { options };

@@ -76,7 +76,15 @@ fn run_with(
         let (objects, object_count) = (objects.as_ptr(), objects.len() as u32);
         let out = results.as_mut_ptr();
         (LIBRARY.chamfer_scene_run)(
-            meshes, count, objects, object_count, options, progress, user, out, &mut error,
+            meshes,
+            count,
+            objects,
+            object_count,
+            options,
+            progress,
+            user,
+            out,
+            &mut error,
         )
     };
     assert_eq!(results.pop(), Some(GARBAGE), "written past the results");
