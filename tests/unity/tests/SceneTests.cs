@@ -127,9 +127,10 @@ namespace Chamfer.Tests
         {
             foreach (bool isReadable in new[] { true, false })
             {
-                Mesh bad = Shapes.Cube(), cube = Shapes.Cube(), open = Shapes.OpenCube();
+                Mesh bad = Shapes.FullCube(), cube = Shapes.Cube(), open = Shapes.OpenCube();
                 bad.name = "Bad";
                 bad.normals = new Vector3[0];
+                // Such a mesh with a skin is refused before the library sees it.
                 bad.readable = bad.canBeMadeReadable = isReadable;
                 var objects = new[]
                 {
@@ -168,6 +169,61 @@ namespace Chamfer.Tests
             lid.transform.localPosition = new Vector3(7, 0, 0);
             ChamferAll(VerifyMode.Full, cube, lid);
             Check.That(Scene.KeepsEdges(Scene.MeshOf(cube)), "held");
+        }
+
+        public static void Grandchildren_stand_where_all_above_them_put_them()
+        {
+            var root = Scene.Holding(Shapes.Cube(), "Cube");
+            GameObject arm = new GameObject("Arm"), lid = Scene.Holding(Shapes.OpenCube(), "Lid");
+            root.children.Add(arm);
+            arm.children.Add(lid);
+            arm.transform.localPosition = new Vector3(4, 0, 0);
+            arm.transform.localScale = new Vector3(2, 1, 1);
+            lid.transform.localScale = new Vector3(0.5f, 1, 1);
+            lid.transform.localPosition = new Vector3(-1, 0, 0);
+            ChamferAll(VerifyMode.Full, root);
+            Check.That(Scene.KeepsEdges(Scene.MeshOf(root)), "held");
+        }
+
+        /// A mesh has one result: that of where it was selected first.
+        public static void A_mesh_of_a_scene_and_a_prefab_is_that_of_the_scene()
+        {
+            var root = Scene.Resting(2);
+            var prefab = Scene.Holding(Scene.MeshOf(root), "Prefab");
+            Scene.MakeAsset(prefab, "Assets/Later/Cube.prefab");
+            var lid = Scene.MeshOf(root.children[0]);
+            prefab.children.Add(Scene.Holding(Shapes.Cube(), "Other"));
+            ChamferAll(VerifyMode.Full, root, prefab);
+            Check.That(Scene.MeshOf(root) == Scene.MeshOf(prefab), "one for both");
+            Check.That(Scene.KeepsEdges(Scene.MeshOf(prefab)), "held");
+            Check.That(lid != Scene.MeshOf(root.children[0]), "the other too");
+        }
+
+        public static void A_bad_mesh_of_several_scenes_is_told_once()
+        {
+            var bad = Shapes.Cube();
+            bad.normals = new Vector3[0];
+            GameObject item = Scene.Holding(bad, "Item"), prefab = Scene.Holding(bad, "Prefab");
+            prefab.children.Add(Scene.Holding(Shapes.Cube(), "Good"));
+            Scene.MakeAsset(prefab, "Assets/Bad/Bad.prefab");
+            var summary = new ChamferSelection(new[] { item, prefab }).Chamfer(ChamferSettings.Default);
+            Check.Equal(2, summary.ToString().Split('\n').Length);
+        }
+
+        /// Where all meshes of a scene have their results, it is not chamfered.
+        public static void Scenes_with_nothing_new_take_no_time()
+        {
+            var mesh = Shapes.Cube();
+            int calls = 0;
+            EditorUtility.onProgress = share => { calls++; return false; };
+            try
+            {
+                ChamferAll(VerifyMode.Fast, Scene.Holding(mesh, "Item"));
+                int alone = calls;
+                ChamferAll(VerifyMode.Fast, Scene.Holding(mesh, "Item"), mesh);
+                Check.Equal(alone + 1, calls - alone);
+            }
+            finally { EditorUtility.onProgress = share => false; }
         }
 
         /// Each prefab has a space of its own.
@@ -223,18 +279,22 @@ namespace Chamfer.Tests
         /// Verdicts are of the chamfers that there are, so what moved since does not count.
         public static void Verdicts_are_found_again_where_the_meshes_stood()
         {
-            var root = Scene.Resting(2);
-            var modifier = root.AddComponent<ChamferModifier>();
-            modifier.includeChildren = true;
-            ModifierActions.Chamfer(modifier);
-            string text = ReportText.Of(modifier);
-            root.children[0].transform.localPosition = new Vector3(5, 0, 0);
-            var known = typeof(VerdictCache).GetField("known", BindingFlags.Static | BindingFlags.NonPublic);
-            ((IDictionary)known.GetValue(null)).Clear();
-            Check.Equal(text, ReportText.Of(modifier));
-            Undo.Click();
-            ModifierActions.Chamfer(modifier);
-            Check.That(!ReportText.Of(modifier).Contains("rests"), "chamfered where it stands now");
+            foreach (float distance in new[] { 2, 2.5f })
+            {
+                var root = Scene.Resting(distance);
+                var modifier = root.AddComponent<ChamferModifier>();
+                modifier.includeChildren = true;
+                ModifierActions.Chamfer(modifier);
+                string text = ReportText.Of(modifier);
+                root.children[0].transform.localPosition = new Vector3(4 - distance, 0, 0);
+                var known = typeof(VerdictCache).GetField("known", BindingFlags.Static | BindingFlags.NonPublic);
+                ((IDictionary)known.GetValue(null)).Clear();
+                Check.Equal(text, ReportText.Of(modifier));
+                root.children[0].transform.localPosition = new Vector3(5, 0, 0);
+                Undo.Click();
+                ModifierActions.Chamfer(modifier);
+                Check.That(!ReportText.Of(modifier).Contains("rests"), "chamfered where it stands now");
+            }
         }
 
         public static void A_preview_does_not_look_and_says_so()
