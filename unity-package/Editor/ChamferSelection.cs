@@ -127,10 +127,10 @@ namespace ChamferEditor
             AssetDatabase.CreateAsset(result.Mesh, AssetDatabase.GenerateUniqueAssetPath(path));
         }
 
-        /// <summary>Meshes without hard edges, chamfered ones too, are left alone.</summary>
+        /// <summary>Meshes of which no edge can be chamfered, or none more, are left alone.</summary>
         private static bool TryFind(ChamferJob job, Mesh mesh, out JobResult result)
         {
-            return job.Results.TryGetValue(mesh, out result) && result.Report.HardEdges > 0;
+            return job.Results.TryGetValue(mesh, out result) && result.Report.Chamfered + result.Report.Narrowed > 0;
         }
     }
 }

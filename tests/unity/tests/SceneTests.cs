@@ -226,6 +226,17 @@ namespace Chamfer.Tests
             finally { EditorUtility.onProgress = share => false; }
         }
 
+        /// Edges that were kept are hard still.
+        public static void A_second_run_keeps_what_the_first_kept()
+        {
+            var root = Scene.Resting(2);
+            ChamferAll(VerifyMode.Seen, root);
+            Mesh cube = Scene.MeshOf(root), lid = Scene.MeshOf(root.children[0]);
+            Undo.Click();
+            ChamferAll(VerifyMode.Seen, root);
+            Check.That(Scene.MeshOf(root) == cube && Scene.MeshOf(root.children[0]) == lid, "the same meshes");
+        }
+
         /// Each prefab has a space of its own.
         public static void Prefabs_do_not_stand_together()
         {
