@@ -40,8 +40,10 @@ namespace Chamfer.Tests
         /// Even where an edge could still be chamfered.
         public static void Results_of_an_earlier_time_are_no_sources()
         {
-            AssetDatabase.paths[Shapes.Cube()] = "Assets/Earlier/Cube Chamfered.asset";
+            var mesh = Shapes.Cube();
+            AssetDatabase.paths[mesh] = "Assets/Earlier/Cube Chamfered.asset";
             Check.Equal(0, Run("Assets/Earlier"));
+            Check.Equal(12 * 3, mesh.GetTriangles(0).Length);
             Check.Equal(1, AssetDatabase.paths.Values.Count(path => path.StartsWith("Assets/Earlier/")));
         }
 
