@@ -127,10 +127,14 @@ fn look(request: &Request, path: &Path, percent: f32) -> usize {
     let start = Instant::now();
     let found = leaks(&before, &after, width, request.eyes);
     let seconds = start.elapsed().as_secs_f64();
-    let samples: usize = found.iter().map(|leak| leak.places.len()).sum();
+    let count = |leaks: &mut dyn Iterator<Item = &Leak>| -> usize {
+        leaks.map(|leak| leak.places.len()).sum()
+    };
+    let samples = count(&mut found.iter());
+    let past = count(&mut found.iter().filter(|leak| leak.is_past_outlines));
     if rounds > 0 || samples > 0 || request.is_verbose {
         println!(
-            "{name} at {percent} %: {samples} samples in {} leaks; {rounds} rounds; hard, contact, \
+            "{name} at {percent} %: {samples} samples in {} leaks, {past} past outlines; {rounds} rounds; hard, contact, \
              skipped: {counts:?}; {} triangles, {:.0} ms",
             found.len(),
             after.len(),

@@ -45,7 +45,7 @@
 /// The width is negative, infinite or not a number.
 #define CHAMFER_STATUS_BAD_WIDTH 104
 
-/// An option holds none of its constants.
+/// An option holds none of its constants, or is out of its range.
 #define CHAMFER_STATUS_BAD_OPTION 105
 
 /// The submesh that chamfers are to go to does not exist. Element: that submesh.
@@ -203,6 +203,9 @@ typedef struct chamfer_options {
     /// How many threads may work; 0 for as many as there are cores. Default: 1. The result is the
     /// same.
     uint32_t threads;
+    /// How much of the breadth of each face has to stay between its chamfers, as a share up to 1.
+    /// 0 for the default, a fifth; a tiny share for nothing.
+    float least_breadth;
 } chamfer_options;
 
 /// One UV channel of a mesh.

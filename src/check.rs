@@ -4,6 +4,7 @@
 //! Each [`Rule`] is something that the chamfered mesh must keep. What was already wrong in the
 //! input is not held against the output.
 
+mod borders;
 mod flatness;
 mod hardness;
 mod intersections;
@@ -131,6 +132,7 @@ fn check_geometry(
     values::check_tangents(before, after, origins, findings);
     values::check_colors(before, after, findings);
     surface::check_edges(source, result, findings);
+    borders::check_borders(source, result, origins, findings);
     triangles::check_triangles(source, result, origins, findings);
     flatness::check_flatness(source, result, origins, findings);
     hardness::check_hard_edges(source, result, origins, findings);

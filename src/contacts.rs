@@ -10,8 +10,8 @@ mod wedge;
 use glam::DVec3;
 
 use crate::bvh::{Aabb, Bounds, Forest};
-use crate::edges::Edges;
-use crate::faces::Faces;
+use crate::edges::{BACK_TO_BACK_COSINE, Edges};
+use crate::faces::{Faces, faces};
 use crate::ids::{Corner, Edge, Few, IdVec};
 use crate::mesh::Mesh;
 use crate::options::{Options, Width};
@@ -35,7 +35,8 @@ struct Rim {
     ends: [DVec3; 2],
     /// So far around it nothing is cut away; 0 where it only rests.
     radius: f64,
-    /// The half-edge without twin that it is; none if it lies outside of the mesh.
+    /// The half-edge that it is, without twin or at the rim of a sheet of two sides; none if it lies
+    /// outside of the mesh.
     border: Corner,
 }
 
@@ -50,8 +51,8 @@ pub struct Contacts {
 }
 
 /// Gathers what may rest on a mesh.
-pub fn contacts(view: &View, topology: &Topology) -> Contacts {
-    let borders = open_borders(topology).map(|border| Rim {
+pub fn contacts(view: &View, topology: &Topology, faces: &Faces) -> Contacts {
+    let borders = open_borders(topology).chain(sheet_rims(topology, faces)).map(|border| Rim {
         ends: [border, border.next()].map(|corner| view.position_at(corner)),
         radius: 0.0,
         border,
@@ -79,13 +80,28 @@ pub fn border_lines(mesh: &Mesh) -> Vec<[DVec3; 2]> {
     let Ok(view) = view(mesh, &none) else { return Vec::new() };
     let topology = topology(&view, &weld(&view.mesh));
     let line = |border: Corner| [border, border.next()].map(|corner| view.position_at(corner));
-    open_borders(&topology).map(line).collect()
+    let faces = faces(&view, &topology);
+    open_borders(&topology).chain(sheet_rims(&topology, &faces)).map(line).collect()
 }
 
-/// The half-edges without twin.
+/// The half-edges, of each edge one, whose two faces lie back to back: where a sheet of two sides
+/// ends, as open as any border.
+fn sheet_rims<'a>(topology: &'a Topology, faces: &'a Faces) -> impl Iterator<Item = Corner> + 'a {
+    topology.twin.ids().filter(|&corner| {
+        let twin = topology.twin[corner];
+        twin.is_some() && corner < twin && {
+            let [one, two] = [corner, twin].map(|side| faces.normal[side.triangle()]);
+            one.dot(two) < BACK_TO_BACK_COSINE
+        }
+    })
+}
+
+/// The half-edges without twin, but for those of hidden faces: these follow what they lie behind.
 fn open_borders(topology: &Topology) -> impl Iterator<Item = Corner> + '_ {
     topology.twin.ids().filter(|&corner| {
-        topology.twin[corner].is_none() && !topology.is_collapsed(corner.triangle())
+        topology.twin[corner].is_none()
+            && !topology.is_collapsed(corner.triangle())
+            && !topology.is_hidden(corner)
     })
 }
 
@@ -118,6 +134,18 @@ impl Contacts {
         let reach = self.tolerance * 2.0;
         let stretches = self.in_wedge(topology, side, &wedge, reach);
         stretches.iter().any(|stretch| wedge.is_inside_ends(stretch, self.tolerance * 4.0))
+    }
+
+    /// Whether something other than the borders of a corner's own position runs through it.
+    pub fn touch_corner(&self, view: &View, topology: &Topology, corner: Corner) -> bool {
+        let (at, cluster) = ([view.position_at(corner); 2], topology.cluster_at[corner]);
+        self.near(at, 0.0).any(|rim| {
+            let is_own = rim.border.is_some()
+                && [rim.border, rim.border.next()]
+                    .iter()
+                    .any(|&c| topology.cluster_at[c] == cluster);
+            !is_own && distance_between(rim.ends, at) < rim.radius.max(self.tolerance)
+        })
     }
 
     /// What may come within a distance of a segment.
@@ -165,11 +193,12 @@ fn distance_between(one: [DVec3; 2], other: [DVec3; 2]) -> f64 {
 /// Whether a border belongs to one of the fans around the ends of an edge: it is where that fan
 /// ends, and moves with it.
 fn is_own_border(topology: &Topology, side: Corner, border: Corner) -> bool {
+    let is_sheet = topology.twin[border].is_some();
     let ends = [side, side.next()].map(|corner| topology.cluster_at[corner]);
     let border_ends = [border, border.next()].map(|corner| topology.cluster_at[corner]);
     let meets = |end: usize| border_ends.contains(&ends[end]);
-    (meets(0) && is_around(topology, side, border))
-        || (meets(1) && is_around(topology, topology.twin[side], border))
+    let is_own = |from: Corner| is_sheet || is_around(topology, from, border);
+    (meets(0) && is_own(side)) || (meets(1) && is_own(topology.twin[side]))
 }
 
 /// Whether a border is met when one turns around the start of a half-edge, either way.
@@ -249,3 +278,6 @@ impl Rests {
         &self.stretches[start as usize..self.ends[edge] as usize]
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -20,7 +20,7 @@ const ALIKE_COSINE: f64 = 0.999_975_630_705_4;
 
 /// Two faces back to back: their normals are opposite to within a tenth of a degree. Between them
 /// there is nothing to cut off.
-const BACK_TO_BACK_COSINE: f64 = -0.999_998_476_913_288;
+pub const BACK_TO_BACK_COSINE: f64 = -0.999_998_476_913_288;
 
 /// UV values that differ by less than this share of their size are one: exporters round.
 pub const EQUAL_UV: f32 = 1e-6;
@@ -98,7 +98,11 @@ fn obstacle(topology: &Topology, faces: &Faces, side: Corner, other: Corner) -> 
         return Some(Reason::NoArea);
     }
     let is_doubled = topology.doubled.binary_search(&side).is_ok();
-    (is_doubled || one.dot(two) < BACK_TO_BACK_COSINE).then_some(Reason::ZeroThickness)
+    if is_doubled || one.dot(two) < BACK_TO_BACK_COSINE {
+        return Some(Reason::ZeroThickness);
+    }
+    // A chamfer of one solid would let light through to the air behind the contact.
+    topology.is_contact(side).then_some(Reason::Contact)
 }
 
 /// The UV channels that differ between two half-edges that are twins, as bits.
@@ -158,7 +162,7 @@ mod tests {
         let view = view(&mesh, &Options::default()).unwrap();
         let topology = topology(&view, &weld(&mesh));
         let faces = faces(&view, &topology);
-        let contacts = contacts(&view, &topology);
+        let contacts = contacts(&view, &topology, &faces);
         let edges = edges(&view, &topology, &faces, &contacts);
         edges.hard.iter().map(|edge| edge.skipped).collect()
     }

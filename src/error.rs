@@ -86,6 +86,8 @@ pub enum Error {
     },
     /// The width is negative, infinite or not a number.
     BadWidth(f32),
+    /// The breadth that has to stay is no share between 0 and 1.
+    BadBreadth(f32),
     /// `ChamferSubmesh::Given` names a submesh that the mesh does not have.
     SubmeshRange {
         /// The submesh asked for.
@@ -135,6 +137,9 @@ impl fmt::Display for Error {
             }
             Error::BadWidth(width) => {
                 write!(f, "the width is {width}: give a finite number of at least 0")
+            }
+            Error::BadBreadth(share) => {
+                write!(f, "the least breadth is {share}: give a share between 0 and 1")
             }
             Error::SubmeshRange { submesh, submeshes } => {
                 write!(f, "chamfers are to go to submesh {submesh}, but the mesh has {submeshes}")

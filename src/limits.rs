@@ -5,6 +5,7 @@
 //! leave, build strips and fills, shrink the sectors of whatever fails, and give back what is safe.
 //! A ring that still fails keeps its old position, so the result is never worse than the source.
 
+mod breadth;
 mod cells;
 mod collisions;
 mod parts;
@@ -22,8 +23,9 @@ use crate::placement::Placement;
 use crate::plan::Plan;
 use crate::report::Reason;
 use crate::strips;
-use crate::validity::{stays_line, survives};
+use crate::validity::{opens_along, stays_line, survives};
 
+pub use breadth::deep;
 pub use parts::Parts;
 
 /// How much a sector that takes part in something bad keeps in each round.
@@ -267,9 +269,13 @@ fn surface_is_valid(plan: &Plan, placement: &Placement, triangle: Triangle) -> b
     if old == new {
         true
     } else if faces.normal[triangle] == DVec3::ZERO || faces.is_line(triangle) {
-        stays_line(old, new, faces.normal[triangle], plan.view.resolution)
+        let resolution = plan.view.resolution;
+        stays_line(old, new, faces.normal[triangle], resolution)
+            && opens_along(old, new, facing(plan, placement, triangle).map(unit), resolution)
     } else {
-        survives(old, new) && still_faces_out(plan, placement, triangle, [old, new])
+        survives(old, new)
+            && breadth::is_kept(plan, triangle, [old, new])
+            && still_faces_out(plan, placement, triangle, [old, new])
     }
 }
 
@@ -280,12 +286,16 @@ fn still_faces_out(
     triangle: Triangle,
     [old, new]: [[DVec3; 3]; 2],
 ) -> bool {
+    let [before, after] = facing(plan, placement, triangle);
+    area_vector(new).dot(after) > 0.0 || area_vector(old).dot(before) <= 0.0
+}
+
+/// The sums of a triangle's vertex normals, before and after.
+fn facing(plan: &Plan, placement: &Placement, triangle: Triangle) -> [DVec3; 2] {
+    let sum = |normals: [DVec3; 3]| normals[0] + normals[1] + normals[2];
     let corners = triangle.corners();
-    let facing = |points: [DVec3; 3], normals: [DVec3; 3]| {
-        area_vector(points).dot(normals[0] + normals[1] + normals[2])
-    };
-    facing(new, corners.map(|corner| placement.normal_at(plan, corner))) > 0.0
-        || facing(old, corners.map(|corner| plan.view.normal_at(corner))) <= 0.0
+    let before = corners.map(|corner| plan.view.normal_at(corner));
+    [sum(before), sum(corners.map(|corner| placement.normal_at(plan, corner)))]
 }
 
 fn strip_is_valid(plan: &Plan, placement: &Placement, edge: Edge) -> bool {

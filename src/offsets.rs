@@ -12,18 +12,19 @@ use glam::DVec3;
 
 use crate::edges::{is_hard, seam_between};
 use crate::faces::Faces;
-use crate::ids::{Corner, Id, IdVec, Sector};
+use crate::ids::{Corner, Few, Id, IdVec, Sector};
 use crate::math::{Turn, area_vector, unit};
 use crate::mesh::UV_CHANNELS;
 use crate::resample::{Foot, locate, uv_at};
-use crate::sectors::{Fan, Sectors};
+use crate::sectors::{Fan, Follower, Sectors};
 use crate::topology::Topology;
 use crate::view::View;
 
-/// No vertex moves farther than this many widths: between edges that meet at less than 11.5
-/// degrees the exact distance shoots out as a spike. The thesis gives up there (modifiers above
-/// 10); moving less far keeps a narrower chamfer.
-const MITER_LIMIT: f64 = 10.0;
+/// No vertex moves farther than this many widths: between edges that meet at less than 39 degrees
+/// the exact distance shoots out, and a tip would lose its point. The corners of ramps and
+/// triangles, from 45 degrees on, still get the exact one. The thesis gives up there (modifiers
+/// above 10); moving less far keeps a chamfer, which narrows towards the tip.
+const MITER_LIMIT: f64 = 3.0;
 
 /// Faces that meet at more than five degrees would visibly bend if a vertex left their common
 /// edge for one of them. A round surface of 72 facets or more is smooth enough to be cut across.
@@ -78,7 +79,7 @@ pub fn offsets(
     faces: &Faces,
     sectors: &Sectors,
 ) -> IdVec<Sector, Offset> {
-    view.threads.map_with(sectors.fans.len(), Vec::new, |spread, sector| {
+    let mut offsets = view.threads.map_with(sectors.fans.len(), Vec::new, |spread, sector| {
         unfold(view, topology, sectors, sector, spread);
         let fan = &sectors.fans[sector];
         let chosen = course(view, topology, faces, fan, spread)
@@ -89,7 +90,89 @@ pub fn offsets(
             foot: Foot::at(fan.first),
             is_capped: false,
         })
-    })
+    });
+    for followers in sectors.followers.chunk_by(|one, other| one.sector == other.sector) {
+        let sector = followers[0].sector;
+        let corners: Vec<Corner> = sectors.corners(topology, sector).collect();
+        if let Some(offset) = follow(view, faces, &offsets, &corners, followers) {
+            offsets[sector] = offset;
+        }
+    }
+    offsets
+}
+
+/// A hidden face stays behind the visible ones: its corner goes along with theirs, as far as its
+/// own plane lets it, but never out of the solid. None where the fan has no plane.
+fn follow(
+    view: &View,
+    faces: &Faces,
+    offsets: &IdVec<Sector, Offset>,
+    corners: &[Corner],
+    followers: &[Follower],
+) -> Option<Offset> {
+    let area = |corner: &&Corner| area_vector(view.triangle(corner.triangle())).length_squared();
+    let &within = corners.iter().max_by(|one, other| area(one).total_cmp(&area(other)))?;
+    let normal = faces.normal[within.triangle()];
+    let is_level = |corner: &Corner| faces.normal[corner.triangle()].dot(normal) > LEVEL_COSINE;
+    if !corners.iter().all(is_level) {
+        return None;
+    }
+    let at = view.position_at(within);
+    let paths = followers.iter().map(|follower| Path::new(view, normal, at, follower));
+    let paths: Few<Path> = paths.collect();
+    let leads: Few<DVec3> =
+        followers.iter().map(|follower| offsets[follower.leader].vector).collect();
+    let vector = step(&paths, &leads, normal);
+    let foot = locate(view, within, at, vector)?;
+    let offset = Offset { vector, within, foot, is_capped: false };
+    vector.is_finite().then_some(offset)
+}
+
+/// The border of a hidden face at one of its ends.
+struct Path {
+    /// From there along the border.
+    along: DVec3,
+    /// From the border into the face.
+    inward: DVec3,
+}
+
+impl Path {
+    fn new(view: &View, normal: DVec3, at: DVec3, follower: &Follower) -> Path {
+        let [from, to] = [follower.border, follower.border.next()].map(|end| view.position_at(end));
+        let along = unit(to - from);
+        Path { along: if from == at { along } else { -along }, inward: normal.cross(along) }
+    }
+
+    /// How far the face goes in where the one in front of it moves by a vector. Where that leads
+    /// in at all it goes as far: a chamfer is less deep anywhere between its sides.
+    fn depth(&self, lead: DVec3) -> f64 {
+        let is_inward = lead.dot(self.inward) > 0.0;
+        if is_inward { (lead - self.along * lead.dot(self.along)).length() } else { 0.0 }
+    }
+
+    /// The same, and never past the end of the border.
+    fn step(&self, lead: DVec3) -> DVec3 {
+        self.along * lead.dot(self.along).max(0.0) + self.inward * self.depth(lead)
+    }
+}
+
+/// How a hidden face moves at a corner of its borders, behind faces that lead by some vectors.
+fn step(paths: &[Path], leads: &[DVec3], normal: DVec3) -> DVec3 {
+    let [one, other] = paths else { return paths[0].step(leads[0]) };
+    let (lead, is_same) = (leads[0], leads[0] == leads[1]);
+    if is_same && one.along.dot(other.along) < -CREASE_COSINE {
+        // The border runs on: its vertex may slide either way.
+        one.along * lead.dot(one.along) + one.inward * one.depth(lead)
+    } else if is_same {
+        let is_inward = paths.iter().all(|path| lead.dot(path.inward) >= 0.0);
+        if is_inward { lead - normal * lead.dot(normal) } else { DVec3::ZERO }
+    } else if one.inward.dot(other.along) > 0.0 {
+        // The chamfer of the edge that leaves here cuts the corner off.
+        one.step(leads[0]) + other.step(leads[1])
+    } else {
+        // It covers a corner that goes inwards.
+        DVec3::ZERO
+    }
 }
 
 /// A corner of a fan, unfolded into the plane.
@@ -144,6 +227,8 @@ fn course(
     let (first, last) = (spread.first()?, spread.last()?);
     let total = last.start.plus(last.angle);
     match (fan.starts_at_border, fan.ends_at_border()) {
+        // Light would show where one of the solids left the contact.
+        _ if holds_contact(topology, spread) => None,
         (true, true) => None,
         // Parts that only touch, as at a T-junction, would gape where one of them moves.
         (true, false) | (false, true) if fan.borders_meet => None,
@@ -164,6 +249,12 @@ fn course(
             Crease::Several => None,
         },
     }
+}
+
+/// Whether solids touch along an edge inside the fan.
+fn holds_contact(topology: &Topology, spread: &[Blade]) -> bool {
+    !topology.contacts.is_empty()
+        && spread.iter().skip(1).any(|blade| topology.is_contact(blade.corner))
 }
 
 /// Along the direction at half the fan's angle.
@@ -475,5 +566,47 @@ mod tests {
         let tip = offsets_at(&blade, 0.01, [0.0, 0.0, 1.0], [0.0, 0.0, 1.0]);
         assert!(tip[0].is_capped);
         assert!((tip[0].vector.length() - 0.01 * MITER_LIMIT).abs() < 1e-6);
+    }
+
+    // 2
+    // | .            a ramp: at its toe the edges meet at 45 degrees
+    // |    .
+    // 0--------1
+    #[test]
+    fn the_toe_of_a_ramp_gets_the_exact_distance() {
+        let side = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
+        let points: Vec<[f32; 3]> =
+            [0.0, 1.0].into_iter().flat_map(|z| side.map(|[x, y]| [x, y, z])).collect();
+        let indices = vec![0, 2, 1, 3, 4, 5, 0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4, 2, 0, 3, 2, 3, 5];
+        let ramp = split(&points, indices);
+        let toe = offsets_at(&ramp, 0.01, [1.0, 0.0, 1.0], [0.0, 0.0, 1.0]);
+        assert!(!toe[0].is_capped);
+        let exact = 0.01 / (std::f64::consts::FRAC_PI_4 / 2.0).sin();
+        assert!((toe[0].vector.length() - exact).abs() < 1e-6);
+    }
+
+    /// All sectors at the tip are sharp: their angles are 16 degrees, and the exact distance would
+    /// be seven widths.
+    #[test]
+    fn no_vertex_goes_farther_than_three_widths() {
+        let cone = shapes::pyramid(16);
+        let plan = plan_of(&cone, 0.01);
+        let ways = plan.offsets.iter().map(|offset| offset.vector.length());
+        let longest = ways.fold(0.0, f64::max);
+        assert!((longest - 0.03).abs() < 1e-6, "{longest}");
+    }
+
+    //              .  3
+    //          .     /     the edge 0-3 is hard, 0-1 a border: sliding along it, the vertex at 0
+    //      .        /      would be a width away from the edge after nine
+    //  0 --------- 1
+    #[test]
+    fn a_vertex_does_not_slide_far_along_a_border() {
+        let points = [[0.0, 0.0, 0.0], [9.0, 0.0, 0.0], [9.0, -3.0, 0.0], [9.0, 1.0, 0.0]];
+        let folded = [[9.0, 1.0, -5.0]];
+        let sheet = split(&[&points[..], &folded[..]].concat(), vec![0, 1, 3, 0, 3, 4]);
+        let at_origin = offsets_at(&sheet, 0.01, [0.0; 3], [0.0, 0.0, 1.0]);
+        assert!(at_origin[0].is_capped);
+        assert_goes(&at_origin, [0.01 * MITER_LIMIT, 0.0, 0.0]);
     }
 }

@@ -5,6 +5,9 @@
 pub struct Options {
     /// The distance between an old edge and the pulled one. The default is 1 % of the extent.
     pub width: Width,
+    /// How much of the breadth of each face has to stay between its chamfers, as a share (0 to 1):
+    /// where they meet, posts would become pencils. The default is a fifth.
+    pub least_breadth: f32,
     /// How thoroughly the result is checked.
     pub verify: Verify,
     /// Which submesh the new triangles go to.
@@ -17,6 +20,7 @@ impl Default for Options {
     fn default() -> Self {
         Options {
             width: Width::PercentOfExtent(1.0),
+            least_breadth: 0.2,
             verify: Verify::Full,
             chamfer_submesh: ChamferSubmesh::Owner,
             threads: 1,

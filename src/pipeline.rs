@@ -206,10 +206,10 @@ pub(crate) fn shape(view: &View, weld: Weld, done: &mut Done) -> Result<Shape, E
     done(Stage::Topology)?;
     let faces = faces(view, &topology);
     done(Stage::Faces)?;
-    let contacts = contacts(view, &topology);
+    let contacts = contacts(view, &topology, &faces);
     let edges = edges(view, &topology, &faces, &contacts);
     done(Stage::Edges)?;
-    let sectors = sectors(&topology, &edges);
+    let sectors = sectors(view, &topology, &edges, &contacts);
     done(Stage::Sectors)?;
     Ok(Shape {
         weld: weld.into(),

@@ -5,8 +5,8 @@ use std::sync::{Arc, OnceLock};
 use crate::contacts::{Contacts, Rests, rests};
 use crate::edges::Edges;
 use crate::faces::Faces;
-use crate::ids::{IdVec, Sector};
-use crate::limits::Parts;
+use crate::ids::{Cluster, IdVec, Sector};
+use crate::limits::{Parts, deep};
 use crate::offsets::Offset;
 use crate::sectors::Sectors;
 use crate::topology::Topology;
@@ -40,6 +40,8 @@ pub struct Plan<'a> {
     pub offsets: IdVec<Sector, Offset>,
     /// What must not lose what it rests on.
     pub rests: Rests,
+    /// `#clusters`: whether a face goes on behind a vertex inside of it.
+    pub deep: IdVec<Cluster, bool>,
 }
 
 impl<'a> Plan<'a> {
@@ -47,7 +49,8 @@ impl<'a> Plan<'a> {
     pub fn new(view: View<'a>, shape: &Shape, offsets: IdVec<Sector, Offset>) -> Plan<'a> {
         let Shape { weld, topology, faces, contacts, edges, sectors, parts } = shape.clone();
         let rests = rests(&view, &topology, &faces, &edges, &contacts);
-        Plan { view, weld, topology, faces, contacts, edges, sectors, parts, offsets, rests }
+        let deep = deep(&topology, &sectors, weld.first_vertex.len());
+        Plan { view, weld, topology, faces, contacts, edges, sectors, parts, offsets, rests, deep }
     }
 
     /// The parts with chamfered edges, which no width has a say in either.
@@ -67,8 +70,12 @@ pub mod tests {
 
     /// The plan of a sound mesh for a width in mesh units.
     pub fn plan_of(mesh: &MeshBuffers, width: f32) -> Plan<'_> {
-        let options = Options { width: Width::Units(width), ..Options::default() };
-        let view = view(&mesh.as_mesh(), &options).unwrap();
+        plan_with(mesh, &Options { width: Width::Units(width), ..Options::default() })
+    }
+
+    /// The plan of a sound mesh.
+    pub fn plan_with<'a>(mesh: &'a MeshBuffers, options: &Options) -> Plan<'a> {
+        let view = view(&mesh.as_mesh(), options).unwrap();
         let weld = weld(&view.mesh);
         let shape = shape(&view, weld, &mut |_| Ok(())).unwrap();
         plan(view, &shape)

@@ -86,24 +86,20 @@ pub fn chamfer_scene<E>(
 struct Object {
     mesh: usize,
     to_scene: DMat4,
-    to_mesh: DMat4,
+    /// None where the transform flattens: nothing can be told back to such an object.
+    to_mesh: Option<DMat4>,
     /// How much longer lengths of the mesh are in the scene, at most.
     scale: f64,
 }
 
 impl Object {
-    /// None where the transform flattens: nothing can be told back to such a mesh.
+    /// None where the transform is not finite.
     fn new(placed: &Placed) -> Option<Object> {
         let to_scene = DMat4::from_cols_array_2d(&placed.transform.map(|c| c.map(f64::from)));
-        let to_mesh = to_scene.inverse();
+        let to_mesh = Some(to_scene.inverse()).filter(|inverse| inverse.is_finite());
         let axes = [to_scene.x_axis, to_scene.y_axis, to_scene.z_axis];
         let scale = axes.iter().map(|axis| axis.truncate().length()).fold(0.0, f64::max);
-        (to_scene.is_finite() && to_mesh.is_finite() && scale > 0.0).then_some(Object {
-            mesh: placed.mesh,
-            to_scene,
-            to_mesh,
-            scale,
-        })
+        to_scene.is_finite().then_some(Object { mesh: placed.mesh, to_scene, to_mesh, scale })
     }
 }
 
@@ -145,11 +141,12 @@ fn contacts_across(meshes: &[Mesh], objects: &[Object]) -> Vec<Vec<Held>> {
     let borders: Vec<Vec<[DVec3; 2]>> = meshes.iter().map(border_lines).collect();
     let bounds: Vec<[DVec3; 2]> = objects.iter().map(|o| bounds(o, &meshes[o.mesh])).collect();
     for (number, object) in objects.iter().enumerate() {
+        let Some(to_mesh) = object.to_mesh else { continue };
         for (other_number, other) in objects.iter().enumerate() {
             if number == other_number || !overlap(bounds[number], bounds[other_number]) {
                 continue;
             }
-            let way = object.to_mesh * other.to_scene;
+            let way = to_mesh * other.to_scene;
             let lines = borders[other.mesh].iter().map(|line| {
                 let [from, to] = line.map(|point| way.transform_point3(point).as_vec3().to_array());
                 Held { from, to, radius: 0.0 }
@@ -200,7 +197,8 @@ fn hold(
             continue;
         }
         for object in objects {
-            let at = object.to_mesh.transform_point3(place).as_vec3().to_array();
+            let Some(to_mesh) = object.to_mesh else { continue };
+            let at = to_mesh.transform_point3(place).as_vec3().to_array();
             // What is seen past outlines is only to be left covered.
             let reach = if is_past_outlines { 0.0 } else { reach };
             let new = Held { from: at, to: at, radius: (reach / object.scale) as f32 };

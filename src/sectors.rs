@@ -4,9 +4,11 @@
 //! every other edge; one vertex whose corners lie in two sectors is split later (thesis 6.2,
 //! corner-connected vertices). Sectors that are joined by chamfered edges form a ring.
 
+use crate::contacts::Contacts;
 use crate::edges::Edges;
 use crate::ids::{Cluster, Corner, Id, IdVec, Ring, Sector};
-use crate::topology::Topology;
+use crate::topology::{Hidden, Topology};
+use crate::view::View;
 
 /// An ordered fan of corners, counter-clockwise seen from outside.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,7 +21,8 @@ pub struct Fan {
     pub next: Sector,
     /// Whether the first edge is a border.
     pub starts_at_border: bool,
-    /// Whether several borders run through the cluster, of parts that only touch here.
+    /// Whether several borders run through the cluster, of parts that only touch here, or a border
+    /// at all where something outside of the mesh rests on it.
     pub borders_meet: bool,
     pub ring: Ring,
 }
@@ -37,8 +40,20 @@ pub struct Sectors {
     pub fans: IdVec<Sector, Fan>,
     /// `#rings`: a range of `members` each, and whether it closes.
     pub rings: IdVec<Ring, RingRange>,
+    /// The sectors of hidden faces between two borders, sorted: these have no chamfer of their own.
+    pub followers: Vec<Follower>,
     /// The sectors of all rings, counter-clockwise; an open ring begins and ends at borders.
     pub members: Vec<Sector>,
+}
+
+/// A sector at the border of a hidden face.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Follower {
+    pub sector: Sector,
+    /// The sector in front of it.
+    pub leader: Sector,
+    /// The half-edge of the border.
+    pub border: Corner,
 }
 
 /// Where a ring's sectors stand.
@@ -73,11 +88,12 @@ impl Sectors {
     }
 }
 
-pub fn sectors(topology: &Topology, edges: &Edges) -> Sectors {
+pub fn sectors(view: &View, topology: &Topology, edges: &Edges, contacts: &Contacts) -> Sectors {
     let mut sectors = Sectors {
         sector_of: IdVec::filled(Sector::NONE, topology.twin.len()),
         fans: IdVec::default(),
         rings: IdVec::default(),
+        followers: Vec::new(),
         members: Vec::new(),
     };
     for edge in edges.hard.iter().filter(|edge| edge.skipped.is_none()) {
@@ -86,9 +102,34 @@ pub fn sectors(topology: &Topology, edges: &Edges) -> Sectors {
             add_fan(topology, edges, &mut sectors, side.next());
         }
     }
+    for hidden in &topology.hidden {
+        add_follower(topology, edges, &mut sectors, hidden);
+    }
+    sectors.followers.sort_unstable();
     join_rings(topology, &mut sectors);
-    mark_meeting_borders(topology, &mut sectors);
+    mark_meeting_borders(view, topology, contacts, &mut sectors);
     sectors
+}
+
+/// Adds the fans at both ends of a hidden face's border, where the face in front of it may move.
+fn add_follower(topology: &Topology, edges: &Edges, sectors: &mut Sectors, hidden: &Hidden) {
+    let Hidden { half_edge, behind } = *hidden;
+    let mut leaders = [behind, behind.next()];
+    if topology.cluster_at[half_edge] != topology.cluster_at[behind] {
+        leaders.reverse();
+    }
+    for (corner, leader) in [half_edge, half_edge.next()].into_iter().zip(leaders) {
+        let leader = sectors.sector_of[leader];
+        if leader.is_none() {
+            continue;
+        }
+        add_fan(topology, edges, sectors, corner);
+        let sector = sectors.sector_of[corner];
+        let Fan { first, last, .. } = sectors.fans[sector];
+        if [first, last.prev()].iter().all(|&side| topology.twin[side].is_none()) {
+            sectors.followers.push(Follower { sector, leader, border: half_edge });
+        }
+    }
 }
 
 /// Adds the fan that the corner lies in, if it is not there yet.
@@ -136,21 +177,33 @@ fn join_rings(topology: &Topology, sectors: &mut Sectors) {
     }
 }
 
-fn mark_meeting_borders(topology: &Topology, sectors: &mut Sectors) {
-    if sectors.fans.iter().all(|fan| !fan.starts_at_border) {
+fn mark_meeting_borders(
+    view: &View,
+    topology: &Topology,
+    contacts: &Contacts,
+    sectors: &mut Sectors,
+) {
+    let is_at_border = |fan: &Fan| fan.starts_at_border || fan.ends_at_border();
+    if !sectors.fans.iter().any(is_at_border) {
         return;
     }
     let meeting = meeting_borders(topology);
     for sector in sectors.fans.ids() {
-        let cluster = topology.cluster_at[sectors.fans[sector].first];
-        sectors.fans[sector].borders_meet = meeting.binary_search(&cluster).is_ok();
+        let fan = sectors.fans[sector];
+        let cluster = topology.cluster_at[fan.first];
+        let meets = meeting.binary_search(&cluster).is_ok()
+            || is_at_border(&fan) && contacts.touch_corner(view, topology, fan.first);
+        sectors.fans[sector].borders_meet = meets;
     }
 }
 
-/// The clusters, sorted, that several borders run through.
+/// The clusters, sorted, that several borders run through, but for those of hidden faces: nobody
+/// sees these gape.
 fn meeting_borders(topology: &Topology) -> Vec<Cluster> {
     let is_border = |corner: &Corner| {
-        topology.twin[*corner].is_none() && !topology.is_collapsed(corner.triangle())
+        topology.twin[*corner].is_none()
+            && !topology.is_collapsed(corner.triangle())
+            && !topology.is_hidden(*corner)
     };
     let borders = topology.twin.ids().filter(is_border);
     let mut starts: Vec<Cluster> = borders.map(|corner| topology.cluster_at[corner]).collect();

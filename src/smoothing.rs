@@ -52,7 +52,8 @@ pub fn split_by_angle(positions: &[[f32; 3]], indices: &[u32], angle_degrees: f3
         ..Mesh::default()
     };
     let threads = Threads::default();
-    let view = View { mesh, width: 0.0, resolution: resolution(&mesh), threads };
+    let view =
+        View { mesh, width: 0.0, least_breadth: 0.0, resolution: resolution(&mesh), threads };
     let topology = topology(&view, &weld(&mesh));
     let faces = faces(&view, &topology).normal;
     let cosine = libm::cos(f64::from(angle_degrees).to_radians());

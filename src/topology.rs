@@ -6,9 +6,12 @@
 
 mod crowded;
 
+pub use crowded::Hidden;
+
 use crate::ids::{Cluster, Corner, Id, IdVec, Triangle};
 use crate::view::View;
 use crate::weld::Weld;
+use crowded::Crowd;
 
 /// Half-edges over clusters.
 pub struct Topology {
@@ -18,6 +21,10 @@ pub struct Topology {
     pub twin: IdVec<Corner, Corner>,
     /// Half-edges, sorted, that lie with both their faces on another edge: sheets of two sides.
     pub doubled: Vec<Corner>,
+    /// Half-edges without twin, sorted, that lie behind visible faces on their edge.
+    pub hidden: Vec<Hidden>,
+    /// Half-edges, sorted, along which solids touch with air on both sides.
+    pub contacts: Vec<Corner>,
     /// Half-edges that lie on one edge though they are no twins: parts touch there.
     pub touching: Vec<[Corner; 2]>,
 }
@@ -28,6 +35,23 @@ impl Topology {
     pub fn is_collapsed(&self, triangle: Triangle) -> bool {
         is_collapsed(&self.cluster_at, triangle)
     }
+
+    /// Whether solids touch along a half-edge, with air on both sides.
+    #[inline]
+    pub fn is_contact(&self, half_edge: Corner) -> bool {
+        self.contacts.binary_search(&half_edge).is_ok()
+    }
+
+    /// Whether a half-edge is a border behind visible faces.
+    #[inline]
+    pub fn is_hidden(&self, half_edge: Corner) -> bool {
+        self.hidden.binary_search_by_key(&half_edge, |hidden| hidden.half_edge).is_ok()
+    }
+
+    fn marry(&mut self, [one, other]: [Corner; 2]) {
+        self.twin[one] = other;
+        self.twin[other] = one;
+    }
 }
 
 pub fn topology(view: &View, weld: &Weld) -> Topology {
@@ -35,15 +59,19 @@ pub fn topology(view: &View, weld: &Weld) -> Topology {
     let cluster_at = IdVec::from_vec(
         corners.map(|corner| weld.cluster_of[view.vertex_at(corner)]).collect::<Vec<_>>(),
     );
-    let mut joined = Twins {
+    let mut joined = Topology {
+        cluster_at,
         twin: IdVec::filled(Corner::NONE, view.corner_count()),
         doubled: Vec::new(),
+        hidden: Vec::new(),
+        contacts: Vec::new(),
         touching: Vec::new(),
     };
-    join_all(view, &cluster_at, weld.first_vertex.len(), &mut joined);
+    join_all(view, weld.first_vertex.len(), &mut joined);
     joined.doubled.sort_unstable();
-    let Twins { twin, doubled, touching } = joined;
-    Topology { cluster_at, twin, doubled, touching }
+    joined.hidden.sort_unstable();
+    joined.contacts.sort_unstable();
+    joined
 }
 
 fn is_collapsed(cluster_at: &IdVec<Corner, Cluster>, triangle: Triangle) -> bool {
@@ -59,27 +87,13 @@ struct Spoke {
     half_edge: Corner,
 }
 
-/// Twins as far as they are found.
-struct Twins {
-    twin: IdVec<Corner, Corner>,
-    doubled: Vec<Corner>,
-    touching: Vec<[Corner; 2]>,
-}
-
-impl Twins {
-    fn marry(&mut self, [one, other]: [Corner; 2]) {
-        self.twin[one] = other;
-        self.twin[other] = one;
-    }
-}
-
-fn join_all(view: &View, cluster_at: &IdVec<Corner, Cluster>, clusters: usize, joined: &mut Twins) {
-    let (starts, mut spokes) = buckets(view, cluster_at, clusters);
+fn join_all(view: &View, clusters: usize, joined: &mut Topology) {
+    let (starts, mut spokes) = buckets(view, &joined.cluster_at, clusters);
     for bounds in starts.windows(2) {
         let bucket = &mut spokes[bounds[0] as usize..bounds[1] as usize];
         bucket.sort_unstable_by_key(|spoke| (spoke.far, spoke.half_edge));
         for edge in bucket.chunk_by(|one, other| one.far == other.far) {
-            join(view, cluster_at, edge, joined);
+            join(view, edge, joined);
         }
     }
 }
@@ -114,29 +128,35 @@ fn buckets(
 }
 
 /// Pairs the half-edges of one edge.
-fn join(view: &View, cluster_at: &IdVec<Corner, Cluster>, edge: &[Spoke], joined: &mut Twins) {
+fn join(view: &View, edge: &[Spoke], joined: &mut Topology) {
     match *edge {
         [_] => {}
         [one, other] => {
-            if cluster_at[one.half_edge] != cluster_at[other.half_edge] {
+            if joined.cluster_at[one.half_edge] != joined.cluster_at[other.half_edge] {
                 joined.marry([one.half_edge, other.half_edge]);
             } else {
                 joined.touching.push([one.half_edge, other.half_edge]);
             }
         }
-        _ => {
-            let first = edge[0].half_edge;
-            joined.touching.extend(edge[1..].iter().map(|spoke| [first, spoke.half_edge]));
-            let near = cluster_at[first].min(edge[0].far);
-            let (forth, back): (Vec<_>, Vec<_>) = edge
-                .iter()
-                .map(|spoke| spoke.half_edge)
-                .partition(|&half_edge| cluster_at[half_edge] == near);
-            let pairs = crowded::pairs(view, forth, back);
-            joined.doubled.extend(crowded::doubled(view, &pairs).as_flattened());
-            pairs.into_iter().for_each(|pair| joined.marry(pair));
-        }
+        _ => join_crowd(view, edge, joined),
     }
+}
+
+fn join_crowd(view: &View, edge: &[Spoke], joined: &mut Topology) {
+    let first = edge[0].half_edge;
+    joined.touching.extend(edge[1..].iter().map(|spoke| [first, spoke.half_edge]));
+    let near = joined.cluster_at[first].min(edge[0].far);
+    let (forth, back): (Vec<_>, Vec<_>) = edge
+        .iter()
+        .map(|spoke| spoke.half_edge)
+        .partition(|&half_edge| joined.cluster_at[half_edge] == near);
+    let Crowd { pairs, hidden, is_contact } = crowded::crowd(view, &forth, &back);
+    joined.doubled.extend(crowded::doubled(view, &pairs).as_flattened());
+    joined.hidden.extend(hidden);
+    if is_contact {
+        joined.contacts.extend(pairs.as_flattened());
+    }
+    pairs.into_iter().for_each(|pair| joined.marry(pair));
 }
 
 #[cfg(test)]

@@ -34,7 +34,14 @@ pub fn stays_line(old: [DVec3; 3], new: [DVec3; 3], normal: DVec3, resolution: f
     if has_area && old_area.dot(new_area) <= 0.0 {
         return false;
     }
-    new_area.dot(normal) >= old_area.dot(normal).min(0.0) - longest_side(new) * resolution
+    opens_along(old, new, [normal; 2], resolution)
+}
+
+/// Whether a line that opens faces along a direction, from the one before to the one after, or no
+/// more against it than it did, but for what rounding does.
+pub fn opens_along(old: [DVec3; 3], new: [DVec3; 3], along: [DVec3; 2], resolution: f64) -> bool {
+    let against = area_vector(old).dot(along[0]).min(0.0);
+    area_vector(new).dot(along[1]) >= against - longest_side(new) * resolution
 }
 
 /// Whether a source triangle may become the new one.
@@ -109,6 +116,24 @@ mod tests {
     #[test]
     fn a_triangle_turned_inside_out_does_not_survive() {
         assert!(!survives(OLD, OLD.map(|point| -point)));
+    }
+
+    // b           a terrain's border with a vertex in its middle, and the line that closes the
+    // |           gap there: where b is pulled to the right, the line opens; it lies in the
+    // c   b'      plane of the face behind it, and still shows its back, as the vertex normals
+    // | .         say
+    // a
+    #[test]
+    fn a_line_may_not_open_against_its_vertex_normals() {
+        let old = [[0.0, 0.0, 0.0], [0.0, 0.0, -12.0], [0.0, 0.0, -6.0]].map(DVec3::from);
+        let new = [old[0], DVec3::new(1.6, 0.6, -11.7), old[2]];
+        let (plane, resolution) = (unit(area_vector(new)), 1e-5);
+        let facing = unit(DVec3::new(1.9, -1.85, -0.1));
+        assert!(stays_line(old, new, plane, resolution));
+        assert!(!opens_along(old, new, [facing; 2], resolution));
+        assert!(opens_along(old, new, [-facing; 2], resolution));
+        let hardly = [old[0], DVec3::new(4e-6, 0.0, -12.0), old[2]];
+        assert!(opens_along(old, hardly, [facing; 2], resolution), "that is rounding");
     }
 
     #[test]

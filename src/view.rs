@@ -26,6 +26,8 @@ pub struct View<'a> {
     pub mesh: Mesh<'a>,
     /// The width asked for, in mesh units.
     pub width: f64,
+    /// How much of the breadth of each face has to stay, 0 to 1.
+    pub least_breadth: f64,
     /// The shortest length that single precision can tell from zero on this mesh.
     pub resolution: f64,
     /// Who does the work.
@@ -49,9 +51,10 @@ pub fn view_of_checked<'a>(mesh: &Mesh<'a>, options: &Options) -> Result<View<'a
         }
     }
     let width = width_in_units(mesh, options.width)?;
+    let least_breadth = checked_share(options.least_breadth)?;
     memory::check(mesh, options.verify)?;
     let threads = Threads::new(options.threads, mesh.indices.len());
-    Ok(View { mesh: *mesh, width, resolution: resolution(mesh), threads })
+    Ok(View { mesh: *mesh, width, least_breadth, resolution: resolution(mesh), threads })
 }
 
 impl View<'_> {
@@ -97,6 +100,10 @@ impl View<'_> {
 #[inline]
 pub fn wide(value: [f32; 3]) -> DVec3 {
     DVec3::new(f64::from(value[0]), f64::from(value[1]), f64::from(value[2]))
+}
+
+fn checked_share(share: f32) -> Result<f64, Error> {
+    if (0.0..=1.0).contains(&share) { Ok(share.into()) } else { Err(Error::BadBreadth(share)) }
 }
 
 fn width_in_units(mesh: &Mesh, width: Width) -> Result<f64, Error> {
@@ -271,5 +278,11 @@ mod tests {
     fn a_negative_width_is_refused() {
         let options = Options { width: Width::Units(-1.0), ..Options::default() };
         assert_eq!(view(&triangle(), &options).err(), Some(Error::BadWidth(-1.0)));
+        for share in [-0.1, 1.1, f32::INFINITY] {
+            let options = Options { least_breadth: share, ..Options::default() };
+            assert_eq!(view(&triangle(), &options).err(), Some(Error::BadBreadth(share)));
+        }
+        let options = Options { least_breadth: f32::NAN, ..Options::default() };
+        assert!(matches!(view(&triangle(), &options).err(), Some(Error::BadBreadth(_))));
     }
 }

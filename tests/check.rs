@@ -222,7 +222,7 @@ fn a_vertex_pulled_without_a_strip() {
         let [x, y, z] = after.mesh.positions[0];
         after.mesh.positions[0] = [x, y * 0.9, z * 0.9];
     });
-    assert_eq!(rules, [Rule::Balance, Rule::BorderLoops]);
+    assert_eq!(rules, [Rule::Balance, Rule::BorderLoops, Rule::Gapes]);
 }
 
 #[test]

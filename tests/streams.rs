@@ -117,8 +117,8 @@ const BOUNDS: [(&str, f64); 7] = [
     ("1 area", 2e-5),
     ("1 thin strip", 5e-4),
     ("1 dense strip", 4e-5),
-    ("1 thin fill", 0.001),
-    ("1 dense fill", 3e-4),
+    ("1 thin fill", 0.0011),
+    ("1 dense fill", 8e-4),
     ("2 position", 3e-6),
     ("3 affine", 4e-6),
 ];

@@ -71,8 +71,14 @@ pub struct Args {
     #[arg(default_value = "1")]
     pub width_percent: f32,
 
-    /// How thoroughly results are checked; "full" also keeps chamfers from cutting through the mesh
-    #[arg(long, value_enum, default_value = "full")]
+    /// How much of the breadth of each face has to stay between its chamfers, in percent; narrow
+    /// faces get narrower chamfers for it
+    #[arg(long, value_name = "P", value_parser = percent, allow_negative_numbers = true)]
+    #[arg(default_value = "20")]
+    pub least_breadth: f32,
+
+    /// How thoroughly results are checked
+    #[arg(long, value_enum, default_value = "seen")]
     pub verify: VerifyArg,
 
     /// Write what became of every mesh to this file
@@ -169,7 +175,7 @@ pub struct CheckArgs {
 
     /// How thoroughly to check; "full" also looks for self-intersections
     #[arg(long, value_enum, default_value = "full")]
-    pub verify: VerifyArg,
+    pub verify: CheckDepth,
 
     /// For models without normals: faces that meet at up to this angle shade as one surface
     #[arg(long, value_name = "DEG", value_parser = angle, allow_negative_numbers = true)]
@@ -197,9 +203,29 @@ pub struct DemoArgs {
     pub output: PathBuf,
 }
 
+/// How thoroughly files are compared.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum CheckDepth {
+    /// All rules.
+    Full,
+    /// All but self-intersections.
+    Fast,
+}
+
+impl From<CheckDepth> for Verify {
+    fn from(depth: CheckDepth) -> Verify {
+        match depth {
+            CheckDepth::Full => Verify::Full,
+            CheckDepth::Fast => Verify::Fast,
+        }
+    }
+}
+
 /// [`Verify`] as an argument.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub enum VerifyArg {
+    /// As "full", and no light shows through the model where none did before.
+    Seen,
     /// Nothing opens, flips, degenerates or newly cuts through itself.
     Full,
     /// Nothing opens, flips or degenerates.
@@ -209,6 +235,7 @@ pub enum VerifyArg {
 impl From<VerifyArg> for Verify {
     fn from(verify: VerifyArg) -> Verify {
         match verify {
+            VerifyArg::Seen => Verify::Seen,
             VerifyArg::Full => Verify::Full,
             VerifyArg::Fast => Verify::Fast,
         }
@@ -220,6 +247,7 @@ impl Args {
     pub fn options(&self, threads: u32) -> Options {
         Options {
             width: self.width.map_or(Width::PercentOfExtent(self.width_percent), Width::Units),
+            least_breadth: self.least_breadth / 100.0,
             verify: self.verify.into(),
             chamfer_submesh: self.chamfer_submesh,
             threads,
@@ -236,6 +264,13 @@ fn width(text: &str) -> Result<f32, String> {
     match text.parse::<f32>() {
         Ok(width) if width.is_finite() && width >= 0.0 => Ok(width),
         _ => Err("give a number of at least 0".into()),
+    }
+}
+
+fn percent(text: &str) -> Result<f32, String> {
+    match text.parse::<f32>() {
+        Ok(percent) if (0.0..=100.0).contains(&percent) => Ok(percent),
+        _ => Err("give percent from 0 to 100".into()),
     }
 }
 
@@ -293,6 +328,14 @@ mod tests {
         assert!(parse("chamfer a.glb --width -1").is_err());
         assert!(parse("chamfer a.glb --width inf").is_err());
         assert!(parse("chamfer a.glb --width-percent NaN").is_err());
+    }
+
+    #[test]
+    fn a_breadth_is_a_percentage() {
+        let options = parse("chamfer a.glb --least-breadth 50").unwrap().options(1);
+        assert_eq!(options.least_breadth, 0.5);
+        assert!(parse("chamfer a.glb --least-breadth 101").is_err());
+        assert!(parse("chamfer a.glb --least-breadth NaN").is_err());
     }
 
     #[test]

@@ -17,13 +17,8 @@ pub struct SourceMesh {
 pub const IDENTITY: [[f32; 4]; 4] =
     [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
 
-/// One placed mesh of a file's scene, for pictures.
-pub struct Instance {
-    /// Index into [`Document::meshes`].
-    pub mesh: usize,
-    /// Column-major, from mesh to scene.
-    pub transform: [[f32; 4]; 4],
-}
+/// One placed mesh of a file's scene; its mesh is one of [`Document::meshes`].
+pub use chamfer::Placed as Instance;
 
 /// A file to be written: nothing is on disk before every file of a document is encoded.
 pub struct OutputFile {

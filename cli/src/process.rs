@@ -8,7 +8,10 @@ use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
 use anyhow::{Context, Result, bail};
-use chamfer::{Chamfered, Options, chamfer_with_progress};
+use chamfer::see_through::Eyes;
+use chamfer::{
+    Chamfered, ChamferedScene, Mesh, Options, Verify, chamfer_scene, chamfer_with_progress,
+};
 
 use crate::document::{Document, OutputFile, ReadOptions, SourceMesh};
 use crate::format;
@@ -50,38 +53,69 @@ pub fn process(job: &Job, settings: &Settings, progress: &dyn Fn(f32)) -> Result
     if document.meshes().iter().all(|mesh| mesh.mesh.indices.is_empty()) {
         notes.push("there are no triangles in it: nothing was chamfered".into());
     }
-    let (chamfered, reports) = chamfer_all(document.meshes(), settings, progress)?;
+    let (chamfered, reports) = chamfer_all(&*document, settings, progress, &mut notes)?;
     let files = document.encode(&job.output, &chamfered)?;
     settings.taken.claim(job, &files)?;
     write::together(&files)?;
     Ok(Processed { document, chamfered, reports, notes })
 }
 
+/// Chamfers the meshes of a file together, as they stand in its scene.
 fn chamfer_all(
-    meshes: &[SourceMesh],
+    document: &dyn Document,
     settings: &Settings,
     progress: &dyn Fn(f32),
+    notes: &mut Vec<String>,
 ) -> Result<(Vec<Chamfered>, Vec<MeshReport>)> {
-    let total: usize = meshes.iter().map(|mesh| mesh.mesh.indices.len()).sum();
+    let start = Instant::now();
+    let scene = chamfer_document(document, &settings.core, progress)?;
+    if !scene.leaks.is_empty() {
+        notes.push(format!(
+            "light still shows in {} places after {} tries: see \"chamfer check\"",
+            scene.leaks.len(),
+            scene.rounds
+        ));
+    }
+    let time = start.elapsed() / document.meshes().len().max(1) as u32;
+    let report = |(SourceMesh { name, mesh }, result): (&SourceMesh, &Chamfered)| {
+        let report = MeshReport::new(name, mesh, result, time);
+        if settings.report_edges { report.with_edges(mesh, result) } else { report }
+    };
+    let reports = document.meshes().iter().zip(&scene.meshes).map(report).collect();
+    Ok((scene.meshes, reports))
+}
+
+/// Chamfers the meshes of a file as they stand in its scene: what rests on another is left to rest,
+/// and with [`Verify::Seen`] the whole is looked at. `progress` is told the share done (0 to 1).
+///
+/// # Errors
+/// Whatever is wrong with a mesh or the options.
+pub fn chamfer_document(
+    document: &dyn Document,
+    options: &Options,
+    progress: &dyn Fn(f32),
+) -> Result<ChamferedScene> {
+    let meshes: Vec<Mesh> = document.meshes().iter().map(|mesh| mesh.mesh.as_mesh()).collect();
+    let eyes = (options.verify == Verify::Seen).then(Eyes::default);
+    // The scene looks through all meshes together.
+    let each = match options.verify {
+        Verify::Seen => Options { verify: Verify::Full, ..*options },
+        _ => *options,
+    };
+    let total: usize = meshes.iter().map(|mesh| mesh.indices.len()).sum();
     let mut done = 0;
-    let mut results = (Vec::new(), Vec::new());
-    for SourceMesh { name, mesh } in meshes {
+    let mut run = |number: usize, mesh: &Mesh| {
         let mut tell = |share: f32| {
-            progress((done as f32 + share * mesh.indices.len() as f32) / total.max(1) as f32);
+            let corners = done as f32 + share * mesh.indices.len() as f32;
+            progress((corners / total.max(1) as f32).min(1.0));
             ControlFlow::Continue(())
         };
-        let start = Instant::now();
-        let result = chamfer_with_progress(&mesh.as_mesh(), &settings.core, &mut tell)
-            .with_context(|| format!("mesh {name}"))?;
-        let report = MeshReport::new(name, mesh, &result, start.elapsed());
-        results.1.push(match settings.report_edges {
-            true => report.with_edges(mesh, &result),
-            false => report,
-        });
-        results.0.push(result);
+        let result = chamfer_with_progress(mesh, &each, &mut tell)
+            .with_context(|| format!("mesh {}", document.meshes()[number].name))?;
         done += mesh.indices.len();
-    }
-    Ok(results)
+        Ok(result)
+    };
+    chamfer_scene(&meshes, &document.instances(), eyes, &mut run)
 }
 
 /// Paths that a result must not go to: models of this run, and files that belong to other results.

@@ -1,7 +1,7 @@
 //! All placed meshes of a document together: what the eye sees of it.
 
-use chamfer::MeshBuffers;
 use chamfer::see_through::SceneTriangle;
+use chamfer::{Mesh, MeshBuffers};
 use glam::{Mat3, Mat4, Vec3};
 
 use crate::document::{Document, Instance};
@@ -13,23 +13,9 @@ pub fn scene_triangles<'a>(
     document: &dyn Document,
     mesh: impl Fn(usize) -> &'a MeshBuffers,
 ) -> Vec<SceneTriangle> {
-    let mut scene = Vec::new();
-    for instance in document.instances() {
-        add(&mut scene, mesh(instance.mesh), &instance);
-    }
-    scene
-}
-
-fn add(scene: &mut Vec<SceneTriangle>, mesh: &MeshBuffers, instance: &Instance) {
-    let transform = Mat4::from_cols_array_2d(&instance.transform);
-    let mirrors = transform.determinant() < 0.0;
-    let place = |index: u32| {
-        transform.transform_point3(Vec3::from(mesh.positions[index as usize])).to_array()
-    };
-    for triangle in mesh.indices.chunks_exact(3) {
-        let [a, b, c] = [triangle[0], triangle[1], triangle[2]].map(place);
-        scene.push(if mirrors { [a, c, b] } else { [a, b, c] });
-    }
+    let meshes: Vec<Mesh> =
+        (0..document.meshes().len()).map(|number| mesh(number).as_mesh()).collect();
+    chamfer::scene_triangles(&meshes, &document.instances())
 }
 
 /// The same for a picture.
@@ -67,26 +53,10 @@ mod tests {
     use super::*;
     use crate::document::IDENTITY;
 
-    /// A triangle in the plane z = 0 that faces +z.
-    fn triangle() -> MeshBuffers {
-        MeshBuffers {
-            positions: vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
-            indices: vec![0, 1, 2],
-            ..MeshBuffers::default()
-        }
-    }
-
     fn stretched(x: f32) -> Instance {
         let mut transform = IDENTITY;
         (transform[0][0], transform[3][2]) = (x, 5.0);
         Instance { mesh: 0, transform }
-    }
-
-    #[test]
-    fn a_mirrored_triangle_still_faces_outward() {
-        let mut scene = Vec::new();
-        add(&mut scene, &triangle(), &stretched(-2.0));
-        assert_eq!(scene, [[[0.0, 0.0, 5.0], [0.0, 1.0, 5.0], [-2.0, 0.0, 5.0]]]);
     }
 
     #[test]

@@ -60,6 +60,7 @@ class Options:
 
     width: float = 1.0  # the distance between an old edge and the pulled one
     width_unit: str = "percent"  # of the largest side of the mesh's box, or "mesh" units
+    least_breadth: float = 0.2  # share (0 to 1) of each face's breadth that stays
     verify: str = "full"  # or "fast": then a part may cut through itself; "seen": no light shows
     submesh: object = "owner"  # of the face beside a chamfer; "own": a new one; or a number
     threads: int = 1  # 0 for as many as there are cores; the result is the same
@@ -67,6 +68,8 @@ class Options:
     def fill(self, options):
         """Writes them into the struct of the library."""
         options.width, options.threads = self.width, self.threads
+        # To the library, nothing is the default; this little is nothing.
+        options.least_breadth = self.least_breadth or 1e-9
         options.width_unit = WIDTH_UNITS[self.width_unit]
         options.verify = VERIFY[self.verify]
         if self.submesh in SUBMESH_MODES:
@@ -95,6 +98,7 @@ class _Options(ctypes.Structure):
         ("submesh_mode", c_uint32),
         ("submesh", c_uint32),
         ("threads", c_uint32),
+        ("least_breadth", c_float),
     ]
 
 

@@ -14,6 +14,7 @@ const MOST_CHAMFERED: usize = 600;
 
 const OPTIONS: Options = Options {
     width: Width::PercentOfExtent(2.0),
+    least_breadth: 0.2,
     verify: Verify::Fast,
     chamfer_submesh: chamfer::ChamferSubmesh::Owner,
     threads: 1,

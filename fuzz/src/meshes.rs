@@ -75,6 +75,8 @@ enum Spoil {
 #[derive(Arbitrary, Debug)]
 pub struct Wishes {
     width: WidthWish,
+    /// In 250ths, or any bits.
+    breadth: Result<u8, f32>,
     full: bool,
     submesh: Option<u8>,
     own: bool,
@@ -100,6 +102,7 @@ impl Wishes {
                 WidthWish::AnyPercent(percent) => Width::PercentOfExtent(percent),
                 WidthWish::Units(units) => Width::Units(units),
             },
+            least_breadth: self.breadth.map_or_else(|any| any, |part| f32::from(part) / 250.0),
             verify: if self.full { Verify::Full } else { Verify::Fast },
             chamfer_submesh: match (self.own, self.submesh) {
                 (true, _) => ChamferSubmesh::Own,

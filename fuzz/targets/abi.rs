@@ -116,6 +116,7 @@ struct Options {
     choices: [u8; 3],
     submesh: u8,
     threads: u8,
+    least_breadth: f32,
 }
 
 #[derive(Arbitrary, Debug)]
@@ -278,6 +279,7 @@ fn raw_options(wish: &Options) -> chamfer_options {
         submesh_mode,
         submesh: u32::from(wish.submesh % 4),
         threads: u32::from(wish.threads % 4),
+        least_breadth: wish.least_breadth,
     }
 }
 

@@ -85,6 +85,27 @@ impl<'a> Origins<'a> {
         }
     }
 
+    /// `#vertices`: whether the place of each was made from a source vertex of a kind (`is_of_kind:
+    /// #source vertices`); where nothing is told of one, as if it was.
+    pub fn touches(&self, before: &Mesh, after: &Mesh, is_of_kind: &[bool]) -> Vec<bool> {
+        if let Some(sources) = self.vertices {
+            let touches = |blend: &Blend| {
+                let mut used = blend.vertices.iter().zip(blend.weights).filter(|(_, w)| *w != 0.0);
+                used.any(|(&vertex, _)| is_of_kind[vertex as usize])
+            };
+            return sources.iter().map(|source| touches(&source.surface)).collect();
+        }
+        let mut known = vec![None; after.positions.len()];
+        for (triangle, corners) in self.triangles.iter().enumerate() {
+            for (side, &source) in corners.iter().flatten().enumerate() {
+                let touches =
+                    known[after.indices[3 * triangle + side] as usize].get_or_insert(false);
+                *touches |= is_of_kind[before.indices[source as usize] as usize];
+            }
+        }
+        known.into_iter().map(|touches| touches.unwrap_or(true)).collect()
+    }
+
     /// `#vertices`: whether everything that each was made from satisfies a condition on source
     /// vertices (`holds: #source vertices`).
     pub fn all_hold(&self, before: &Mesh, after: &Mesh, holds: &[bool]) -> Vec<bool> {

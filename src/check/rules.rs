@@ -39,8 +39,10 @@ pub enum Rule {
     /// Where each welded edge of the source is used equally often in both directions, each of the
     /// result is.
     Balance,
-    /// As many border loops as in the source. Not checked where the source has a border that
-    /// touches a non-manifold edge: its loops are then a matter of opinion.
+    /// No edge is open where the source was closed.
+    Gapes,
+    /// As many border loops as in the source. Where a border of the source touches a non-manifold
+    /// edge, loops are a matter of opinion, and [`Rule::Gapes`] alone tells.
     BorderLoops,
     /// No more edges with more than two sides than in the source.
     NonManifold,
@@ -73,6 +75,7 @@ impl Rule {
             Rule::Tangents => "tangent not right",
             Rule::Colors => "colour out of range",
             Rule::Balance => "unbalanced edge",
+            Rule::Gapes => "edge gapes",
             Rule::BorderLoops => "border loops",
             Rule::NonManifold => "non-manifold edge",
             Rule::Flipped => "flipped triangle",

@@ -102,6 +102,16 @@ impl<'a> Surface<'a> {
         self.cluster_of[self.mesh.indices[corner as usize] as usize]
     }
 
+    /// The vertex of a corner.
+    pub fn vertex(&self, corner: u32) -> usize {
+        self.mesh.indices[corner as usize] as usize
+    }
+
+    /// `#vertices`: the first vertex at the same position.
+    pub fn clusters(&self) -> &[u32] {
+        &self.cluster_of
+    }
+
     /// Whether two opposite half-edges have the same normals at both ends.
     pub fn is_soft(&self, a: &HalfEdge, b: &HalfEdge) -> bool {
         [0, 1].iter().all(|&end| self.share_normal([a.corners[end], b.corners[1 - end]]))
@@ -219,9 +229,8 @@ pub(super) fn check_edges(before: &Surface, after: &Surface, findings: &mut Find
             findings.note(Rule::Balance, element(edge));
         }
     }
-    if !before.has_clear_borders() {
-        findings.leave_out(Rule::BorderLoops, "a border of the source touches a non-manifold edge");
-    } else if source.border_loops != result.border_loops {
+    // Elsewhere `Rule::Gapes` has to do.
+    if before.has_clear_borders() && source.border_loops != result.border_loops {
         findings.note(Rule::BorderLoops, Element::Mesh);
     }
     let added = result.non_manifold_edges.saturating_sub(source.non_manifold_edges);

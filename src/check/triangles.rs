@@ -34,9 +34,20 @@ pub(super) fn check_triangles(
             {
                 findings.note(Rule::Flipped, Element::Triangle(triangle));
             }
+            (None, Some(now)) if opens_against(after, triangle, now) => {
+                findings.note(Rule::Flipped, Element::Triangle(triangle));
+            }
             _ => {}
         }
     }
+}
+
+/// Whether a triangle that had no area faces away from its vertex normals, by more than rounding.
+fn opens_against(after: &Surface, triangle: u32, normal: DVec3) -> bool {
+    let [a, b, c] = after.triangle(triangle);
+    let longest = [b - a, c - b, a - c].map(DVec3::length).into_iter().fold(0.0, f64::max);
+    let facing = shading(after, triangle).normalize_or_zero();
+    normal.dot(facing) < -longest * after.rounding()
 }
 
 /// The sum of the vertex normals.

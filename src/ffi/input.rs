@@ -125,6 +125,10 @@ pub unsafe fn read_options(options: *const chamfer_options) -> Result<Options, F
             CHAMFER_WIDTH_PERCENT => Width::PercentOfExtent(options.width),
             other => return Err(bad_option("width_unit", other)),
         },
+        least_breadth: match options.least_breadth {
+            0.0 => Options::default().least_breadth,
+            share => share,
+        },
         verify: match options.verify {
             CHAMFER_VERIFY_FAST => Verify::Fast,
             CHAMFER_VERIFY_FULL => Verify::Full,
@@ -174,7 +178,8 @@ unsafe impl StatesSize for chamfer_mesh {
 
 // SAFETY: numbers only, the size first.
 unsafe impl StatesSize for chamfer_options {
-    const SIZES: &'static [usize] = &[size_of::<chamfer_options>()];
+    // Before the least breadth there were seven fields.
+    const SIZES: &'static [usize] = &[28, size_of::<chamfer_options>()];
 
     fn defaults() -> Self {
         let options = Options::default();
@@ -199,6 +204,7 @@ unsafe impl StatesSize for chamfer_options {
             submesh_mode,
             submesh,
             threads: options.threads,
+            least_breadth: options.least_breadth,
         }
     }
 }

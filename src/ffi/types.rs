@@ -27,7 +27,7 @@ pub const CHAMFER_STATUS_STRUCT_SIZE: i32 = 102;
 pub const CHAMFER_STATUS_COUNT_OVERFLOW: i32 = 103;
 /// The width is negative, infinite or not a number.
 pub const CHAMFER_STATUS_BAD_WIDTH: i32 = 104;
-/// An option holds none of its constants.
+/// An option holds none of its constants, or is out of its range.
 pub const CHAMFER_STATUS_BAD_OPTION: i32 = 105;
 /// The submesh that chamfers are to go to does not exist. Element: that submesh.
 pub const CHAMFER_STATUS_SUBMESH_RANGE: i32 = 106;
@@ -219,6 +219,9 @@ pub struct chamfer_options {
     /// How many threads may work; 0 for as many as there are cores. Default: 1. The result is the
     /// same.
     pub threads: u32,
+    /// How much of the breadth of each face has to stay between its chamfers, as a share up to 1.
+    /// 0 for the default, a fifth; a tiny share for nothing.
+    pub least_breadth: f32,
 }
 
 /// What went wrong, in detail. Callers set `struct_size`; a call fills in the rest, also when it

@@ -1,4 +1,4 @@
-//! Room: the shares at which the source triangles keep enough of their area.
+//! Room: the shares at which the source triangles keep enough of their area and breadth.
 //!
 //! All sectors grow together. When a triangle has given away what it can, the sectors that press
 //! on it stop, and the others grow on: so no sector gets less than it must, and two that compete
@@ -11,12 +11,16 @@ use std::collections::BinaryHeap;
 use glam::DVec3;
 
 use crate::ids::{Corner, Few, IdVec, Sector, Triangle};
+use crate::limits::breadth;
 use crate::math::area_vector;
 use crate::plan::Plan;
 
 /// A triangle may give away all but this share of its area. Somewhat more than what validity asks
 /// for, so that rounding does not undo it.
 const LEAST_SHARE: f64 = 0.02;
+
+/// So many times the breadth that has to stay does, for the same reason.
+const SAFETY: f64 = 1.01;
 
 /// `#sectors`: the largest share, up to 1, that leaves room in all triangles of the sector.
 pub fn room(plan: &Plan) -> IdVec<Sector, f64> {
@@ -82,6 +86,8 @@ struct Moving {
     normal: DVec3,
     /// The least that it may come down to.
     least: f64,
+    /// `#sides`: the same, for each unit of the side's length along this vector.
+    over: [DVec3; 3],
     /// What it may be off that by rounding.
     slack: f64,
 }
@@ -99,8 +105,8 @@ impl Filling<'_> {
 
     fn moving(&self, triangle: Triangle) -> Moving {
         let old = self.plan.view.triangle(triangle);
-        let (normal, least, slack) = self.allowance(triangle, old);
-        let mut moving = Moving { start: old, growth: [DVec3::ZERO; 3], normal, least, slack };
+        let growth = [DVec3::ZERO; 3];
+        let mut moving = Moving { start: old, growth, ..self.allowance(triangle, old) };
         for (k, sector) in self.sectors(triangle).into_iter().enumerate() {
             if sector.is_some() {
                 let (vector, share) = (self.plan.offsets[sector].vector, self.share[sector]);
@@ -114,19 +120,42 @@ impl Filling<'_> {
         moving
     }
 
-    /// Along which direction a triangle's area counts, how little of it may be left, and how exact
-    /// that is.
-    fn allowance(&self, triangle: Triangle, old: [DVec3; 3]) -> (DVec3, f64, f64) {
-        let (faces, area) = (&self.plan.faces, area_vector(old));
+    /// A triangle that does not move, with what has to be left of it.
+    fn allowance(&self, triangle: Triangle, start: [DVec3; 3]) -> Moving {
+        let (faces, area, growth) = (&self.plan.faces, area_vector(start), [DVec3::ZERO; 3]);
         if !faces.is_line(triangle) {
             let whole = area.length_squared();
-            return (area, LEAST_SHARE * whole, EXHAUSTED * whole);
+            let (least, slack) = (LEAST_SHARE * whole, EXHAUSTED * whole);
+            let share = (self.plan.view.least_breadth * SAFETY).min(1.0);
+            let over = breadth::least(self.plan, triangle, start, share);
+            return Moving { start, growth, normal: area, least, over, slack };
         }
         // A line may not fold over, but for what rounding does.
-        let longest = (0..3).map(|k| old[k].distance(old[(k + 1) % 3])).fold(0.0, f64::max);
+        let longest = (0..3).map(|k| start[k].distance(start[(k + 1) % 3])).fold(0.0, f64::max);
         let rounding = longest * self.plan.view.resolution / 2.0;
         let normal = faces.normal[triangle];
-        (normal, area.dot(normal).min(0.0) - rounding, rounding * EXHAUSTED)
+        let least = area.dot(normal).min(0.0) - rounding;
+        let slack = rounding * EXHAUSTED;
+        Moving { start, growth, normal, least, over: [DVec3::ZERO; 3], slack }
+    }
+
+    /// A triangle, when it will have given away all it can, and of what. Heights that do not count
+    /// are only told from those that do where they run out.
+    fn exhausted(&self, triangle: Triangle, from: f64) -> Option<(Moving, f64, Bound)> {
+        let mut moving = self.moving(triangle);
+        loop {
+            let (share, bound) = moving.exhausted_at(from)?;
+            match bound {
+                Bound::Height(k) if share < 1.0 && self.goes_on(triangle, k) => {
+                    moving.over[k] = DVec3::ZERO;
+                }
+                _ => return Some((moving, share, bound)),
+            }
+        }
+    }
+
+    fn goes_on(&self, triangle: Triangle, side: usize) -> bool {
+        breadth::goes_on(self.plan, triangle, side, self.plan.view.triangle(triangle))
     }
 
     /// When the triangle will have given away all it can, from a share on.
@@ -135,19 +164,19 @@ impl Filling<'_> {
         if !self.sectors(triangle).into_iter().any(is_growing) {
             return None;
         }
-        let share = self.moving(triangle).exhausted_at(from)?;
+        let (_, share, _) = self.exhausted(triangle, from)?;
         (share < 1.0).then_some(Event { share, triangle })
     }
 
     /// Stops the sectors that press on an exhausted triangle.
     fn stop_around(&mut self, event: &Event) {
-        let moving = self.moving(event.triangle);
         // Sectors may have stopped since the event was noted: then another one has taken its place.
-        if moving.exhausted_at(event.share).is_none_or(|share| share > event.share) {
+        let now = self.exhausted(event.triangle, event.share);
+        let Some((moving, _, bound)) = now.filter(|now| now.1 <= event.share) else {
             return;
-        }
+        };
         let sectors = self.sectors(event.triangle);
-        let pressing = moving.pressing(event.share);
+        let pressing = moving.pressing(event.share, bound);
         for k in (0..3).filter(|&k| pressing[k]) {
             self.share[sectors[k]] = event.share;
         }
@@ -164,21 +193,56 @@ impl Filling<'_> {
     }
 }
 
+/// What a triangle can run out of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Bound {
+    Area,
+    /// The height over the side of this number.
+    Height(usize),
+}
+
+const BOUNDS: [Bound; 4] = [Bound::Area, Bound::Height(0), Bound::Height(1), Bound::Height(2)];
+
 impl Moving {
     fn at(&self, share: f64) -> [DVec3; 3] {
         [0, 1, 2].map(|k| self.start[k] + self.growth[k] * share)
     }
 
-    /// The first share, not before `from`, at which only the least area is left: a root of a
-    /// quadratic function.
-    fn exhausted_at(&self, from: f64) -> Option<f64> {
-        let [a, b, c] = self.at(from);
+    /// The first share, not before `from`, at which no more is left than has to be, and of what.
+    fn exhausted_at(&self, from: f64) -> Option<(f64, Bound)> {
+        let corners = self.at(from);
+        let [a, b, c] = corners;
         let [grow_a, grow_b, grow_c] = self.growth;
         let (ab, ac) = (b - a, c - a);
         let (grow_ab, grow_ac) = (grow_b - grow_a, grow_c - grow_a);
-        let spare = self.normal.dot(ab.cross(ac)) - self.least;
+        let area = self.normal.dot(ab.cross(ac));
         let linear = self.normal.dot(ab.cross(grow_ac) + grow_ab.cross(ac));
         let square = self.normal.dot(grow_ab.cross(grow_ac));
+        let of = |bound: Bound| {
+            let [least, grows] = self.least(bound, [corners, self.growth])?;
+            let share = self.spent([area - least, linear - grows, square], from)?;
+            Some((share, bound))
+        };
+        // Of equal ones the first.
+        BOUNDS.into_iter().filter_map(of).min_by(|one, other| one.0.total_cmp(&other.0))
+    }
+
+    /// The least area that a bound asks for, of corners and of how they grow; none if it asks for
+    /// nothing.
+    fn least(&self, bound: Bound, [corners, growth]: [[DVec3; 3]; 2]) -> Option<[f64; 2]> {
+        match bound {
+            Bound::Area => Some([self.least, 0.0]),
+            Bound::Height(k) if self.over[k] == DVec3::ZERO => None,
+            Bound::Height(k) => {
+                let along = |points: [DVec3; 3]| points[(k + 1) % 3] - points[k];
+                Some([corners, growth].map(|points| self.over[k].dot(along(points))))
+            }
+        }
+    }
+
+    /// The first share, not before `from`, at which nothing is to spare: a root of a quadratic
+    /// function of what the share has grown since.
+    fn spent(&self, [spare, linear, square]: [f64; 3], from: f64) -> Option<f64> {
         // Rounding leaves a triangle that was stopped a little above or below its limit.
         if spare <= self.slack {
             return (linear < 0.0).then_some(from);
@@ -191,13 +255,16 @@ impl Moving {
         first_root(square, linear, spare).map(|further| from + further)
     }
 
-    /// Which growing corners take area away; all of them if none does alone.
-    fn pressing(&self, share: f64) -> [bool; 3] {
+    /// Which growing corners take away what runs out; all of them if none does alone.
+    fn pressing(&self, share: f64, bound: Bound) -> [bool; 3] {
         let corners = self.at(share);
         let grows = self.growth.map(|growth| growth != DVec3::ZERO);
         let pressing = [0, 1, 2].map(|k| {
             let opposite = corners[(k + 1) % 3] - corners[(k + 2) % 3];
-            grows[k] && self.normal.dot(self.growth[k].cross(opposite)) < 0.0
+            let mut alone = [DVec3::ZERO; 3];
+            alone[k] = self.growth[k];
+            let asked = self.least(bound, [corners, alone]).map_or(0.0, |[_, grows]| grows);
+            grows[k] && self.normal.dot(self.growth[k].cross(opposite)) < asked
         });
         if pressing.contains(&true) { pressing } else { grows }
     }
@@ -234,21 +301,37 @@ mod tests {
     fn moving(growth: [f64; 3]) -> Moving {
         let start = [DVec3::ZERO, DVec3::X, DVec3::Y];
         let growth = growth.map(|x| DVec3::X * x);
-        Moving { start, growth, normal: DVec3::Z, least: LEAST_SHARE, slack: EXHAUSTED }
+        let (normal, least, slack) = (DVec3::Z, LEAST_SHARE, EXHAUSTED);
+        Moving { start, growth, normal, least, over: [DVec3::ZERO; 3], slack }
     }
 
     #[test]
     fn corners_that_approach_each_other_stop_together() {
         let moving = moving([1.0, -1.0, 0.0]);
-        let share = moving.exhausted_at(0.0).unwrap();
+        let (share, bound) = moving.exhausted_at(0.0).unwrap();
         assert!((share - 0.49).abs() < 1e-12);
-        assert_eq!(moving.pressing(share), [true, true, false]);
+        assert_eq!(moving.pressing(share, bound), [true, true, false]);
     }
 
     #[test]
     fn a_corner_that_gives_room_does_not_stop() {
         let moving = moving([2.0, 0.5, 0.0]);
-        let share = moving.exhausted_at(0.0).unwrap();
-        assert_eq!(moving.pressing(share), [true, false, false]);
+        let (share, bound) = moving.exhausted_at(0.0).unwrap();
+        assert_eq!(moving.pressing(share, bound), [true, false, false]);
+    }
+
+    // 2
+    // | .         its height over the side 0-1 may come down to a fifth: 2 stops, and 0 and 1,
+    // |   .       which draw near each other, do not take it away
+    // 0-----1
+    #[test]
+    fn who_takes_a_height_away_stops_and_who_shortens_the_side_does_not() {
+        let mut moving = moving([0.1, -0.1, 0.0]);
+        moving.growth[2] = -DVec3::Y;
+        moving.over[0] = DVec3::X * 0.2;
+        let (share, bound) = moving.exhausted_at(0.0).unwrap();
+        assert_eq!(bound, Bound::Height(0));
+        assert!((share - 0.8).abs() < 1e-12);
+        assert_eq!(moving.pressing(share, bound), [false, false, true]);
     }
 }

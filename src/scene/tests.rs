@@ -48,3 +48,16 @@ fn the_rim_of_another_object_holds_the_edge_that_it_rests_on() {
     let held = |v: &crate::EdgeVerdict| v.reason == Reason::Contact;
     assert!(touching.meshes[0].verdicts.iter().any(held), "{:?}", touching.meshes[0].totals);
 }
+
+#[test]
+fn a_mirrored_triangle_still_faces_outward() {
+    let triangle = MeshBuffers {
+        positions: vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+        indices: vec![0, 1, 2],
+        ..MeshBuffers::default()
+    };
+    let mut transform = at(0.0, 0.0, 5.0);
+    transform[0][0] = -2.0;
+    let triangles = scene_triangles(&[triangle.as_mesh()], &[Placed { mesh: 0, transform }]);
+    assert_eq!(triangles, [[[0.0, 0.0, 5.0], [0.0, 1.0, 5.0], [-2.0, 0.0, 5.0]]]);
+}

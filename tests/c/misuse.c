@@ -439,6 +439,15 @@ static void unknown_choices(int32_t expected) {
     run(expected, &mesh, &options);
 }
 
+static void wrong_breadths(int32_t expected) {
+    const float wrong[] = {-1e-30f, 1.001f, (float)NAN, (float)INFINITY, (float)-INFINITY};
+    size_t i;
+    for (i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
+        options.least_breadth = wrong[i];
+        run(expected, &mesh, &options);
+    }
+}
+
 static void wrong_widths(int32_t expected) {
     const float wrong[] = {-1.0f, -1e-30f, (float)NAN, (float)INFINITY, (float)-INFINITY};
     size_t i;
@@ -847,6 +856,7 @@ static const struct row rows[] = {
         past_the_address_space),
     ROW("`width_unit`, `verify` or `submesh_mode` is none of its constants", BAD_OPTION,
         unknown_choices),
+    ROW("`least_breadth` is negative, above 1 or NaN", BAD_OPTION, wrong_breadths),
     ROW("a negative, infinite or NaN width", BAD_WIDTH, wrong_widths),
     ROW("a width larger than the mesh, however large", OK, huge_widths),
     ROW("`CHAMFER_SUBMESH_GIVEN` with a submesh that the mesh lacks", SUBMESH_RANGE,

@@ -127,9 +127,11 @@ impl Sum {
         }
     }
 
-    /// The share of the hard edges that have a chamfer, by count.
+    /// The share of the hard edges that have a chamfer, by count, of those that may have one: along
+    /// contacts light would show.
     pub fn chamfered_share(&self) -> f64 {
-        f64::from(self.chamfered + self.narrowed) / f64::from(self.hard_edges.max(1))
+        let contacts = self.skipped[Reason::Contact as usize];
+        f64::from(self.chamfered + self.narrowed) / f64::from((self.hard_edges - contacts).max(1))
     }
 
     /// The mean over the meshes of the width at the ends that open.

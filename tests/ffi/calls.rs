@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 use std::ffi::{CStr, c_char, c_void};
+use std::mem::offset_of;
 use std::{mem, ptr, slice, thread};
 
 use crate::cube::{Cube, options};
@@ -310,6 +311,26 @@ fn prepare(mesh: &chamfer_mesh) -> (i32, PreparedHandle) {
     // SAFETY: all pointers are valid or allowed to be NULL.
     let status = unsafe { (LIBRARY.chamfer_prepare)(mesh, &mut prepared, ptr::null_mut()) };
     (status, PreparedHandle(prepared))
+}
+
+/// A caller of the header before there was a least breadth: what lies behind its options is not read.
+#[test]
+fn shorter_options_have_the_default_breadth() {
+    let cube = Cube::new();
+    let wide = chamfer_options { width: 9.0, ..options() };
+    let struct_size = offset_of!(chamfer_options, least_breadth) as u32;
+    let shorter = chamfer_options { struct_size, least_breadth: 0.9, ..wide };
+    let unset = chamfer_options { least_breadth: 0.0, ..wide };
+    let more = chamfer_options { least_breadth: 0.9, ..wide };
+    let positions = |options: &chamfer_options| {
+        let result = run(&cube.view(), options);
+        let mesh = mesh_of(&result);
+        // SAFETY: the mesh has that many positions.
+        unsafe { slice_or_empty(mesh.positions, 3 * mesh.vertex_count as usize) }.to_vec()
+    };
+    assert_eq!(positions(&shorter), positions(&wide));
+    assert_eq!(positions(&unset), positions(&wide));
+    assert_ne!(positions(&more), positions(&wide));
 }
 
 fn run_prepared(prepared: &PreparedHandle, options: &chamfer_options) -> (i32, Handle) {

@@ -74,6 +74,7 @@ pub fn options() -> chamfer_options {
         submesh_mode: 99,
         submesh: 99,
         threads: 99,
+        least_breadth: 99.0,
     };
     // SAFETY: the struct states its size.
     let status = unsafe { (crate::library::LIBRARY.chamfer_options_init)(&mut options) };

@@ -190,6 +190,9 @@ fn bad_options() {
     assert_eq!(with_options(|options| options.width_unit = 2), BAD);
     assert_eq!(with_options(|options| options.verify = 3), BAD);
     assert_eq!(with_options(|options| options.submesh_mode = u32::MAX), BAD);
+    for share in [-0.1, 1.1, f32::NAN, f32::INFINITY] {
+        assert_eq!(with_options(|options| options.least_breadth = share), BAD);
+    }
     for width in [-1.0, f32::NAN, f32::INFINITY] {
         let bad = (CHAMFER_STATUS_BAD_WIDTH, NONE);
         assert_eq!(with_options(|options| options.width = width), bad);

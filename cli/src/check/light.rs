@@ -1,5 +1,6 @@
 //! Where light shows after chamfering: the scenes of both files, looked through.
 
+use std::cmp::Reverse;
 use std::path::Path;
 
 use anyhow::Result;
@@ -37,9 +38,10 @@ fn scene(document: &dyn Document) -> Vec<SceneTriangle> {
     scene_triangles(document, |mesh| &document.meshes()[mesh].mesh)
 }
 
-/// Leaks at one place together, however many views show them; the worst first.
+/// Leaks at one place together, however many views show them. The worst come first: those with
+/// nothing behind, then by their samples.
 fn merged(mut leaks: Vec<Leak>, width: f32) -> Vec<Place> {
-    leaks.sort_by_key(|leak| std::cmp::Reverse(leak.places.len()));
+    leaks.sort_by_key(|leak| Reverse((leak.depth.is_infinite(), leak.places.len())));
     let mut places: Vec<Place> = Vec::new();
     for leak in leaks {
         match places.iter_mut().find(|place| are_near(&place.leak, &leak, width * SAME_PLACE)) {
@@ -90,25 +92,31 @@ pub fn draw(
 mod tests {
     use super::*;
 
+    /// Each seen from another side.
     fn leak(places: &[[f32; 3]], depth: f32) -> Leak {
-        Leak { toward_eye: [0.0, 0.0, 1.0], places: places.to_vec(), depth }
+        Leak {
+            toward_eye: [0.0, depth, 1.0],
+            places: places.to_vec(),
+            depth,
+            is_past_outlines: false,
+        }
     }
 
     #[test]
     fn leaks_within_three_widths_are_one_place() {
         let slit: Vec<[f32; 3]> = (0..9).map(|k| [k as f32, 0.0, 0.0]).collect();
         let [at_its_end, apart] = [[8.0, 0.25, 0.0], [8.0, 0.4, 0.0]];
-        let found = [leak(&[at_its_end], 7.0), leak(&slit, 2.0), leak(&[apart], 1.0)];
+        let end = leak(&[at_its_end], 7.0);
+        let found = [end.clone(), end, leak(&slit, 2.0), leak(&[apart], 1.0)];
         let places = merged(found.to_vec(), 0.1);
         let told: Vec<_> = places.iter().map(|p| (p.samples, p.views, p.deeper)).collect();
-        assert_eq!(told, [(9, 2, Some(7.0)), (1, 1, Some(1.0))]);
+        assert_eq!(told, [(9, 2, Some(2.0)), (1, 1, Some(1.0))]);
         assert_eq!(places[0].at, [4.0, 0.0, 0.0]);
     }
 
     #[test]
-    fn behind_one_that_shows_the_background_there_is_nothing() {
-        let at = [[0.0; 3]];
-        let places = merged(vec![leak(&at, 1.0), leak(&at, f32::INFINITY)], 0.1);
-        assert_eq!((places.len(), places[0].deeper), (1, None));
+    fn a_view_with_nothing_behind_is_worse_than_a_larger_one() {
+        let places = merged(vec![leak(&[[0.0; 3]; 5], 1.0), leak(&[[0.0; 3]], f32::INFINITY)], 0.1);
+        assert_eq!((places.len(), places[0].samples, places[0].deeper), (1, 1, None));
     }
 }

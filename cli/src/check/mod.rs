@@ -8,16 +8,17 @@ mod table;
 use std::path::Path;
 use std::process::ExitCode;
 
-use anyhow::{Context, Result, anyhow, ensure};
+use anyhow::{Result, anyhow, ensure};
 use chamfer::check::{Findings, Rule, compare};
-use chamfer::{EdgeVerdict, MeshBuffers, Options, Outcome, chamfer};
+use chamfer::{Chamfered, EdgeVerdict, MeshBuffers, Options, Outcome, Verify};
 
-use crate::args::{CheckArgs, VerifyArg};
+use crate::args::{CheckArgs, CheckDepth};
 use crate::batch::{USAGE, name_of, one_line};
 use crate::console::{say, warn};
 use crate::document::{Document, NormalsRead, ReadOptions};
 use crate::format;
 use crate::jobs::identity;
+use crate::process::chamfer_document;
 use crate::scene::largest_length;
 use crate::write;
 
@@ -41,11 +42,13 @@ fn check(args: &CheckArgs) -> Result<Verdict> {
     let [before, after] = [&args.before, &args.after].map(|path| read(path, &args.read_options()));
     let (before, after) = (before?, after?);
     let pairs = Pairs::new(before.meshes(), after.meshes());
+    let expected = expected(&*before, args)?;
     let checks = pairs.both.iter().map(|&[source, result]| {
+        let expected = expected.get(source);
         let source = Side { document: &*before, mesh: source };
-        check_pair(source, Side { document: &*after, mesh: result }, args)
+        check_pair(source, Side { document: &*after, mesh: result }, expected, args)
     });
-    let checks = checks.collect::<Result<Vec<MeshCheck>>>()?;
+    let checks: Vec<MeshCheck> = checks.collect();
     let documents = [&*before as &dyn Document, &*after];
     let report = CheckReport::new(
         [&args.before, &args.after],
@@ -117,7 +120,20 @@ impl Side<'_> {
     }
 }
 
-fn check_pair(source: Side, result: Side, args: &CheckArgs) -> Result<MeshCheck> {
+/// `#meshes`: what chamfering the file would give, where the width asked for is known.
+fn expected(before: &dyn Document, args: &CheckArgs) -> Result<Vec<Chamfered>> {
+    let Some(width) = args.width() else { return Ok(Vec::new()) };
+    let verify = if args.no_see_through { args.verify.into() } else { Verify::Seen };
+    let options = Options { width, verify, ..Options::default() };
+    Ok(chamfer_document(before, &options, &|_| ())?.meshes)
+}
+
+fn check_pair(
+    source: Side,
+    result: Side,
+    expected: Option<&Chamfered>,
+    args: &CheckArgs,
+) -> MeshCheck {
     let [before, after] = [source.as_stored(), result.as_stored()];
     let mut findings = compare(&before.as_mesh(), &after.as_mesh(), args.verify.into());
     if result.normals().computed {
@@ -125,19 +141,14 @@ fn check_pair(source: Side, result: Side, args: &CheckArgs) -> Result<MeshCheck>
             findings.leave_out(rule, "the result's normals are not in its file");
         }
     }
-    if matches!(args.verify, VerifyArg::Fast) {
+    if matches!(args.verify, CheckDepth::Fast) {
         findings.leave_out(Rule::SelfIntersection, "left out by --verify fast");
     }
     let mut check = MeshCheck::new(source.name(), &findings);
-    if let Some(width) = args.width() {
-        // Not as stored: a normal that is not right is no reason not to know what to expect.
-        let mesh = &source.document.meshes()[source.mesh].mesh;
-        let options = Options { width, verify: args.verify.into(), ..Options::default() };
-        let expected = chamfer(&mesh.as_mesh(), &options)
-            .with_context(|| format!("mesh {}", source.name()))?;
+    if let Some(expected) = expected {
         check.expect(expected.width, &left_without_need(&findings, &expected.verdicts));
     }
-    Ok(check)
+    check
 }
 
 /// The hard edges that are left although chamfering would not leave them.

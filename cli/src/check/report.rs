@@ -89,15 +89,18 @@ impl SeeThrough {
 pub struct Place {
     /// In scene units, on the old surface.
     pub at: [f32; 3],
-    /// The unit vector from there to the eye that sees most of it.
+    /// The unit vector from there to the eye that sees the worst of it.
     pub toward_eye: [f32; 3],
     /// How many samples that eye has of it.
     pub samples: usize,
     /// From how many directions it is seen.
     pub views: usize,
-    /// How much farther the eye sees than before, at most, in scene units; nothing where there is
-    /// nothing behind.
+    /// How much farther that eye sees than before, at most, in scene units; nothing where there
+    /// is nothing behind.
     pub deeper: Option<f32>,
+    /// The eyes of those.
+    #[serde(skip)]
+    eyes: Vec<[f32; 3]>,
     /// The worst one.
     #[serde(skip)]
     pub leak: Leak,
@@ -111,16 +114,18 @@ impl Place {
             toward_eye: leak.toward_eye,
             samples: leak.places.len(),
             views: 1,
+            eyes: vec![leak.toward_eye],
             deeper: Some(leak.depth).filter(|depth| depth.is_finite()),
             leak,
         }
     }
 
-    /// Adds what another view sees of it, which is not more.
+    /// Adds what another view sees of it, which is not worse.
     pub fn add(&mut self, leak: &Leak) {
-        let deeper = self.deeper.unwrap_or(f32::INFINITY).max(leak.depth);
-        self.deeper = Some(deeper).filter(|depth| depth.is_finite());
-        self.views += usize::from(self.leak.toward_eye != leak.toward_eye);
+        if !self.eyes.contains(&leak.toward_eye) {
+            self.eyes.push(leak.toward_eye);
+            self.views += 1;
+        }
     }
 }
 

@@ -47,8 +47,10 @@ fn light(found: &SeeThrough) -> Vec<String> {
     }
     let place = |place: &Place| light_at(place, found.width);
     let mut lines: Vec<String> = found.places.iter().take(NAMED_PLACES).map(place).collect();
-    if found.places.len() > NAMED_PLACES {
-        lines.push(format!("light shows at {} more places", found.places.len() - NAMED_PLACES));
+    match found.places.len().saturating_sub(NAMED_PLACES) {
+        0 => {}
+        1 => lines.push("light shows at 1 more place".into()),
+        more => lines.push(format!("light shows at {more} more places")),
     }
     lines
 }
@@ -149,11 +151,32 @@ fn aligned(rows: &[Row]) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use chamfer::see_through::Leak;
 
     #[test]
     fn lengths_have_four_digits() {
         let texts = [1.0, 0.012_345_6, 123.46, 54_321.0, 0.0].map(|width| length(Some(width)));
         assert_eq!(texts, ["1.000", "0.01235", "123.5", "54321", "0"]);
+    }
+
+    #[test]
+    fn the_worst_places_are_named_and_the_rest_counted() {
+        let leak = |depth| Leak {
+            toward_eye: [0.0, 0.0, 1.0],
+            places: vec![[0.5, 1.0, -2.0]; 3],
+            depth,
+            is_past_outlines: false,
+        };
+        let found = |count: usize| {
+            let places = [f32::INFINITY, 0.6].into_iter().cycle().take(count);
+            let places = places.map(|depth| Place::new(leak(depth))).collect();
+            light(&SeeThrough { width: Some(0.05), places, ..SeeThrough::default() })
+        };
+        let at = "light shows at (0.5000, 1.000, -2.000), seen from (0.00, 0.00, 1.00): 3 samples";
+        let two = [format!("{at}, nothing behind"), format!("{at}, 12 widths deeper")];
+        assert_eq!(found(2), two);
+        assert_eq!(found(7)[6..], ["light shows at 1 more place"]);
+        assert_eq!(found(9)[6..], ["light shows at 3 more places"]);
     }
 
     #[test]

@@ -117,6 +117,7 @@ mod tests {
         colors: &[],
         uvs: [chamfer::Uv { components: 0, values: &[] }; chamfer::UV_CHANNELS],
         submesh_index_counts: &[9],
+        held: &[],
     };
 
     fn scene(transform: [[f32; 4]; 4]) -> Scene {

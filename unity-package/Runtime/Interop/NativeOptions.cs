@@ -13,5 +13,6 @@ namespace Chamfer.Interop
         public uint SubmeshMode;
         public uint Submesh;
         public uint Threads;
+        public float LeastBreadth;
     }
 }

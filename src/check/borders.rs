@@ -1,0 +1,56 @@
+//! Does anything gape that was closed?
+
+use super::origins::Origins;
+use super::rules::{Element, Findings, Rule};
+use super::surface::{HalfEdge, Surface};
+
+/// Notes the edges that are open though they lie where the source was closed. An edge is open where
+/// it is not used equally often in both directions.
+pub(super) fn check_borders(
+    before: &Surface,
+    after: &Surface,
+    origins: &Origins,
+    findings: &mut Findings,
+) {
+    let source = Openings::of(before);
+    let touches_border = origins.touches(before.mesh, after.mesh, &source.vertices);
+    for (forward, backward) in after.edges().filter(|(a, b)| a.len() != b.len()) {
+        let may_be_open = |half_edge: &HalfEdge| {
+            let [corner, end] = half_edge.corners;
+            match origins.triangles[corner as usize / 3] {
+                Some(corners) => source.corners[corners[corner as usize % 3] as usize],
+                None => [corner, end].iter().all(|&c| touches_border[after.vertex(c)]),
+            }
+        };
+        // Of an edge that several triangles share, one that was open is enough.
+        if !forward.iter().chain(backward).any(may_be_open) {
+            let [a, b] = forward.first().or(backward.first()).map_or([0; 2], |h| h.clusters);
+            findings.note(Rule::Gapes, Element::Edge(a, b));
+        }
+    }
+}
+
+/// Where a mesh is open.
+struct Openings {
+    /// `#corners`: whether the half-edge from there is.
+    corners: Vec<bool>,
+    /// `#vertices`: whether such a one begins or ends at its position.
+    vertices: Vec<bool>,
+}
+
+impl Openings {
+    fn of(surface: &Surface) -> Openings {
+        let mut corners = vec![true; surface.mesh.indices.len()];
+        let mut clusters = vec![false; surface.mesh.positions.len()];
+        for (forward, backward) in surface.edges() {
+            let is_open = forward.len() != backward.len();
+            for half_edge in forward.iter().chain(backward) {
+                corners[half_edge.corners[0] as usize] =
+                    is_open || surface.is_collapsed(half_edge.corners[0]);
+                half_edge.clusters.iter().for_each(|&c| clusters[c as usize] |= is_open);
+            }
+        }
+        let vertices = surface.clusters().iter().map(|&c| clusters[c as usize]).collect();
+        Openings { corners, vertices }
+    }
+}
