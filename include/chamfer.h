@@ -57,6 +57,12 @@
 /// The place for the result or for the error lies in the mesh. Neither is written.
 #define CHAMFER_STATUS_OVERLAP 108
 
+/// An object of a scene is of a mesh that does not exist. Element: the object.
+#define CHAMFER_STATUS_OBJECT_MESH 109
+
+/// The transform of an object is infinite or not a number. Element: the object.
+#define CHAMFER_STATUS_BAD_TRANSFORM 110
+
 /// The mesh has no normals.
 #define CHAMFER_STATUS_MISSING_NORMALS 200
 
@@ -107,6 +113,9 @@
 
 /// `verify`: also, no part of the mesh cuts through itself where it did not before.
 #define CHAMFER_VERIFY_FULL 1
+
+/// `verify`: also, no light shows through the mesh where none did before, seen from many sides.
+#define CHAMFER_VERIFY_SEEN 2
 
 /// `submesh_mode`: new triangles go to the submesh of the face whose texture chart they continue.
 #define CHAMFER_SUBMESH_OWNER 0
@@ -185,7 +194,7 @@ typedef struct chamfer_options {
     float width;
     /// One of `CHAMFER_WIDTH_MESH_UNITS`, `CHAMFER_WIDTH_PERCENT` (default).
     uint32_t width_unit;
-    /// One of `CHAMFER_VERIFY_FAST`, `CHAMFER_VERIFY_FULL` (default).
+    /// One of `CHAMFER_VERIFY_FAST`, `CHAMFER_VERIFY_FULL` (default), `CHAMFER_VERIFY_SEEN`.
     uint32_t verify;
     /// One of `CHAMFER_SUBMESH_OWNER` (default), `CHAMFER_SUBMESH_OWN`, `CHAMFER_SUBMESH_GIVEN`.
     uint32_t submesh_mode;
@@ -206,6 +215,20 @@ typedef struct chamfer_uv {
     /// `#vertices by components`; ignored where the channel is absent.
     const float *values;
 } chamfer_uv;
+
+/// A place where the surface of a mesh is not to be cut away: all within a radius of a segment.
+///
+/// With radius 0 it is a line that rests on the surface, such as the open rim of another object of
+/// the scene: chamfers are narrowed to leave what it lies on. With a larger one, hard edges that
+/// come nearer stay as they are.
+typedef struct chamfer_held {
+    /// Where the segment begins, in mesh units.
+    float from[3];
+    /// Where it ends; the same for a point.
+    float to[3];
+    /// In mesh units.
+    float radius;
+} chamfer_held;
 
 /// A triangle mesh, vertex streams first, as the engines hold it. An absent stream is NULL. The
 /// library reads the arrays during the call only, and never writes them.
@@ -232,6 +255,10 @@ typedef struct chamfer_mesh {
     const uint32_t *submesh_index_counts;
     /// `#triangles by 3`: the triangles of all submeshes, one submesh after the other.
     const uint32_t *indices;
+    /// How many places are held.
+    uint32_t held_count;
+    /// `#held`, or NULL: where something outside of the mesh rests on it. Results hold none.
+    const struct chamfer_held *held;
 } chamfer_mesh;
 
 /// Called on the calling thread with the share done (0 to 1). A result other than 0 cancels. It
@@ -250,6 +277,8 @@ typedef struct chamfer_error {
     /// One English sentence in UTF-8, ended by NUL: the element, the rule, what to do. Empty on
     /// success.
     char message[CHAMFER_MESSAGE_SIZE];
+    /// The mesh at fault, where there are several. `CHAMFER_NO_ELEMENT` if none.
+    uint32_t mesh;
 } chamfer_error;
 
 /// Sums over the verdicts of a result.
@@ -318,6 +347,15 @@ typedef struct chamfer_triangle_source {
     /// A source triangle, a verdict, or a source vertex.
     uint32_t index;
 } chamfer_triangle_source;
+
+/// A mesh that stands somewhere in a scene. One mesh may stand there several times.
+typedef struct chamfer_object {
+    /// Its number among the meshes of the scene.
+    uint32_t mesh;
+    /// From mesh to scene, column by column; the last row is taken for 0, 0, 0, 1. It may mirror.
+    /// An object that it flattens is not there for the others.
+    float transform[16];
+} chamfer_object;
 
 #ifdef __cplusplus
 extern "C" {
@@ -414,6 +452,24 @@ int32_t chamfer_prepared_run(const struct chamfer_prepared *prepared,
 
 /// Frees a prepared mesh. Results that came of it live on. NULL is allowed.
 void chamfer_prepared_destroy(struct chamfer_prepared *prepared);
+
+/// Chamfers meshes that stand together: of each, the edges are held that the open border of
+/// another object rests on. With `CHAMFER_VERIFY_SEEN` the scene is looked at as a whole, and what
+/// lets light through is held too.
+///
+/// `meshes` holds `mesh_count` pointers, and `objects` says where the meshes stand. A mesh that no
+/// object names is chamfered as `chamfer_run` would. On success each of the `mesh_count` places of
+/// `results` is a new result, to be freed with `chamfer_result_destroy`; on failure all are NULL,
+/// and `mesh` of the error is the number of the mesh at fault. All else is as for `chamfer_run`.
+int32_t chamfer_scene_run(const struct chamfer_mesh *const *meshes,
+                          uint32_t mesh_count,
+                          const struct chamfer_object *objects,
+                          uint32_t object_count,
+                          const struct chamfer_options *options,
+                          chamfer_progress progress,
+                          void *user,
+                          struct chamfer_result **results,
+                          struct chamfer_error *error);
 
 #ifdef __cplusplus
 }  // extern "C"

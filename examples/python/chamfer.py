@@ -22,18 +22,19 @@ CANCELLED = 1
 NO_ELEMENT = 0xFFFFFFFF
 
 WIDTH_UNITS = {"mesh": 0, "percent": 1}
-VERIFY = {"fast": 0, "full": 1}
+VERIFY = {"fast": 0, "full": 1, "seen": 2}
 SUBMESH_MODES, SUBMESH_GIVEN = {"owner": 0, "own": 1}, 2
 OUTCOMES = ("full", "narrowed", "skipped")
 
 
 class ChamferError(Exception):
-    """What went wrong, in one sentence; `status` and `element` are those of docs/abi.md."""
+    """What went wrong, in one sentence; `status`, `element` and `mesh` are those of docs/abi.md."""
 
-    def __init__(self, status, element, message):
+    def __init__(self, status, element, message, mesh=NO_ELEMENT):
         super().__init__(message)
         self.status = status
         self.element = None if element == NO_ELEMENT else element
+        self.mesh = None if mesh == NO_ELEMENT else mesh
 
 
 class Cancelled(ChamferError):
@@ -50,6 +51,7 @@ class Mesh:
     tangents: np.ndarray = None  # vertices by 4: a unit vector and the handedness
     colors: np.ndarray = None  # vertices by 4: red, green, blue, alpha
     uvs: dict = field(default_factory=dict)  # channel (0 to 7): vertices by 2 to 4
+    held: np.ndarray = None  # places by 7: from, to and radius of what rests on the mesh
 
 
 @dataclass
@@ -59,7 +61,7 @@ class Options:
     width: float = 1.0  # the distance between an old edge and the pulled one
     width_unit: str = "percent"  # of the largest side of the mesh's box, or "mesh" units
     least_breadth: float = 0.2  # share (0 to 1) of each face's breadth that stays
-    verify: str = "full"  # or "fast": then a part may cut through itself
+    verify: str = "full"  # or "fast": then a part may cut through itself; "seen": no light shows
     submesh: object = "owner"  # of the face beside a chamfer; "own": a new one; or a number
     threads: int = 1  # 0 for as many as there are cores; the result is the same
 
@@ -117,7 +119,13 @@ class _Mesh(ctypes.Structure):
         ("index_count", c_uint32),
         ("submesh_index_counts", POINTER(c_uint32)),
         ("indices", POINTER(c_uint32)),
+        ("held_count", c_uint32),
+        ("held", POINTER(c_float)),
     ]
+
+
+class _Object(ctypes.Structure):
+    _fields_ = [("mesh", c_uint32), ("transform", c_float * 16)]
 
 
 class _Error(ctypes.Structure):
@@ -126,6 +134,7 @@ class _Error(ctypes.Structure):
         ("status", c_int32),
         ("element", c_uint32),
         ("message", c_char * 256),
+        ("mesh", c_uint32),
     ]
 
 
@@ -174,7 +183,25 @@ class Library:
         it returns True, or raises, the call ends: with Cancelled, or with that exception.
         """
         view = _View(mesh)
-        return self._run(self._c.chamfer_run, byref(view.mesh), progress, options)
+        [result] = self._run(self._c.chamfer_run, byref(view.mesh), progress, options)
+        return result
+
+    def chamfer_scene(self, meshes, objects, progress=None, **options):
+        """Chamfers meshes that stand together, so that none loses what another rests on.
+
+        `objects` are pairs: the number of a mesh, and a matrix of 4 by 4 from mesh to scene that
+        is multiplied from the left. One mesh may be in several. All else is as for `chamfer`; with
+        verify="seen", it is the scene through which no light shows. Returns a result for each mesh.
+        """
+        views = [_View(mesh) for mesh in meshes]
+        pointers = (POINTER(_Mesh) * len(views))(*(ctypes.pointer(view.mesh) for view in views))
+        placed = (_Object * len(objects))(*(_object_of(*one) for one in objects))
+
+        def run(_, options, callback, user, out, error):
+            counted = (pointers, len(views), placed, len(placed))
+            return self._c.chamfer_scene_run(*counted, options, callback, user, out, error)
+
+        return self._run(run, None, progress, options, len(views))
 
     def prepare(self, mesh):
         """Finds out once what does not depend on the width: to chamfer one mesh several times."""
@@ -186,11 +213,12 @@ class Library:
     def split_by_angle(self, mesh, degrees):
         """The mesh with normals by smoothing angle, its vertices split where they differ."""
         view = _View(mesh)
-        return self._result(
+        [result] = self._results(
             lambda out, error: self._c.chamfer_split_by_angle(
                 byref(view.mesh), degrees, out, error
             )
-        ).mesh
+        )
+        return result.mesh
 
     def reason(self, number):
         """The name of a verdict's reason."""
@@ -206,6 +234,8 @@ class Library:
         c.chamfer_status_string.restype = ctypes.c_char_p
         c.chamfer_options_init.argtypes = [options]
         c.chamfer_run.argtypes = [mesh, options, _Progress, c_void_p, out, error]
+        c.chamfer_scene_run.argtypes = [POINTER(mesh), c_uint32, POINTER(_Object), c_uint32]
+        c.chamfer_scene_run.argtypes += [options, _Progress, c_void_p, out, error]
         c.chamfer_prepare.argtypes = [mesh, out, error]
         c.chamfer_prepared_run.argtypes = [c_void_p, options, _Progress, c_void_p, out, error]
         c.chamfer_prepared_destroy.argtypes = [c_void_p]
@@ -225,39 +255,44 @@ class Library:
     def _raise_for(self, status, error):
         if status != 0:
             kind = Cancelled if status == CANCELLED else ChamferError
-            raise kind(status, error.element, error.message.decode())
+            raise kind(status, error.element, error.message.decode(), error.mesh)
 
-    def _run(self, function, source, progress, wishes):
+    def _run(self, function, source, progress, wishes, count=1):
         options = _sized(_Options)
         self._check(self._c.chamfer_options_init(byref(options)))
         Options(**wishes).fill(options)
         callback, raised = _callback(progress)
         try:
-            return self._result(
-                lambda out, error: function(source, byref(options), callback, None, out, error)
+            return self._results(
+                lambda out, error: function(source, byref(options), callback, None, out, error),
+                count,
             )
         except Cancelled:
             if raised:
                 raise raised[0]
             raise
 
-    def _result(self, call):
-        """Calls what makes a result, copies all that it holds, and frees it."""
-        result, error = c_void_p(), _sized(_Error)
-        self._raise_for(call(byref(result), byref(error)), error)
+    def _results(self, call, count=1):
+        """Calls what makes results, copies all that they hold, and frees them."""
+        results, error = (c_void_p * count)(), _sized(_Error)
+        self._raise_for(call(results, byref(error)), error)
         try:
-            mesh, totals = _sized(_Mesh), _sized(_Totals)
-            self._check(self._c.chamfer_result_mesh(result, byref(mesh)))
-            self._check(self._c.chamfer_result_totals(result, byref(totals)))
-            return Result(
-                _mesh_of(mesh),
-                _totals_of(totals),
-                self._records(result, "verdicts", VERDICT),
-                self._records(result, "vertex_sources", VERTEX_SOURCE),
-                self._records(result, "triangle_sources", TRIANGLE_SOURCE),
-            )
+            return [self._copy(result) for result in results]
         finally:
-            self._c.chamfer_result_destroy(result)
+            for result in results:
+                self._c.chamfer_result_destroy(result)
+
+    def _copy(self, result):
+        mesh, totals = _sized(_Mesh), _sized(_Totals)
+        self._check(self._c.chamfer_result_mesh(result, byref(mesh)))
+        self._check(self._c.chamfer_result_totals(result, byref(totals)))
+        return Result(
+            _mesh_of(mesh),
+            _totals_of(totals),
+            self._records(result, "verdicts", VERDICT),
+            self._records(result, "vertex_sources", VERTEX_SOURCE),
+            self._records(result, "triangle_sources", TRIANGLE_SOURCE),
+        )
 
     def _records(self, result, name, dtype):
         start, count = c_void_p(), c_uint32()
@@ -280,7 +315,8 @@ class Prepared:
     def chamfer(self, progress=None, **options):
         """As `Library.chamfer` of the mesh that was prepared."""
         function = self._library._c.chamfer_prepared_run
-        return self._library._run(function, self._prepared, progress, options)
+        [result] = self._library._run(function, self._prepared, progress, options)
+        return result
 
 
 class _View:
@@ -307,15 +343,21 @@ class _View:
         self.mesh.indices = self._pointer(
             np.concatenate(indices) if indices else [], np.uint32, c_uint32
         )
+        if mesh.held is not None and len(mesh.held):
+            self.mesh.held_count = len(mesh.held)
+            self.mesh.held = self._rows("held", mesh.held, len(mesh.held), (7,), "places")
 
     def _floats(self, name, values, vertices, widths):
-        """Checks a shape: the library has to trust the counts."""
         if values is None:
             return None
+        return self._rows(name, values, vertices, widths, "vertices")
+
+    def _rows(self, name, values, count, widths, what):
+        """Checks a shape: the library has to trust the counts."""
         shape = np.shape(values)
-        if len(shape) != 2 or shape[0] != vertices or shape[1] not in widths:
+        if len(shape) != 2 or shape[0] != count or shape[1] not in widths:
             wanted = " or ".join(map(str, widths))
-            raise ValueError(f"{name}: {shape} is not {vertices} vertices by {wanted}")
+            raise ValueError(f"{name}: {shape} is not {count} {what} by {wanted}")
         return self._pointer(values, np.float32, c_float)
 
     def _pointer(self, values, dtype, c_type):
@@ -326,6 +368,13 @@ class _View:
 
 def _sized(kind):
     return kind(struct_size=sizeof(kind))
+
+
+def _object_of(mesh, matrix):
+    columns = np.asarray(matrix, np.float32).T
+    if columns.shape != (4, 4):
+        raise ValueError(f"an object's matrix is 4 by 4, not {columns.shape}")
+    return _Object(mesh, (c_float * 16)(*columns.flat))
 
 
 def _callback(progress):

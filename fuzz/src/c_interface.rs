@@ -38,6 +38,17 @@ unsafe extern "C" {
         out: *mut *mut chamfer_result,
         error: *mut chamfer_error,
     ) -> i32;
+    pub fn chamfer_scene_run(
+        meshes: *const *const chamfer_mesh,
+        mesh_count: u32,
+        objects: *const chamfer_object,
+        object_count: u32,
+        options: *const chamfer_options,
+        progress: chamfer_progress,
+        user: *mut c_void,
+        results: *mut *mut chamfer_result,
+        error: *mut chamfer_error,
+    ) -> i32;
     pub fn chamfer_prepare(
         mesh: *const chamfer_mesh,
         out: *mut *mut chamfer_prepared,
@@ -115,6 +126,8 @@ impl Memory {
             index_count: mesh.indices.len() as u32,
             submesh_index_counts: mesh.submesh_index_counts.as_ptr(),
             indices: mesh.indices.as_ptr(),
+            held_count: 0,
+            held: ptr::null(),
         }
     }
 

@@ -12,6 +12,8 @@ use libfuzzer_sys::fuzz_target;
 #[derive(Arbitrary, Debug)]
 struct Input {
     mesh: Spec,
+    held: Vec<Held>,
+    objects: Vec<Object>,
     pointers: Pointers,
     mesh_size: Size,
     options: Options,
@@ -29,6 +31,53 @@ struct Pointers {
     options: Pointer,
     streams: [Pointer; 6],
     uv: Pointer,
+    held: Pointer,
+    meshes: Pointer,
+    objects: Pointer,
+}
+
+/// A held place in eighths of a unit, and anything in one of its numbers.
+#[derive(Arbitrary, Debug)]
+struct Held {
+    eighths: [i8; 7],
+    any: Option<(u8, f32)>,
+}
+
+/// Moved and scaled in eighths, with anything in one place of its transform.
+#[derive(Arbitrary, Debug)]
+struct Object {
+    mesh: u8,
+    eighths: [[i8; 3]; 2],
+    any: Option<(u8, f32)>,
+}
+
+/// A scene gives two, all other calls one.
+const MOST_RESULTS: usize = 2;
+
+/// So that a scene does not take longer than a mesh.
+const MOST_HELD: usize = 8;
+const MOST_OBJECTS: usize = 4;
+
+fn raw_held(wish: &Held) -> chamfer_held {
+    let mut values = wish.eighths.map(|eighths| f32::from(eighths) / 8.0);
+    if let Some((place, value)) = wish.any {
+        values[usize::from(place) % 7] = value;
+    }
+    let [a, b, c, d, e, f, radius] = values;
+    chamfer_held { from: [a, b, c], to: [d, e, f], radius }
+}
+
+fn raw_object(wish: &Object) -> chamfer_object {
+    let [scale, shift] = wish.eighths.map(|row| row.map(|eighths| f32::from(eighths) / 8.0));
+    let mut transform = [0.0; 16];
+    for axis in 0..3 {
+        transform[5 * axis] = scale[axis];
+        transform[12 + axis] = shift[axis];
+    }
+    if let Some((place, value)) = wish.any {
+        transform[usize::from(place) % 16] = value;
+    }
+    chamfer_object { mesh: u32::from(wish.mesh % 3), transform }
 }
 
 #[derive(Arbitrary, Debug, Clone, Copy, PartialEq)]
@@ -67,6 +116,7 @@ struct Options {
     choices: [u8; 3],
     submesh: u8,
     threads: u8,
+    least_breadth: f32,
 }
 
 #[derive(Arbitrary, Debug)]
@@ -146,12 +196,16 @@ fuzz_target!(|input: Input| {
     mesh.indices = wish.streams[4].of(mesh.indices);
     mesh.submesh_index_counts = wish.streams[5].of(mesh.submesh_index_counts);
     mesh.uvs[0].values = wish.uv.of(mesh.uvs[0].values);
+    let held: Vec<_> = input.held.iter().take(MOST_HELD).map(raw_held).collect();
+    mesh.held_count = held.len() as u32;
+    mesh.held = wish.held.of(held.as_ptr());
     let mut mesh = Placed::new(&mesh, &input.mesh_size);
     let mesh = wish.mesh.of(mesh.pointer::<chamfer_mesh>().cast_const());
     let before = memory.hash();
     run(&input, mesh);
     run_prepared(&input, mesh);
     split(&input, mesh);
+    run_scene(&input, mesh);
     assert_eq!(memory.hash(), before, "the library wrote to its input");
 });
 
@@ -193,6 +247,21 @@ fn run_with(
     call(input, |out, error| run(options, user, out, error));
 }
 
+/// The mesh twice, in objects that may be of a third.
+fn run_scene(input: &Input, mesh: *const chamfer_mesh) {
+    let objects: Vec<_> = input.objects.iter().take(MOST_OBJECTS).map(raw_object).collect();
+    let count = objects.len() as u32;
+    let (meshes, wish) = ([mesh; 2], &input.pointers);
+    run_with(input, |options, user, out, error| {
+        let (meshes, objects) =
+            (wish.meshes.of(meshes.as_ptr()), wish.objects.of(objects.as_ptr()));
+        // SAFETY: as above.
+        unsafe {
+            chamfer_scene_run(meshes, 2, objects, count, options, Some(note), user, out, error)
+        }
+    });
+}
+
 fn split(input: &Input, mesh: *const chamfer_mesh) {
     call(input, |out, error| {
         // SAFETY: as above.
@@ -210,13 +279,14 @@ fn raw_options(wish: &Options) -> chamfer_options {
         submesh_mode,
         submesh: u32::from(wish.submesh % 4),
         threads: u32::from(wish.threads % 4),
+        least_breadth: wish.least_breadth,
     }
 }
 
 /// Calls with a place for the result and for the error, and looks at what became of them.
 fn call(input: &Input, make: impl FnOnce(*mut *mut chamfer_result, *mut chamfer_error) -> i32) {
     const UNTOUCHED: *mut chamfer_result = ptr::without_provenance_mut(0x5A5A);
-    let mut place = [UNTOUCHED; 2];
+    let mut place = [UNTOUCHED; MOST_RESULTS + 1];
     let out = input.out.of(place.as_mut_ptr().cast_const()).cast_mut();
     let size = match &input.error {
         ErrorWish::Sized(size) => size,
@@ -230,16 +300,18 @@ fn call(input: &Input, make: impl FnOnce(*mut *mut chamfer_result, *mut chamfer_
     let status = make(out, told);
     assert!(is_known(status), "{status}");
     assert_ne!(status, CHAMFER_STATUS_INTERNAL, "a fault of the library");
-    let result = place[0];
-    match out.is_null() || !out.is_aligned() {
-        true => assert!(place == [UNTOUCHED; 2] && status != CHAMFER_STATUS_OK),
-        false => assert_eq!(result.is_null(), status != CHAMFER_STATUS_OK),
-    }
-    if status == CHAMFER_STATUS_OK {
-        // SAFETY: it came from the library, and is given up here.
-        unsafe {
-            look_at(result);
-            chamfer_result_destroy(result);
+    let is_place = !out.is_null() && out.is_aligned();
+    assert!(is_place || place[0] == UNTOUCHED && status != CHAMFER_STATUS_OK);
+    let written = place.into_iter().take_while(|&result| result != UNTOUCHED);
+    assert!(place[MOST_RESULTS] == UNTOUCHED);
+    for result in written {
+        assert_eq!(result.is_null(), status != CHAMFER_STATUS_OK);
+        if !result.is_null() {
+            // SAFETY: it came from the library, and is given up here.
+            unsafe {
+                look_at(result);
+                chamfer_result_destroy(result);
+            }
         }
     }
 }

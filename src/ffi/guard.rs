@@ -4,6 +4,7 @@
 //! of this library may still print its place.
 
 use libc::c_char;
+use std::mem::offset_of;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use super::sized::{self, StatesSize};
@@ -51,6 +52,7 @@ fn describe(outcome: &Result<(), Failure>) -> chamfer_error {
     if let Err(failure) = outcome {
         error.status = failure.status;
         error.element = failure.element;
+        error.mesh = failure.mesh;
         error.message = message_of(&failure.message);
     }
     error
@@ -71,7 +73,7 @@ fn message_of(text: &str) -> [c_char; CHAMFER_MESSAGE_SIZE] {
 
 // SAFETY: numbers and characters only, the size first.
 unsafe impl StatesSize for chamfer_error {
-    const SIZES: &'static [usize] = &[size_of::<chamfer_error>()];
+    const SIZES: &'static [usize] = &[offset_of!(chamfer_error, mesh), size_of::<chamfer_error>()];
 
     fn defaults() -> Self {
         chamfer_error {
@@ -79,6 +81,7 @@ unsafe impl StatesSize for chamfer_error {
             status: CHAMFER_STATUS_OK,
             element: CHAMFER_NO_ELEMENT,
             message: [0; CHAMFER_MESSAGE_SIZE],
+            mesh: CHAMFER_NO_ELEMENT,
         }
     }
 }

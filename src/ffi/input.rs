@@ -69,9 +69,20 @@ unsafe fn borrow_uvs<'a>(
 ///
 /// # Safety
 /// Where the pointer passes the checks, it points to `count` elements, unchanged for `'a`.
-unsafe fn required<'a, T>(pointer: *const T, count: usize, name: &str) -> Result<&'a [T], Failure> {
+pub unsafe fn required<'a, T>(
+    pointer: *const T,
+    count: usize,
+    name: &str,
+) -> Result<&'a [T], Failure> {
+    check_array(pointer, count, name)?;
+    // SAFETY: not NULL, aligned, within the address space, and the caller vouches for the rest.
+    Ok(if count == 0 { &[] } else { unsafe { slice::from_raw_parts(pointer, count) } })
+}
+
+/// Refuses what cannot be an array of so many elements.
+pub fn check_array<T>(pointer: *const T, count: usize, name: &str) -> Result<(), Failure> {
     if count == 0 {
-        return Ok(&[]);
+        return Ok(());
     }
     check_pointer(pointer, name)?;
     let bytes = count.checked_mul(size_of::<T>()).filter(|&bytes| bytes <= isize::MAX as usize);
@@ -83,8 +94,7 @@ unsafe fn required<'a, T>(pointer: *const T, count: usize, name: &str) -> Result
             ),
         ));
     }
-    // SAFETY: not NULL, aligned, within the address space, and the caller vouches for the rest.
-    Ok(unsafe { slice::from_raw_parts(pointer, count) })
+    Ok(())
 }
 
 /// An array that is absent where it is NULL.

@@ -9,6 +9,7 @@ mod normals;
 mod output;
 mod overlap;
 mod prepared;
+mod scene;
 mod sized;
 mod status;
 mod types;

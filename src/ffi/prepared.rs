@@ -7,7 +7,7 @@ use super::sized::check_pointer;
 use super::types::{chamfer_error, chamfer_mesh, chamfer_options, chamfer_progress};
 use super::{chamfer_result, input, produce, produce_from, reporting};
 use crate::memory;
-use crate::mesh::{Mesh, MeshBuffers};
+use crate::mesh::{Held, Mesh, MeshBuffers};
 use crate::pipeline::Prepared;
 use crate::plan::Shape;
 
@@ -16,6 +16,7 @@ use crate::plan::Shape;
 #[allow(non_camel_case_types)]
 pub struct chamfer_prepared {
     mesh: MeshBuffers,
+    held: Vec<Held>,
     /// None where nothing can be hard.
     shape: Option<Shape>,
 }
@@ -33,7 +34,7 @@ pub unsafe extern "C" fn chamfer_prepare(
 ) -> i32 {
     let body = |mesh: Mesh| {
         let shape = Prepared::new(&mesh)?.into_shape();
-        Ok(chamfer_prepared { mesh: mesh.to_buffers(), shape })
+        Ok(chamfer_prepared { mesh: mesh.to_buffers(), held: mesh.held.to_vec(), shape })
     };
     // SAFETY: the caller's pointers are NULL or valid, as `chamfer.h` asks.
     unsafe { produce_from(mesh, out, error, body) }
@@ -53,11 +54,12 @@ pub unsafe extern "C" fn chamfer_prepared_run(
     // from this library and is not destroyed.
     let body = || unsafe {
         check_pointer(prepared, "prepared")?;
-        let chamfer_prepared { mesh, shape } = &*prepared;
+        let chamfer_prepared { mesh, held, shape } = &*prepared;
+        let mesh = Mesh { held, ..mesh.as_mesh() };
         let options = input::read_options(options)?;
         // Before anything is copied, as no copy may fail.
-        memory::check(&mesh.as_mesh(), options.verify)?;
-        let prepared = Prepared::of_shape(mesh.as_mesh(), shape.clone());
+        memory::check(&mesh, options.verify)?;
+        let prepared = Prepared::of_shape(mesh, shape.clone());
         let result = prepared.chamfer_with_progress(&options, &mut reporting(progress, user))?;
         Ok(chamfer_result::new(result))
     };

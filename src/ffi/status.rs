@@ -13,6 +13,8 @@ pub struct Failure {
     pub status: i32,
     /// What the status says it counts, or `CHAMFER_NO_ELEMENT`.
     pub element: u32,
+    /// Its number in a scene, or `CHAMFER_NO_ELEMENT`.
+    pub mesh: u32,
     /// The element, the rule broken, and what to do.
     pub message: String,
 }
@@ -20,7 +22,13 @@ pub struct Failure {
 impl Failure {
     /// A failure that concerns no single element.
     pub fn new(status: i32, message: String) -> Failure {
-        Failure { status, element: CHAMFER_NO_ELEMENT, message }
+        Failure { status, element: CHAMFER_NO_ELEMENT, mesh: CHAMFER_NO_ELEMENT, message }
+    }
+
+    /// The same, of one mesh of several.
+    pub fn of_mesh(self, mesh: usize) -> Failure {
+        let message = format!("mesh {mesh}: {}", self.message);
+        Failure { mesh: mesh as u32, message, ..self }
     }
 
     /// A panic that reached the border.
@@ -40,7 +48,7 @@ impl Failure {
 impl From<Error> for Failure {
     fn from(error: Error) -> Failure {
         let (status, element) = status_and_element(&error);
-        Failure { status, element, message: error.to_string() }
+        Failure { element, ..Failure::new(status, error.to_string()) }
     }
 }
 
@@ -77,6 +85,8 @@ pub fn status_text(status: i32) -> &'static CStr {
         CHAMFER_STATUS_SUBMESH_RANGE => c"the submesh for chamfers does not exist",
         CHAMFER_STATUS_BAD_ANGLE => c"the angle is not between 0 and 180 degrees",
         CHAMFER_STATUS_OVERLAP => c"places to write to lie in the mesh or in each other",
+        CHAMFER_STATUS_OBJECT_MESH => c"an object is of a mesh that does not exist",
+        CHAMFER_STATUS_BAD_TRANSFORM => c"the transform of an object is not finite",
         CHAMFER_STATUS_MISSING_NORMALS => c"the mesh has no normals",
         CHAMFER_STATUS_STREAM_LENGTH => c"a stream has the wrong length",
         CHAMFER_STATUS_UV_COMPONENTS => c"a UV channel is not 2 to 4 wide",

@@ -35,6 +35,10 @@ pub const CHAMFER_STATUS_SUBMESH_RANGE: i32 = 106;
 pub const CHAMFER_STATUS_BAD_ANGLE: i32 = 107;
 /// The place for the result or for the error lies in the mesh. Neither is written.
 pub const CHAMFER_STATUS_OVERLAP: i32 = 108;
+/// An object of a scene is of a mesh that does not exist. Element: the object.
+pub const CHAMFER_STATUS_OBJECT_MESH: i32 = 109;
+/// The transform of an object is infinite or not a number. Element: the object.
+pub const CHAMFER_STATUS_BAD_TRANSFORM: i32 = 110;
 
 /// The mesh has no normals.
 pub const CHAMFER_STATUS_MISSING_NORMALS: i32 = 200;
@@ -185,6 +189,17 @@ pub struct chamfer_held {
     pub radius: f32,
 }
 
+/// A mesh that stands somewhere in a scene. One mesh may stand there several times.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct chamfer_object {
+    /// Its number among the meshes of the scene.
+    pub mesh: u32,
+    /// From mesh to scene, column by column; the last row is taken for 0, 0, 0, 1. It may mirror.
+    /// An object that it flattens is not there for the others.
+    pub transform: [f32; 16],
+}
+
 /// How to chamfer a mesh. `chamfer_options_init` fills in the defaults.
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -223,6 +238,8 @@ pub struct chamfer_error {
     /// One English sentence in UTF-8, ended by NUL: the element, the rule, what to do. Empty on
     /// success.
     pub message: [c_char; CHAMFER_MESSAGE_SIZE],
+    /// The mesh at fault, where there are several. `CHAMFER_NO_ELEMENT` if none.
+    pub mesh: u32,
 }
 
 /// Sums over the verdicts of a result.

@@ -6,6 +6,7 @@
 
 #include <math.h>
 #include <pthread.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/mman.h>
@@ -38,6 +39,7 @@ struct model {
 };
 
 static struct model model;
+static chamfer_held held[2];
 static chamfer_mesh mesh;
 static chamfer_options options;
 
@@ -67,6 +69,7 @@ static void reset(void) {
         model.indices[i] = (uint32_t)(4 * (i / 6)) + corners[i % 6];
     }
     model.counts[0] = model.counts[1] = INDICES / 2;
+    memset(held, 0, sizeof held);
 
     mesh.struct_size = sizeof mesh;
     CHECK(chamfer_mesh_init(&mesh) == CHAMFER_STATUS_OK);
@@ -83,6 +86,8 @@ static void reset(void) {
     mesh.submesh_index_counts = model.counts;
     mesh.index_count = INDICES;
     mesh.indices = model.indices;
+    mesh.held_count = 2;
+    mesh.held = held;
     options.struct_size = sizeof options;
     CHECK(chamfer_options_init(&options) == CHAMFER_STATUS_OK);
 }
@@ -116,6 +121,30 @@ static void run_prepared(int32_t expected, const chamfer_mesh *on, const chamfer
     chamfer_prepared_destroy(prepared);
 }
 
+static chamfer_object object_of(uint32_t number) {
+    chamfer_object object;
+    int axis;
+    memset(&object, 0, sizeof object);
+    object.mesh = number;
+    for (axis = 0; axis < 4; ++axis) {
+        object.transform[5 * axis] = 1.0f;
+    }
+    return object;
+}
+
+/* The same in a scene of two such meshes. */
+static void run_scene(int32_t expected, const chamfer_mesh *on, const chamfer_options *how) {
+    const chamfer_mesh *const meshes[2] = {on, on};
+    const chamfer_object objects[2] = {object_of(0), object_of(1)};
+    chamfer_error error = {.struct_size = sizeof error};
+    chamfer_result *results[3] = {garbage, garbage, garbage};
+    const int32_t status =
+        chamfer_scene_run(meshes, 2, objects, 2, how, NULL, NULL, results, &error);
+    check_told(status, expected, results[0], &error);
+    check_told(status, expected, results[1], &error);
+    CHECK(results[2] == garbage);
+}
+
 static void run(int32_t expected, const chamfer_mesh *on, const chamfer_options *how) {
     static struct model before;
     chamfer_error error = {.struct_size = sizeof error};
@@ -125,6 +154,7 @@ static void run(int32_t expected, const chamfer_mesh *on, const chamfer_options 
     status = chamfer_run(on, how, NULL, NULL, &result, &error);
     check_told(status, expected, result, &error);
     run_prepared(expected, on, how);
+    run_scene(expected, on, how);
     CHECK(memcmp(&before, &model, sizeof model) == 0);
 }
 
@@ -213,6 +243,9 @@ static void null_arrays(int32_t expected) {
     reset();
     mesh.submesh_index_counts = NULL;
     both(expected);
+    reset();
+    mesh.held = NULL;
+    both(expected);
     for (channel = 0; channel < CHANNELS; ++channel) {
         reset();
         mesh.uvs[channel].values = NULL;
@@ -263,6 +296,9 @@ static void misaligned_arrays(int32_t expected) {
     both(expected);
     reset();
     mesh.submesh_index_counts = numbers;
+    both(expected);
+    reset();
+    mesh.held = (const chamfer_held *)(const void *)by_one;
     both(expected);
     for (channel = 0; channel < CHANNELS; ++channel) {
         reset();
@@ -340,6 +376,21 @@ static void later_fields_set(int32_t expected) { later_structs(expected, 1); }
 
 static void later_fields_zero(int32_t expected) { later_structs(expected, 0); }
 
+/* Behind the sizes of the first header stands garbage. */
+static void earlier_structs(int32_t expected) {
+    chamfer_error error;
+    chamfer_result *result = garbage;
+    mesh.struct_size = offsetof(chamfer_mesh, held_count);
+    mesh.held_count = 0xFFFFFFFF;
+    mesh.held = (const chamfer_held *)(const void *)garbage;
+    both(expected);
+    memset(&error, 0x5A, sizeof error);
+    error.struct_size = offsetof(chamfer_error, mesh);
+    CHECK(chamfer_run(&mesh, NULL, NULL, NULL, &result, &error) == expected);
+    CHECK(error.status == expected && error.mesh == 0x5A5A5A5A);
+    chamfer_result_destroy(result);
+}
+
 static void error_struct(int32_t expected, uint32_t size, int shift) {
     union {
         chamfer_error error;
@@ -371,6 +422,9 @@ static void past_the_address_space(int32_t expected) {
     both(expected);
     reset();
     mesh.indices = (const uint32_t *)near_the_end;
+    both(expected);
+    reset();
+    mesh.held = (const chamfer_held *)near_the_end;
     both(expected);
 }
 
@@ -437,6 +491,7 @@ static void not_finite(int32_t expected) {
     float *const places[] = {
         &model.positions[23][2], &model.normals[23][2], &model.tangents[23][3],
         &model.colors[23][3],    &model.uvs[0][23][1],  &model.uvs[7][23][1],
+        &held[1].from[2],        &held[1].to[0],        &held[1].radius,
     };
     size_t i, place;
     for (place = 0; place < sizeof places / sizeof *places; ++place) {
@@ -530,6 +585,103 @@ static void overlapping_places(int32_t expected) {
     /* Not all of its bytes, as some are padding. */
     CHECK(own.mesh.struct_size == sizeof mesh && own.mesh.vertex_count == VERTICES);
     CHECK(own.mesh.positions == mesh.positions && own.mesh.normals == mesh.normals);
+}
+
+/* A scene that lacks one of its arrays. */
+static void null_scene(int32_t expected) {
+    const chamfer_mesh *const meshes[1] = {&mesh};
+    const chamfer_object objects[1] = {object_of(0)};
+    chamfer_error error = {.struct_size = sizeof error};
+    chamfer_result *results[2] = {garbage, garbage};
+    int32_t status = chamfer_scene_run(NULL, 1, objects, 1, NULL, NULL, NULL, results, &error);
+    check_told(status, expected, results[0], &error);
+    status = chamfer_scene_run(meshes, 1, NULL, 1, NULL, NULL, NULL, results, &error);
+    check_told(status, expected, results[0], &error);
+    CHECK(chamfer_scene_run(meshes, 1, objects, 1, NULL, NULL, NULL, NULL, &error) == expected);
+    CHECK(error.status == expected && error.mesh == CHAMFER_NO_ELEMENT && results[1] == garbage);
+}
+
+static void scene_of_nothing(int32_t expected) {
+    const chamfer_mesh *const meshes[1] = {&mesh};
+    chamfer_result *results[2] = {garbage, garbage};
+    CHECK(chamfer_scene_run(NULL, 0, NULL, 0, NULL, NULL, NULL, NULL, NULL) == expected);
+    CHECK(chamfer_scene_run(meshes, 0, NULL, 0, NULL, NULL, NULL, results, NULL) == expected);
+    CHECK(results[0] == garbage);
+    CHECK(chamfer_scene_run(meshes, 1, NULL, 0, NULL, NULL, NULL, results, NULL) == expected);
+    CHECK(results[0] != NULL && results[0] != garbage && results[1] == garbage);
+    chamfer_result_destroy(results[0]);
+}
+
+static void wrong_object(int32_t expected, chamfer_object object) {
+    const chamfer_mesh *const meshes[1] = {&mesh};
+    const chamfer_object objects[2] = {object_of(0), object};
+    chamfer_error error = {.struct_size = sizeof error};
+    chamfer_result *results[1] = {garbage};
+    const int32_t status =
+        chamfer_scene_run(meshes, 1, objects, 2, &options, NULL, NULL, results, &error);
+    check_told(status, expected, results[0], &error);
+    CHECK(error.element == 1);
+}
+
+static void no_such_mesh(int32_t expected) {
+    wrong_object(expected, object_of(1));
+    wrong_object(expected, object_of(0xFFFFFFFF));
+}
+
+static void wrong_transforms(int32_t expected) {
+    const float wrong[] = {(float)NAN, (float)INFINITY, (float)-INFINITY};
+    size_t i, place;
+    for (place = 0; place < 16; ++place) {
+        for (i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
+            chamfer_object object = object_of(0);
+            object.transform[place] = wrong[i];
+            wrong_object(expected, object);
+        }
+    }
+}
+
+/* In each array that a scene reads, and in its options: nothing is written. */
+static void overlapping_scene(int32_t expected) {
+    static struct model before;
+    static union {
+        const chamfer_mesh *meshes[sizeof(chamfer_error) / sizeof(void *)];
+        chamfer_object objects[4];
+        chamfer_options options;
+        chamfer_held held[10];
+        chamfer_result *results[sizeof(chamfer_error) / sizeof(void *)];
+    } room, untouched;
+    const chamfer_mesh *meshes[2] = {&mesh, &mesh}, *const *these = meshes;
+    chamfer_object two[2] = {object_of(0), object_of(1)}, *objects = two;
+    chamfer_options *how = &options;
+    chamfer_error error = {.struct_size = sizeof error};
+    chamfer_result *results[2] = {garbage, garbage};
+    int which;
+    memcpy(&before, &model, sizeof model);
+    for (which = 0; which < 5; ++which) {
+        memset(&room, 0, sizeof room);
+        these = which == 0 ? room.meshes : meshes;
+        objects = which == 1 ? room.objects : two;
+        how = which == 2 ? &room.options : &options;
+        mesh.held = which == 3 ? room.held : held;
+        room.meshes[0] = which == 0 ? &mesh : NULL;
+        room.meshes[1] = which == 0 ? &mesh : NULL;
+        if (which == 2) {
+            room.options = options;
+        }
+        memcpy(&untouched, &room, sizeof room);
+        CHECK(chamfer_scene_run(these, 2, objects, 2, how, NULL, NULL,
+                                which == 4 ? (chamfer_result **)(void *)model.positions
+                                           : room.results,
+                                &error) == expected);
+        CHECK(chamfer_scene_run(these, 2, objects, 2, how, NULL, NULL, results,
+                                which == 4 ? (chamfer_error *)(void *)model.positions
+                                           : (chamfer_error *)(void *)&room) == expected);
+        CHECK(memcmp(&untouched, &room, sizeof room) == 0);
+    }
+    CHECK(chamfer_scene_run(meshes, 2, two, 2, &options, NULL, NULL,
+                            (chamfer_result **)(void *)((char *)&error + 8), &error) == expected);
+    CHECK(results[0] == garbage && error.status == 0);
+    CHECK(memcmp(&before, &model, sizeof model) == 0);
 }
 
 /* What lies behind a struct that states a size too small is not a part of it. */
@@ -685,8 +837,8 @@ static const struct row rows[] = {
     ROW("`mesh`, `prepared`, `out`, a getter's `result` or a place to write to is NULL",
         NULL_POINTER, null_structs),
     ROW("`options`, `progress`, `error` is NULL", OK, null_extras),
-    ROW("`positions`, `indices`, `submesh_index_counts`, or the values of a UV channel with "
-        "components, is NULL while its count is not 0",
+    ROW("`positions`, `indices`, `submesh_index_counts`, `held`, or the values of a UV channel "
+        "with components, is NULL while its count is not 0",
         NULL_POINTER, null_arrays),
     ROW("a NULL array whose count is 0, or a stream that may be absent", OK, null_of_nothing),
     ROW("`normals` is NULL", MISSING_NORMALS, no_normals),
@@ -697,6 +849,7 @@ static const struct row rows[] = {
     ROW("`struct_size` is 0, garbage, or between two versions", STRUCT_SIZE, wrong_sizes),
     ROW("a field of a newer header is set", STRUCT_SIZE, later_fields_set),
     ROW("a struct of a newer header whose new fields are zero", OK, later_fields_zero),
+    ROW("a struct of an older header, whatever stands behind it", OK, earlier_structs),
     ROW("the `error` struct itself is misaligned", MISALIGNED, misaligned_error),
     ROW("the `error` struct itself is of unknown size", STRUCT_SIZE, wrong_error_size),
     ROW("a count so large that the array would wrap around the address space", COUNT_OVERFLOW,
@@ -709,7 +862,7 @@ static const struct row rows[] = {
     ROW("`CHAMFER_SUBMESH_GIVEN` with a submesh that the mesh lacks", SUBMESH_RANGE,
         no_such_submesh),
     ROW("an angle below 0, above 180 or NaN", BAD_ANGLE, wrong_angles),
-    ROW("NaN or infinity in any stream", NOT_FINITE, not_finite),
+    ROW("NaN or infinity in any stream or held place", NOT_FINITE, not_finite),
     ROW("an index past the last vertex", INDEX_RANGE, indices_past_the_end),
     ROW("a submesh whose index count is not a multiple of three", INDEX_COUNT, no_triangles),
     ROW("submesh index counts that add up to something else than `index_count`", INDEX_TOTAL,
@@ -718,6 +871,13 @@ static const struct row rows[] = {
     ROW("arrays of the mesh that overlap each other", OK, shared_arrays),
     ROW("`out` or `error` within the mesh struct, one of its arrays, or each other", OVERLAP,
         overlapping_places),
+    ROW("`meshes`, `objects` or `results` of a scene is NULL while its count is not 0",
+        NULL_POINTER, null_scene),
+    ROW("a scene without meshes or without objects", OK, scene_of_nothing),
+    ROW("an object of a mesh that the scene does not have", OBJECT_MESH, no_such_mesh),
+    ROW("NaN or infinity in the transform of an object", BAD_TRANSFORM, wrong_transforms),
+    ROW("`results` or `error` of a scene within what it reads, or each other", OVERLAP,
+        overlapping_scene),
     ROW("an error struct that states too small a size, right before an array", STRUCT_SIZE,
         mesh_behind_a_short_error),
     ROW("more than 2^29 vertices or indices", TOO_LARGE, past_32_bits),

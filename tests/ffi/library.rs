@@ -54,6 +54,17 @@ library! {
         *mut *mut c_void,
         *mut chamfer_error
     ) -> i32;
+    chamfer_scene_run(
+        *const *const chamfer_mesh,
+        u32,
+        *const chamfer_object,
+        u32,
+        *const chamfer_options,
+        chamfer_progress,
+        *mut c_void,
+        *mut *mut c_void,
+        *mut chamfer_error
+    ) -> i32;
     chamfer_split_by_angle(*const chamfer_mesh, f32, *mut *mut c_void, *mut chamfer_error) -> i32;
     chamfer_prepare(*const chamfer_mesh, *mut *mut c_void, *mut chamfer_error) -> i32;
     chamfer_prepared_run(

@@ -13,3 +13,4 @@ mod library;
 mod misuse;
 #[cfg(unix)]
 mod programs;
+mod scene;

@@ -188,7 +188,7 @@ fn counts_past_the_address_space() {
 fn bad_options() {
     const BAD: (i32, u32) = (CHAMFER_STATUS_BAD_OPTION, NONE);
     assert_eq!(with_options(|options| options.width_unit = 2), BAD);
-    assert_eq!(with_options(|options| options.verify = 2), BAD);
+    assert_eq!(with_options(|options| options.verify = 3), BAD);
     assert_eq!(with_options(|options| options.submesh_mode = u32::MAX), BAD);
     for share in [-0.1, 1.1, f32::NAN, f32::INFINITY] {
         assert_eq!(with_options(|options| options.least_breadth = share), BAD);

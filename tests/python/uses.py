@@ -77,7 +77,37 @@ assert shares == sorted(shares) and shares[-1] == 1
 raised(chamfer.Cancelled, lambda: library.chamfer(roof(), progress=lambda done: True))
 raised(ZeroDivisionError, lambda: library.chamfer(roof(), progress=lambda done: 1 / 0))
 
+# What rests on an edge holds it.
+def held(result):
+    reasons = [library.reason(verdict["reason"]) for verdict in result.verdicts]
+    return reasons.count("contact")
+
+
+ridge = [[0, 1, 0, 0, 1, 4, 0]]
+assert held(library.chamfer(roof(held=ridge))) == 1 and held(library.chamfer(roof(held=[]))) == 0
+assert held(library.prepare(roof(held=ridge)).chamfer(verify="seen")) == 1
+assert "places" in str(raised(ValueError, lambda: library.chamfer(roof(held=[[0, 1, 0]]))))
+
+# In a scene it is the rim of another object: here a sheet that hangs from the ridge.
+sheet = chamfer.Mesh([[0, 0, 0], [0, 0, 4], [0, -2, 4]], [[1, 0, 0]] * 3, [[[0, 1, 2]]])
+up, beside = np.eye(4), np.eye(4)
+up[1, 3], beside[0, 3] = 1, 9
+for verify in ("full", "seen"):
+    scene = library.chamfer_scene([roof(), sheet], [(0, np.eye(4)), (1, up)], verify=verify)
+    assert [held(result) for result in scene] == [1, 0]
+    scene = library.chamfer_scene([roof(), sheet], [(0, np.eye(4)), (1, beside)], verify=verify)
+    assert [held(result) for result in scene] == [0, 0]
+assert library.chamfer_scene([], []) == []
+shares = []
+library.chamfer_scene([roof(), sheet], [], progress=shares.append)
+assert shares == sorted(shares) and shares[0] < 0.5 and shares[-1] == 1
+
 # Errors say what is wrong and where.
+error = raised(chamfer.ChamferError, lambda: library.chamfer_scene([roof(), roof(normals=None)], []))
+assert (error.status, error.mesh) == (200, 1) and "mesh 1" in str(error)
+error = raised(chamfer.ChamferError, lambda: library.chamfer_scene([roof()], [(1, np.eye(4))]))
+assert (error.status, error.element, error.mesh) == (109, 0, None)
+raised(ValueError, lambda: library.chamfer_scene([roof()], [(0, np.eye(3))]))
 broken = positions.astype(float)
 broken[5, 1] = np.nan
 error = raised(chamfer.ChamferError, lambda: library.chamfer(roof(positions=broken)))

@@ -1,19 +1,20 @@
 using System;
 using System.Collections.Generic;
+using System.Linq;
 using Chamfer;
-using Chamfer.Streams;
 using UnityEngine;
 
 namespace ChamferEditor
 {
     /// <summary>
-    /// Chamfers many meshes, each once. No mesh is made or changed before all are through, so that cancelling
+    /// Chamfers the meshes of several scenes, each once. No mesh is made or changed before all are through, so that cancelling
     /// leaves nothing behind.
     /// </summary>
     internal sealed class ChamferJob
     {
         private readonly double patience;
         private readonly Dictionary<Mesh, JobResult> results = new Dictionary<Mesh, JobResult>();
+        private readonly HashSet<Mesh> failed = new HashSet<Mesh>();
         private readonly List<string> failures = new List<string>();
 
         /// <param name="patience">Milliseconds before a progress bar appears.</param>
@@ -29,14 +30,15 @@ namespace ChamferEditor
         internal IReadOnlyList<string> Failures => failures;
 
         /// <summary>False if the user cancelled; then there are no results.</summary>
-        internal bool Run(IEnumerable<Mesh> meshes, ChamferSettings settings)
+        /// <param name="scenes">A mesh of several is the result of the first.</param>
+        /// <param name="settings">How.</param>
+        internal bool Run(IReadOnlyList<MeshScene> scenes, ChamferSettings settings)
         {
-            var distinct = new HashSet<Mesh>(meshes);
-            using (var progress = new ChamferProgress(distinct.Count, patience))
+            using (var progress = new ChamferProgress(scenes.Count, patience))
             {
                 try
                 {
-                    foreach (var mesh in distinct) { RunOne(mesh, settings, progress); }
+                    foreach (var scene in scenes) { RunOne(scene, settings, progress); }
                     return true;
                 }
                 catch (OperationCanceledException)
@@ -47,17 +49,26 @@ namespace ChamferEditor
             }
         }
 
-        private void RunOne(Mesh mesh, ChamferSettings settings, ChamferProgress progress)
+        private void RunOne(MeshScene scene, ChamferSettings settings, ChamferProgress progress)
         {
-            progress.Begin(mesh.name);
-            try
+            progress.Begin(scene.Name);
+            if (scene.Objects.All(item => IsKnown(item.Mesh))) { return; }
+            foreach (var result in SceneRun.Run(scene.Objects, settings, progress, progress.Cancellation, Fail))
             {
-                var source = MeshReader.Read(mesh);
-                var output = ArrayChamfer.Run(source, settings, progress, progress.Cancellation);
-                output.Mesh.Name = mesh.name + JobResult.Suffix;
-                results.Add(mesh, new JobResult(source.Positions, settings, output));
+                if (IsKnown(result.Mesh)) { continue; }
+                result.Output.Mesh.Name = result.Mesh.name + JobResult.Suffix;
+                results.Add(result.Mesh, new JobResult(result.Source.Positions, settings, result.Output));
             }
-            catch (ChamferException exception) { failures.Add(exception.Message); }
+        }
+
+        private bool IsKnown(Mesh mesh)
+        {
+            return results.ContainsKey(mesh) || failed.Contains(mesh);
+        }
+
+        private void Fail(string why, Mesh mesh)
+        {
+            if (mesh == null || failed.Add(mesh)) { failures.Add(why); }
         }
     }
 }

@@ -11,10 +11,18 @@ namespace ChamferEditor
     internal sealed class ChamferProjectSettings : ScriptableSingleton<ChamferProjectSettings>
     {
         [Tooltip("For the menu entry, and for models with the label Chamfer.")]
-        [SerializeField] internal ChamferSettings settings = ChamferSettings.Default;
+        [SerializeField] internal ChamferSettings settings = Usual();
 
         [Tooltip("Models in these folders are chamfered when they are imported.")]
         [SerializeField] internal List<FolderRule> folders = new List<FolderRule>();
+
+        /// <summary>Nobody looks at each model of a folder, so that is done here.</summary>
+        internal static ChamferSettings Usual()
+        {
+            var settings = ChamferSettings.Default;
+            settings.verify = VerifyMode.Seen;
+            return settings;
+        }
 
         internal void Write()
         {

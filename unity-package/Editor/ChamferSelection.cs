@@ -6,12 +6,23 @@ using UnityEngine;
 
 namespace ChamferEditor
 {
-    /// <summary>The meshes of selected objects, prefabs and mesh assets, and chamfering them all.</summary>
+    /// <summary>
+    /// The meshes of selected objects, prefabs and mesh assets, and chamfering them all. Objects of scenes stand
+    /// together, and so do those of one prefab.
+    /// </summary>
     internal sealed class ChamferSelection
     {
         private const string Action = "Chamfer Selected";
 
+        private sealed class Group
+        {
+            internal string File;
+            internal Transform Root;
+            internal readonly List<MeshSlot> Slots = new List<MeshSlot>();
+        }
+
         private readonly List<MeshSlot> slots = new List<MeshSlot>();
+        private readonly List<Group> groups = new List<Group>();
         private readonly List<Mesh> assets = new List<Mesh>();
 
         internal ChamferSelection(IEnumerable<Object> selected)
@@ -36,10 +47,10 @@ namespace ChamferEditor
         /// <summary>Chamfers all in one undo step, and adds to a summary; false if the user cancelled.</summary>
         internal bool Chamfer(ChamferSettings settings, JobSummary summary)
         {
-            var meshes = slots.ConvertAll(slot => slot.Mesh);
-            meshes.AddRange(assets);
+            var scenes = groups.ConvertAll(one => MeshScene.Of(one.Root, one.Slots));
+            scenes.AddRange(assets.ConvertAll(mesh => MeshScene.Of(mesh)));
             var job = new ChamferJob();
-            if (!job.Run(meshes, settings)) { return false; }
+            if (!job.Run(scenes, settings)) { return false; }
             int group = BeginUndo();
             // What is in a file can be used by all others; what is in a scene, by that scene only.
             SaveAssets(job);
@@ -55,8 +66,18 @@ namespace ChamferEditor
         {
             foreach (var slot in MeshSlot.In(root, true))
             {
-                if (!SlotEditing.IsLocked(slot.Holder) && holders.Add(slot.Holder)) { slots.Add(slot); }
+                if (SlotEditing.IsLocked(slot.Holder) || !holders.Add(slot.Holder)) { continue; }
+                slots.Add(slot);
+                GroupOf(root).Slots.Add(slot);
             }
+        }
+
+        private Group GroupOf(GameObject root)
+        {
+            string file = AssetDatabase.GetAssetPath(root);
+            var group = groups.Find(other => other.File == file);
+            if (group == null) { groups.Add(group = new Group { File = file, Root = root.transform }); }
+            return group;
         }
 
         private static int BeginUndo()
@@ -106,10 +127,10 @@ namespace ChamferEditor
             AssetDatabase.CreateAsset(result.Mesh, AssetDatabase.GenerateUniqueAssetPath(path));
         }
 
-        /// <summary>Meshes without hard edges, chamfered ones too, are left alone.</summary>
+        /// <summary>Meshes of which no edge can be chamfered, or none more, are left alone.</summary>
         private static bool TryFind(ChamferJob job, Mesh mesh, out JobResult result)
         {
-            return job.Results.TryGetValue(mesh, out result) && result.Report.HardEdges > 0;
+            return job.Results.TryGetValue(mesh, out result) && result.Report.Chamfered + result.Report.Narrowed > 0;
         }
     }
 }

@@ -33,7 +33,7 @@ namespace ChamferEditor
         private static bool RunModel(string path, ChamferSettings settings, JobSummary summary)
         {
             var job = new ChamferJob();
-            if (!job.Run(AssetDatabase.LoadAllAssetsAtPath(path).OfType<Mesh>(), settings)) { return false; }
+            if (!job.Run(Scenes(path), settings)) { return false; }
             summary.Add(job);
             if (job.Results.Values.All(result => result.Report.HardEdges == 0)) { return true; }
             var model = AssetDatabase.LoadMainAssetAtPath(path);
@@ -41,6 +41,16 @@ namespace ChamferEditor
             AssetDatabase.SetLabels(model, others.Concat(new[] { ImportRule.LabelOf(settings) }).ToArray());
             AssetDatabase.ImportAsset(path, ImportAssetOptions.ForceUpdate);
             return true;
+        }
+
+        /// <summary>The model as a whole, and each mesh that stands nowhere in it.</summary>
+        private static List<MeshScene> Scenes(string path)
+        {
+            var scenes = new List<MeshScene>();
+            var root = AssetDatabase.LoadMainAssetAtPath(path) as GameObject;
+            if (root != null) { scenes.Add(MeshScene.Of(root.transform, MeshSlot.In(root, true))); }
+            scenes.AddRange(AssetDatabase.LoadAllAssetsAtPath(path).OfType<Mesh>().Select(mesh => MeshScene.Of(mesh)));
+            return scenes;
         }
 
         /// <summary>Whether a file holds a mesh of its own that is no result of an earlier time.</summary>

@@ -12,7 +12,7 @@ namespace ChamferEditor
     internal sealed class ModelChamfer : AssetPostprocessor
     {
         /// <summary>Raise it when the same model comes out otherwise, so that Unity imports it again.</summary>
-        private const uint Version = 1;
+        private const uint Version = 2;
 
         public override uint GetVersion()
         {
@@ -32,30 +32,21 @@ namespace ChamferEditor
             catch (Exception exception) { context.LogImportWarning("Not chamfered: " + exception.Message, root); }
         }
 
-        /// <summary>Chamfers each mesh below the root in place; tells what could not be.</summary>
+        /// <summary>Chamfers all meshes below the root in place; tells what could not be.</summary>
         private static void Process(GameObject root, ChamferSettings settings, Action<string, Mesh> warn)
         {
+            var slots = MeshSlot.In(root, true);
             var submeshes = new Dictionary<Mesh, int>();
-            foreach (var slot in MeshSlot.In(root, true))
+            foreach (var slot in slots) { submeshes[slot.Mesh] = slot.Mesh.subMeshCount; }
+            var scene = MeshScene.Of(root.transform, slots);
+            var results = SceneRun.Run(scene.Objects, settings, null, CancellationToken.None,
+                (why, mesh) => warn("Not chamfered: " + why, mesh));
+            foreach (var result in results) { MeshWriter.Overwrite(result.Mesh, result.Output.Mesh); }
+            foreach (var slot in slots)
             {
-                var mesh = slot.Mesh;
-                if (!submeshes.ContainsKey(mesh))
-                {
-                    submeshes.Add(mesh, mesh.subMeshCount);
-                    ChamferInPlace(mesh, settings, warn);
-                }
-                MaterialSlots.FillImported(slot, submeshes[mesh], mesh.subMeshCount - submeshes[mesh]);
+                int before = submeshes[slot.Mesh];
+                MaterialSlots.FillImported(slot, before, slot.Mesh.subMeshCount - before);
             }
-        }
-
-        private static void ChamferInPlace(Mesh mesh, ChamferSettings settings, Action<string, Mesh> warn)
-        {
-            try
-            {
-                var result = ArrayChamfer.Run(MeshReader.Read(mesh), settings, null, CancellationToken.None);
-                MeshWriter.Overwrite(mesh, result.Mesh);
-            }
-            catch (ChamferException exception) { warn("Not chamfered: " + exception.Message, mesh); }
         }
 
         private bool TryFindSettings(out ChamferSettings settings)

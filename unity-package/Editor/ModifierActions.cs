@@ -20,15 +20,29 @@ namespace ChamferEditor
         /// <summary>Chamfers the originals with the modifier's settings; returns what went wrong.</summary>
         internal static IReadOnlyList<string> Chamfer(ChamferModifier modifier)
         {
+            return Chamfer(modifier, modifier.settings);
+        }
+
+        /// <summary>As <see cref="Chamfer(ChamferModifier)"/>, but in time for a slider that is dragged.</summary>
+        internal static IReadOnlyList<string> Preview(ChamferModifier modifier)
+        {
+            var settings = modifier.settings;
+            if (settings.verify == VerifyMode.Seen) { settings.verify = VerifyMode.Full; }
+            return Chamfer(modifier, settings);
+        }
+
+        private static IReadOnlyList<string> Chamfer(ChamferModifier modifier, ChamferSettings settings)
+        {
             var slots = MeshSlot.In(modifier.gameObject, modifier.includeChildren);
             slots.RemoveAll(slot => SlotEditing.IsLocked(slot.Holder));
             var originals = slots.ConvertAll(slot => Original(modifier, slot));
             var job = new ChamferJob(Patience);
-            if (!job.Run(originals, modifier.settings)) { return new string[0]; }
+            var scene = MeshScene.Of(modifier.transform, slots, slot => Original(modifier, slot));
+            if (!job.Run(new[] { scene }, settings)) { return new string[0]; }
             // Results of the last time are no originals of the next, also where children are left out now.
             var former = modifier.meshes.ToArray();
             Restore(modifier, ChamferName);
-            Apply(modifier, slots, originals, job, former);
+            Apply(modifier, settings, slots, originals, job, former);
             DropUnused(modifier, former);
             return job.Failures;
         }
@@ -90,6 +104,7 @@ namespace ChamferEditor
 
         private static void Apply(
             ChamferModifier modifier,
+            ChamferSettings settings,
             List<MeshSlot> slots,
             List<Mesh> originals,
             ChamferJob job,
@@ -106,7 +121,8 @@ namespace ChamferEditor
                     holder = slots[i].Holder,
                     original = originals[i],
                     chamfered = result.Mesh,
-                    settings = modifier.settings,
+                    settings = settings,
+                    placed = MeshScene.Place(modifier.transform, slots[i].Holder),
                     addedMaterials = MaterialSlots.Fill(slots[i], originals[i], result.Mesh, ChamferName)
                 });
             }

@@ -21,7 +21,7 @@ namespace ChamferEditor
             DrawButtons();
             DrawReport();
             // Settings that nobody has applied yet are no preview: the first click is the user's.
-            if (changed) { Chamfer(Modifiers.Where(modifier => modifier.livePreview && modifier.IsApplied)); }
+            if (changed) { Preview(Modifiers.Where(modifier => modifier.livePreview && modifier.IsApplied)); }
         }
 
         private bool DrawSettings()
@@ -73,6 +73,12 @@ namespace ChamferEditor
         {
             failures.Clear();
             foreach (var modifier in modifiers) { failures.AddRange(ModifierActions.Chamfer(modifier)); }
+        }
+
+        private void Preview(IEnumerable<ChamferModifier> modifiers)
+        {
+            failures.Clear();
+            foreach (var modifier in modifiers) { failures.AddRange(ModifierActions.Preview(modifier)); }
         }
 
         private void Save()

@@ -1,3 +1,4 @@
+using System.Linq;
 using System.Text;
 using Chamfer;
 
@@ -14,9 +15,13 @@ namespace ChamferEditor
                 if (entry.original == null) { continue; }
                 if (text.Length > 0) { text.Append('\n'); }
                 text.Append(entry.original.name).Append(": ");
-                var verdicts = VerdictCache.Of(entry);
+                var verdicts = VerdictCache.Of(modifier, entry);
                 if (verdicts == null) { text.Append("chamfered earlier"); }
                 else { Append(text, verdicts.Report); }
+            }
+            if (modifier.meshes.Any(entry => entry.settings.verify != modifier.settings.verify))
+            {
+                text.Append("\nThis is a preview that nobody has looked through: press Chamfer");
             }
             return text.ToString();
         }

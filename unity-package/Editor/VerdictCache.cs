@@ -2,7 +2,6 @@ using System.Collections.Generic;
 using System.Linq;
 using System.Threading;
 using Chamfer;
-using Chamfer.Streams;
 using UnityEngine;
 
 namespace ChamferEditor
@@ -22,25 +21,31 @@ namespace ChamferEditor
         }
 
         /// <summary>Null where the mesh is gone or cannot be chamfered any more.</summary>
-        internal static MeshVerdicts Of(ChamferedMesh entry)
+        internal static MeshVerdicts Of(ChamferModifier modifier, ChamferedMesh entry)
         {
             if (entry.original == null || entry.chamfered == null) { return null; }
             MeshVerdicts verdicts;
             // Undo may have given the mesh back what it held before.
             bool isKnown = known.TryGetValue(entry.chamfered, out verdicts)
                 && (verdicts == null || verdicts.Settings.Equals(entry.settings));
-            return isKnown ? verdicts : known[entry.chamfered] = Again(entry);
+            if (!isKnown) { ChamferAgain(modifier, entry.settings); }
+            return known.TryGetValue(entry.chamfered, out verdicts) ? verdicts : null;
         }
 
-        private static MeshVerdicts Again(ChamferedMesh entry)
+        /// <summary>All meshes of a modifier, as they stood when they were chamfered.</summary>
+        private static void ChamferAgain(ChamferModifier modifier, ChamferSettings settings)
         {
-            try
+            var entries = modifier.meshes.FindAll(entry => entry.original != null && entry.chamfered != null);
+            var objects = entries.ConvertAll(entry => new PlacedMesh(entry.original, entry.placed));
+            foreach (var entry in entries) { known[entry.chamfered] = null; }
+            foreach (var result in SceneRun.Run(objects, settings, null, CancellationToken.None, (why, mesh) => { }))
             {
-                var source = MeshReader.Read(entry.original);
-                var output = ArrayChamfer.Run(source, entry.settings, null, CancellationToken.None);
-                return new MeshVerdicts(source.Positions, output.Report, entry.settings);
+                var verdicts = new MeshVerdicts(result.Source.Positions, result.Output.Report, settings);
+                foreach (var entry in entries.FindAll(entry => entry.original == result.Mesh))
+                {
+                    known[entry.chamfered] = verdicts;
+                }
             }
-            catch (ChamferException) { return null; }
         }
     }
 }

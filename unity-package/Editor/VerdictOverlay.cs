@@ -13,7 +13,7 @@ namespace ChamferEditor
         {
             foreach (var entry in modifier.meshes)
             {
-                var verdicts = VerdictCache.Of(entry);
+                var verdicts = VerdictCache.Of(modifier, entry);
                 if (verdicts == null || entry.holder == null) { continue; }
                 foreach (var outcome in outcomes)
                 {

@@ -6,6 +6,9 @@ namespace Chamfer
     public abstract class ChamferException : Exception
     {
         private protected ChamferException(string message, Exception inner = null) : base(message, inner) { }
+
+        /// <summary>Which of the meshes of a scene is at fault; -1 if none.</summary>
+        internal int MeshNumber { get; set; } = -1;
     }
 
     /// <summary>The native library is not there for this platform.</summary>

@@ -44,6 +44,9 @@ namespace Chamfer
         /// <summary>What <see cref="chamfered"/> was made with.</summary>
         public ChamferSettings settings;
 
+        /// <summary>Where the mesh stood then, from the modifier; zeros if that is not known.</summary>
+        public Matrix4x4 placed;
+
         /// <summary>How many materials the renderer got because the chamfers have a submesh of their own.</summary>
         public int addedMaterials;
     }

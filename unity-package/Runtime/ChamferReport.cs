@@ -35,7 +35,7 @@ namespace Chamfer
         /// <summary>Mean width as a share (0 to 1) of the width asked for, weighted by edge length.</summary>
         public float MeanWidth { get; internal set; }
 
-        /// <summary>How long the native part took.</summary>
+        /// <summary>How long the native part took; in a scene, for all of its meshes together.</summary>
         public double Milliseconds { get; internal set; }
 
         /// <summary>What became of each hard edge.</summary>

@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using System.Threading;
 using System.Threading.Tasks;
 using Chamfer.Streams;
@@ -38,6 +39,47 @@ namespace Chamfer
             var arrays = MeshReader.Read(source);
             // Unity's synchronization context brings the rest back to the main thread.
             return Finish(await Task.Run(() => ArrayChamfer.Run(arrays, settings, progress, cancellation)));
+        }
+
+        /// <summary>
+        /// Chamfers meshes that stand together, each once: an edge stays as it is where the open border of another
+        /// object rests on it, so that no gap opens. With <see cref="VerifyMode.Seen"/> they are looked at together.
+        /// Call it on the main thread.
+        /// </summary>
+        /// <param name="objects">Where the meshes stand; one mesh may stand in several places.</param>
+        /// <param name="settings">How; begin with <see cref="ChamferSettings.Default"/>.</param>
+        /// <param name="progress">Told the share done, 0 to 1, on the calling thread.</param>
+        /// <param name="cancellation">Asked whenever progress is told.</param>
+        /// <returns>What became of each mesh.</returns>
+        /// <exception cref="ChamferException">A mesh cannot be chamfered; then none is.</exception>
+        /// <exception cref="OperationCanceledException">It was cancelled.</exception>
+        public static Dictionary<Mesh, ChamferResult> RunScene(
+            IEnumerable<PlacedMesh> objects,
+            ChamferSettings settings,
+            IProgress<float> progress = null,
+            CancellationToken cancellation = default(CancellationToken))
+        {
+            var scene = new SceneArrays(objects);
+            return Finish(scene, SceneChamfer.Run(scene.Arrays, scene.Placed, settings, progress, cancellation));
+        }
+
+        /// <summary>As <see cref="RunScene"/>, on another thread as <see cref="RunAsync"/>.</summary>
+        public static async Task<Dictionary<Mesh, ChamferResult>> RunSceneAsync(
+            IEnumerable<PlacedMesh> objects,
+            ChamferSettings settings,
+            IProgress<float> progress = null,
+            CancellationToken cancellation = default(CancellationToken))
+        {
+            var scene = new SceneArrays(objects);
+            return Finish(scene, await Task.Run(
+                () => SceneChamfer.Run(scene.Arrays, scene.Placed, settings, progress, cancellation)));
+        }
+
+        private static Dictionary<Mesh, ChamferResult> Finish(SceneArrays scene, ArrayResult[] results)
+        {
+            var finished = new Dictionary<Mesh, ChamferResult>();
+            for (int i = 0; i < results.Length; i++) { finished.Add(scene.Meshes[i], Finish(results[i])); }
+            return finished;
         }
 
         private static ChamferResult Finish(ArrayResult result)

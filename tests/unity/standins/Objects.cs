@@ -37,7 +37,24 @@ namespace UnityEngine
 
     public class ScriptableObject : Object { public HideFlags hideFlags { get; set; } }
 
-    public class Transform : Component { public Matrix4x4 localToWorldMatrix { get { return Matrix4x4.identity; } } }
+    public class Transform : Component
+    {
+        public Vector3 localPosition { get; set; }
+        public Vector3 localScale { get; set; }
+        public Quaternion localRotation { get; set; }
+        public Transform parent { get; internal set; }
+        public Matrix4x4 worldToLocalMatrix { get { return localToWorldMatrix.inverse; } }
+        public Transform() { localScale = new Vector3(1, 1, 1); }
+
+        public Matrix4x4 localToWorldMatrix
+        {
+            get
+            {
+                var local = Matrix4x4.TRS(localPosition, localRotation, localScale);
+                return parent != null ? parent.localToWorldMatrix * local : local;
+            }
+        }
+    }
 
     public class Component : Object
     {
@@ -65,12 +82,24 @@ namespace UnityEngine
         public Material[] sharedMaterials { get { return (Material[])materials.Clone(); } set { materials = (Material[])value.Clone(); } }
     }
 
+    public sealed class Children : System.Collections.ObjectModel.Collection<GameObject>
+    {
+        private readonly Transform parent;
+        internal Children(Transform parent) { this.parent = parent; }
+
+        protected override void InsertItem(int index, GameObject child)
+        {
+            base.InsertItem(index, child);
+            child.transform.parent = parent;
+        }
+    }
+
     public class GameObject : Object
     {
         private readonly List<Component> components = new List<Component>();
-        public readonly List<GameObject> children = new List<GameObject>();
+        public readonly Children children;
         public Transform transform { get; private set; }
-        public GameObject(string name) { this.name = name; transform = AddComponent<Transform>(); }
+        public GameObject(string name) { this.name = name; transform = AddComponent<Transform>(); children = new Children(transform); }
 
         public T AddComponent<T>() where T : Component, new()
         {

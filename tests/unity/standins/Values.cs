@@ -58,10 +58,51 @@ namespace UnityEngine
         public static Hash128 Compute(string text) { return new Hash128 { text = text }; }
     }
 
-    public struct Matrix4x4
+    /// None turns here.
+    public struct Quaternion { }
+
+    /// Column by column, as Unity has it.
+    [Serializable, StructLayout(LayoutKind.Sequential)]
+    public unsafe struct Matrix4x4
     {
-        public float m00, m11, m22, m33;
+        public float m00, m10, m20, m30, m01, m11, m21, m31, m02, m12, m22, m32, m03, m13, m23, m33;
         public static Matrix4x4 identity { get { return new Matrix4x4 { m00 = 1, m11 = 1, m22 = 1, m33 = 1 }; } }
+        public static Matrix4x4 zero { get { return new Matrix4x4(); } }
+
+        public float this[int place]
+        {
+            get { fixed (float* first = &m00) { return first[Checked(place)]; } }
+            set { fixed (float* first = &m00) { first[Checked(place)] = value; } }
+        }
+
+        private static int Checked(int place)
+        {
+            if (place < 0 || place > 15) { throw new IndexOutOfRangeException("Invalid matrix index!"); }
+            return place;
+        }
+
+        public static Matrix4x4 operator *(Matrix4x4 a, Matrix4x4 b)
+        {
+            var product = new Matrix4x4();
+            for (int i = 0; i < 16; i++) { for (int k = 0; k < 4; k++) { product[i] += a[i % 4 + 4 * k] * b[k + i / 4 * 4]; } }
+            return product;
+        }
+
+        public static Matrix4x4 TRS(Vector3 position, Quaternion rotation, Vector3 scale)
+        {
+            return new Matrix4x4 { m00 = scale.x, m11 = scale.y, m22 = scale.z, m33 = 1, m03 = position.x, m13 = position.y, m23 = position.z };
+        }
+
+        /// Of transforms that are not turned; zeros where there is none.
+        public Matrix4x4 inverse
+        {
+            get
+            {
+                if (m01 != 0 || m02 != 0 || m10 != 0 || m12 != 0 || m20 != 0 || m21 != 0) { throw new NotSupportedException(); }
+                if (m00 * m11 * m22 == 0) { return zero; }
+                return TRS(new Vector3(-m03 / m00, -m13 / m11, -m23 / m22), new Quaternion(), new Vector3(1 / m00, 1 / m11, 1 / m22));
+            }
+        }
     }
 
     public struct Rect { }

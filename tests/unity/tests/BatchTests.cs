@@ -37,12 +37,14 @@ namespace Chamfer.Tests
             Check.Equal(12 * 3, mesh.GetTriangles(0).Length);
         }
 
-        /// At width 0 every edge stays hard, so the result could be chamfered again.
+        /// Even where an edge could still be chamfered.
         public static void Results_of_an_earlier_time_are_no_sources()
         {
-            AssetDatabase.paths[Shapes.Cube()] = "Assets/Earlier/Cube.asset";
-            for (int time = 0; time < 2; time++) { Check.Equal(0, Run("Assets/Earlier", "0")); }
-            Check.Equal(2, AssetDatabase.paths.Values.Count(path => path.StartsWith("Assets/Earlier/")));
+            var mesh = Shapes.Cube();
+            AssetDatabase.paths[mesh] = "Assets/Earlier/Cube Chamfered.asset";
+            Check.Equal(0, Run("Assets/Earlier"));
+            Check.Equal(12 * 3, mesh.GetTriangles(0).Length);
+            Check.Equal(1, AssetDatabase.paths.Values.Count(path => path.StartsWith("Assets/Earlier/")));
         }
 
         public static void Models_are_labelled_and_imported_again()

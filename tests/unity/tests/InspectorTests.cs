@@ -49,6 +49,17 @@ namespace Chamfer.Tests
             Check.That(!first.IsApplied && !second.IsApplied, "reverted");
         }
 
+        public static void Only_the_button_looks_for_light()
+        {
+            var modifier = Modifier(Shapes.Cube());
+            modifier.settings.verify = VerifyMode.Seen;
+            var inspector = Inspector(modifier);
+            Click(inspector, "Chamfer");
+            Check.Equal(VerifyMode.Seen, modifier.meshes[0].settings.verify);
+            ChangeSetting(inspector);
+            Check.Equal(VerifyMode.Full, modifier.meshes[0].settings.verify);
+        }
+
         public static void What_fails_is_told_for_all_selected()
         {
             Mesh bad = Shapes.Cube();
@@ -71,11 +82,11 @@ namespace Chamfer.Tests
             Click(inspector, "Chamfer");
             modifier.settings.width = 5;
             ChangeSetting(inspector);
-            Check.Near(0.1f, VerdictCache.Of(modifier.meshes[0]).Report.Width);
+            Check.Near(0.1f, VerdictCache.Of(modifier, modifier.meshes[0]).Report.Width);
             modifier.livePreview = false;
             modifier.settings.width = 2;
             ChangeSetting(inspector);
-            Check.Near(0.1f, VerdictCache.Of(modifier.meshes[0]).Report.Width);
+            Check.Near(0.1f, VerdictCache.Of(modifier, modifier.meshes[0]).Report.Width);
         }
 
         public static void Nothing_is_reverted_or_saved_before_it_is_chamfered()

@@ -67,6 +67,13 @@ namespace Chamfer.Tests
             Check.Equal(Misaligned, Status(call => SetUv(call, 7, 2, call.Mesh.Positions + 1)));
         }
 
+        public static void Held_places()
+        {
+            Check.Equal(NullPointer, Status(call => call.Mesh.HeldCount = 1));
+            Check.Equal(Misaligned, Status(call => { call.Mesh.HeldCount = 1; call.Mesh.Held = call.Mesh.Positions + 1; }));
+            Check.Equal(0, Status(call => { call.Mesh.HeldCount = 1; call.Mesh.Held = call.Mesh.Positions; }));
+        }
+
         public static void Sizes_of_structs()
         {
             foreach (uint size in new[] { 0u, 7u, 0xFFFFFFFFu })
@@ -128,7 +135,7 @@ namespace Chamfer.Tests
         public static void Options()
         {
             Check.Equal(BadOption, Status(call => call.Options.WidthUnit = 2));
-            Check.Equal(BadOption, Status(call => call.Options.Verify = 2));
+            Check.Equal(BadOption, Status(call => call.Options.Verify = 3));
             Check.Equal(BadOption, Status(call => call.Options.SubmeshMode = 3));
             Check.Equal(BadWidth, Status(call => call.Options.Width = -1));
             Check.Equal(BadWidth, Status(call => call.Options.Width = float.NaN));

@@ -21,6 +21,26 @@ namespace Chamfer.Tests
             return root;
         }
 
+        /// A cube, and below it an open one whose rim lies on its edges, where the distance is 2.
+        internal static GameObject Resting(float distance, string name = "Resting")
+        {
+            var root = Holding(Shapes.Cube(), name);
+            var child = Holding(Shapes.OpenCube(), "Lid");
+            child.transform.localPosition = new Vector3(distance, 0, 0);
+            root.children.Add(child);
+            // Where it stands as a whole does not matter.
+            root.transform.localPosition = new Vector3(-300, 20, 7);
+            root.transform.localScale = new Vector3(-1, 0.5f, 2);
+            Undo.Click();
+            return root;
+        }
+
+        /// Whether a cube has the edges still that the open one rests on.
+        internal static bool KeepsEdges(Mesh cube)
+        {
+            return System.Array.Exists(cube.vertices, p => p.x == 1 && System.Math.Abs(p.y) == 1);
+        }
+
         internal static GameObject Holding(Mesh mesh, string name)
         {
             var item = new GameObject(name);

@@ -32,6 +32,17 @@ namespace Chamfer.Tests
             return mesh;
         }
 
+        /// A cube that is open toward -x.
+        internal static Mesh OpenCube()
+        {
+            var mesh = Cube();
+            mesh.name = "Open";
+            var indices = new int[30];
+            Array.Copy(mesh.GetIndices(0), 6, indices, 0, 30);
+            mesh.SetTriangles(indices, 0);
+            return mesh;
+        }
+
         /// As the cube, with every stream that a mesh can have, each a linear function of the position.
         internal static Mesh FullCube()
         {

@@ -10,10 +10,14 @@ namespace Chamfer.Interop
     {
         internal const int MessageSize = 256;
 
+        /// <summary>What <see cref="Element"/> and <see cref="Mesh"/> are where they name none.</summary>
+        internal const uint None = 0xFFFFFFFF;
+
         public uint StructSize;
         public int Status;
         public uint Element;
         public fixed byte Message[MessageSize];
+        public uint Mesh;
 
         internal static NativeError Empty()
         {

@@ -18,6 +18,8 @@ namespace Chamfer.Interop
         public uint IndexCount;
         public IntPtr SubmeshIndexCounts;
         public IntPtr Indices;
+        public uint HeldCount;
+        public IntPtr Held;
 
         internal static NativeMesh Empty()
         {

@@ -35,6 +35,20 @@ namespace Chamfer.Interop
             out ResultHandle result,
             ref NativeError error);
 
+        /// <param name="meshes">Where each <see cref="NativeMesh"/> is.</param>
+        /// <param name="results">As long as <paramref name="meshes"/>; filled in.</param>
+        [DllImport(Library, EntryPoint = "chamfer_scene_run", CallingConvention = Cdecl)]
+        internal static extern int SceneRun(
+            [In] IntPtr[] meshes,
+            uint meshCount,
+            [In] NativeObject[] objects,
+            uint objectCount,
+            ref NativeOptions options,
+            NativeProgress progress,
+            IntPtr user,
+            [Out] IntPtr[] results,
+            ref NativeError error);
+
         [DllImport(Library, EntryPoint = "chamfer_result_mesh", CallingConvention = Cdecl)]
         internal static extern int ResultMesh(ResultHandle result, ref NativeMesh mesh);
 

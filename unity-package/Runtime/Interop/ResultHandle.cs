@@ -8,6 +8,12 @@ namespace Chamfer.Interop
     {
         public ResultHandle() : base(IntPtr.Zero, true) { }
 
+        /// <summary>For results that come in an array.</summary>
+        internal ResultHandle(IntPtr result) : base(IntPtr.Zero, true)
+        {
+            SetHandle(result);
+        }
+
         public override bool IsInvalid => handle == IntPtr.Zero;
 
         protected override bool ReleaseHandle()

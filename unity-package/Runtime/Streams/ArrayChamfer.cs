@@ -27,15 +27,20 @@ namespace Chamfer.Streams
             var watch = Stopwatch.StartNew();
             using (var result = Call(source, settings, progress, cancellation))
             {
-                watch.Stop();
-                var output = ResultReader.Mesh(result, source);
-                var sources = Passthrough.Restore(source, output, ResultReader.VertexSources(result));
-                output.Skin = SkinCarrier.Carry(source.Skin, sources);
-                output.BlendShapes = BlendShapeCarrier.Carry(source.BlendShapes, sources);
-                var report = ResultReader.Report(result, source, output);
-                report.Milliseconds = watch.Elapsed.TotalMilliseconds;
-                return new ArrayResult { Mesh = output, Report = report };
+                return Finish(source, result, watch.Elapsed);
             }
+        }
+
+        /// <summary>Copies a native result, and carries along what the library does not know of.</summary>
+        internal static ArrayResult Finish(MeshArrays source, ResultHandle result, TimeSpan took)
+        {
+            var output = ResultReader.Mesh(result, source);
+            var sources = Passthrough.Restore(source, output, ResultReader.VertexSources(result));
+            output.Skin = SkinCarrier.Carry(source.Skin, sources);
+            output.BlendShapes = BlendShapeCarrier.Carry(source.BlendShapes, sources);
+            var report = ResultReader.Report(result, source, output);
+            report.Milliseconds = took.TotalMilliseconds;
+            return new ArrayResult { Mesh = output, Report = report };
         }
 
         private static ResultHandle Call(
