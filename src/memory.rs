@@ -18,12 +18,19 @@ const BYTES_PER_CORNER: u64 = 1024;
 /// For each corner where collisions are looked for: the boxes, their tree and the loose triangles.
 const BYTES_PER_CORNER_IN_FULL: u64 = 512;
 
+/// For each corner where the result is looked at: both scenes, what is new in them, and how they lie
+/// on a picture.
+const BYTES_PER_CORNER_SEEN: u64 = 768;
+
 /// Vertices that come of a corner at most, and of a source vertex itself, while the streams grow:
 /// an array that grows stands there twice for a moment.
 const COPIES_PER_CORNER: u64 = 4;
 
 /// For each submesh, its count in the source, in the making and in the result.
 const BYTES_PER_SUBMESH: u64 = 64;
+
+/// Depths of a few pictures of the default size.
+const BYTES_OF_PICTURES: u64 = 16 << 20;
 
 /// What even an empty mesh may take, error messages included.
 const BYTES_PER_CALL: u64 = 1 << 20;
@@ -36,9 +43,12 @@ pub fn most_memory(mesh: &Mesh, verify: Verify) -> u64 {
     let (vertices, corners) = (mesh.positions.len() as u64, mesh.indices.len() as u64);
     let per_corner = match verify {
         Verify::Fast => BYTES_PER_CORNER,
-        Verify::Full | Verify::Seen => BYTES_PER_CORNER + BYTES_PER_CORNER_IN_FULL,
+        Verify::Full => BYTES_PER_CORNER + BYTES_PER_CORNER_IN_FULL,
+        Verify::Seen => BYTES_PER_CORNER + BYTES_PER_CORNER_IN_FULL + BYTES_PER_CORNER_SEEN,
     };
+    let pictures = if verify == Verify::Seen { BYTES_OF_PICTURES } else { 0 };
     BYTES_PER_CALL
+        + pictures
         + vertices * BYTES_PER_VERTEX
         + corners * per_corner
         + mesh.submesh_index_counts.len() as u64 * BYTES_PER_SUBMESH

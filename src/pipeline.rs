@@ -48,8 +48,13 @@ pub fn chamfer_with_progress(
         return chamfer_by_stages(mesh, options, &mut |stage| progress(stage.share_done()));
     }
     let alone = [Placed { mesh: 0, transform: IDENTITY }];
+    // It may be done again, but what is told never falls.
+    let mut told = 0.0_f32;
     let mut run = |_: usize, mesh: &Mesh| {
-        chamfer_by_stages(mesh, options, &mut |stage| progress(stage.share_done()))
+        chamfer_by_stages(mesh, options, &mut |stage| {
+            told = told.max(stage.share_done());
+            progress(told)
+        })
     };
     let mut scene = chamfer_scene(&[*mesh], &alone, Some(Eyes::default()), &mut run)?;
     Ok(scene.meshes.swap_remove(0))

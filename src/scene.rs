@@ -146,12 +146,17 @@ fn contacts_across(meshes: &[Mesh], objects: &[Object]) -> Vec<Vec<Held>> {
             if number == other_number || !overlap(bounds[number], bounds[other_number]) {
                 continue;
             }
-            let way = to_mesh * other.to_scene;
-            let lines = borders[other.mesh].iter().map(|line| {
-                let [from, to] = line.map(|point| way.transform_point3(point).as_vec3().to_array());
+            // What is nowhere near is not told: a heap of objects would be told all of itself.
+            let placed = borders[other.mesh]
+                .iter()
+                .map(|line| line.map(|point| other.to_scene.transform_point3(point)))
+                .filter(|[from, to]| overlap(bounds[number], [from.min(*to), from.max(*to)]));
+            let lines = placed.map(|line| {
+                let [from, to] =
+                    line.map(|point| to_mesh.transform_point3(point).as_vec3().to_array());
                 Held { from, to, radius: 0.0 }
             });
-            held[object.mesh].extend(lines.filter(|held| is_finite(held)));
+            held[object.mesh].extend(lines.filter(is_finite));
         }
     }
     held

@@ -88,7 +88,7 @@ fn a_call_takes_no_more_memory_than_it_asked_for() {
     ];
     let mut fullest = 0.0_f64;
     for (name, mesh) in cases {
-        for verify in [Verify::Fast, Verify::Full] {
+        for verify in [Verify::Fast, Verify::Full, Verify::Seen] {
             for percent in [0.5, 20.0] {
                 let width = Width::PercentOfExtent(percent);
                 let options = Options { width, verify, ..Options::default() };

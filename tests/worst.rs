@@ -43,6 +43,11 @@ fn surfaces_with_one_side() {
 }
 
 #[test]
+fn many_open_parts_that_rest_on_others() {
+    check("posts", &worst::posts(12));
+}
+
+#[test]
 fn slivers() {
     check("slivers", &worst::slivers(8));
 }
