@@ -31,6 +31,11 @@ impl Fan {
     pub fn ends_at_border(&self) -> bool {
         self.next.is_none()
     }
+
+    /// Whether it could slide along its border, but another rim that it lies on would gape.
+    pub fn stays_with_rim(&self) -> bool {
+        self.borders_meet && self.starts_at_border != self.ends_at_border()
+    }
 }
 
 pub struct Sectors {

@@ -23,7 +23,7 @@ fn verdict(plan: &Plan, limits: &Limits, edge: &HardEdge, cut: Cut) -> EdgeVerdi
             let sectors = strips::corners(edge).map(|corner| plan.sectors.sector_of[corner]);
             let reason = worst_reason(plan, limits, sectors);
             if cut == Cut::Closed {
-                left(reason.unwrap_or(unopened(plan)))
+                left(reason.unwrap_or(unopened(plan, sectors)))
             } else {
                 let outcome = if reason.is_some() { Outcome::Narrowed } else { Outcome::Full };
                 (outcome, reason.unwrap_or(Reason::None), widths(plan, limits, edge))
@@ -34,8 +34,14 @@ fn verdict(plan: &Plan, limits: &Limits, edge: &HardEdge, cut: Cut) -> EdgeVerdi
 }
 
 /// Why an edge did not open though nothing limited it.
-fn unopened(plan: &Plan) -> Reason {
-    if plan.view.width <= plan.view.resolution { Reason::TooFine } else { Reason::NoEnd }
+fn unopened(plan: &Plan, sectors: [Sector; 4]) -> Reason {
+    if plan.view.width <= plan.view.resolution {
+        Reason::TooFine
+    } else if sectors.into_iter().any(|sector| plan.sectors.fans[sector].stays_with_rim()) {
+        Reason::Contact
+    } else {
+        Reason::NoEnd
+    }
 }
 
 /// What limited the sector that got least of its offset; none if all got everything.
