@@ -1,7 +1,7 @@
 //! Looks through a folder of models: after which does light show where none did before?
 //!
 //! `cargo run --release --example see_through -- [--fast] [--held] [--verbose] [--only NAME] [--folder DIR]
-//! [--views N] [--resolution N] [--close-ups DIR] [PERCENT..]`
+//! [--views N] [--resolution N] [--turned] [--judge RESOLUTION] [--close-ups DIR] [PERCENT..]`
 
 #[path = "../tests/corpus/measure.rs"]
 #[allow(dead_code)]
@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
-use chamfer::see_through::{Eyes, Leak, leaks};
+use chamfer::see_through::{Eyes, Leak, SceneTriangle, leaks};
 use chamfer::{Mesh, Options, Placed, Reason, Totals, Verify, Width, chamfer, chamfer_scene};
 use chamfer_cli::close_up::close_up;
 use chamfer_cli::document::ReadOptions;
@@ -19,11 +19,16 @@ use chamfer_cli::format;
 use chamfer_cli::pictures::write_png;
 use chamfer_cli::preview::{Panel, contact_sheet};
 use chamfer_cli::scene::{largest_length, placed, scene_triangles};
+use glam::{Quat, Vec3};
 
 struct Request {
     verify: Verify,
     is_verbose: bool,
     is_held: bool,
+    /// Whether the result is judged from other directions than those that held it.
+    is_turned: bool,
+    /// Who judges the result.
+    judge: Eyes,
     only: Option<String>,
     folder: String,
     eyes: Eyes,
@@ -37,6 +42,8 @@ impl Request {
             verify: Verify::Full,
             is_verbose: false,
             is_held: false,
+            is_turned: false,
+            judge: Eyes::default(),
             only: None,
             folder: measure::FOLDER.to_owned(),
             eyes: Eyes::default(),
@@ -48,6 +55,10 @@ impl Request {
             match argument.as_str() {
                 "--fast" => request.verify = Verify::Fast,
                 "--held" => request.is_held = true,
+                "--turned" => request.is_turned = true,
+                "--judge" => {
+                    request.judge.resolution = number().unwrap_or(request.judge.resolution);
+                }
                 "--verbose" => request.is_verbose = true,
                 "--views" => request.eyes.views = number().unwrap_or(request.eyes.views),
                 "--resolution" => {
@@ -125,7 +136,15 @@ fn look(request: &Request, path: &Path, percent: f32) -> usize {
     let after = scene_triangles(&*document, |mesh| &chamfered[mesh].mesh);
     let width = largest_length(&*document, |mesh| Some(chamfered[mesh].width)).unwrap_or(0.0);
     let start = Instant::now();
-    let found = leaks(&before, &after, width, request.eyes);
+    let found = if request.is_turned {
+        let turn = |scene: Vec<SceneTriangle>| -> Vec<SceneTriangle> {
+            let turn = Quat::from_axis_angle(Vec3::new(0.36, 0.48, 0.8), 0.4);
+            scene.into_iter().map(|t| t.map(|p| (turn * Vec3::from(p)).to_array())).collect()
+        };
+        leaks(&turn(before), &turn(after.clone()), width, request.judge)
+    } else {
+        leaks(&before, &after, width, request.judge)
+    };
     let seconds = start.elapsed().as_secs_f64();
     let count = |leaks: &mut dyn Iterator<Item = &Leak>| -> usize {
         leaks.map(|leak| leak.places.len()).sum()

@@ -20,7 +20,7 @@ const BYTES_PER_CORNER_IN_FULL: u64 = 512;
 
 /// For each corner where the result is looked at: both scenes, what is new in them, and how they lie
 /// on a picture.
-const BYTES_PER_CORNER_SEEN: u64 = 768;
+const BYTES_PER_CORNER_SEEN: u64 = 1024;
 
 /// Vertices that come of a corner at most, and of a source vertex itself, while the streams grow:
 /// an array that grows stands there twice for a moment.

@@ -9,6 +9,7 @@ use crate::edges::{edges, may_be_hard};
 use crate::error::Error;
 use crate::faces::faces;
 use crate::limits::limits;
+use crate::memory;
 use crate::mesh::Mesh;
 use crate::offsets::offsets;
 use crate::options::{Options, Verify, Width};
@@ -50,8 +51,10 @@ pub fn chamfer_with_progress(
     let alone = [Placed { mesh: 0, transform: IDENTITY }];
     // It may be done again, but what is told never falls.
     let mut told = 0.0_f32;
+    let each = Options { verify: Verify::Full, ..*options };
+    memory::check(mesh, Verify::Seen)?;
     let mut run = |_: usize, mesh: &Mesh| {
-        chamfer_by_stages(mesh, options, &mut |stage| {
+        chamfer_by_stages(mesh, &each, &mut |stage| {
             told = told.max(stage.share_done());
             progress(told)
         })

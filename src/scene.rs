@@ -38,6 +38,10 @@ pub struct ChamferedScene {
 /// Light that shows is gone after a round or two: the second time, edges farther off are held.
 const MOST_ROUNDS: u32 = 6;
 
+/// So many times, what shows past outlines only narrows chamfers. What still shows then is held as all
+/// else is.
+const GENTLE_ROUNDS: u32 = 2;
+
 /// What lets light through lies within so many widths of where it shows; from the second round on,
 /// within [`REACH`].
 const FIRST_REACH: f64 = 1.5;
@@ -73,8 +77,8 @@ pub fn chamfer_scene<E>(
         may_leak = !scene.leaks.is_empty() && scene.rounds < MOST_ROUNDS;
         if may_leak {
             scene.rounds += 1;
-            let reach = if scene.rounds == 1 { FIRST_REACH } else { REACH };
-            for mesh in hold(&objects, &scene.leaks, width, width * reach, &mut held) {
+            let grip = Grip::in_round(scene.rounds, width);
+            for mesh in hold(&objects, &scene.leaks, &grip, &mut held) {
                 scene.meshes[mesh] = chamfer(mesh, &held[mesh])?;
             }
         }
@@ -180,32 +184,46 @@ fn overlap(one: [DVec3; 2], other: [DVec3; 2]) -> bool {
     one[0].cmple(other[1]).all() && other[0].cmple(one[1]).all()
 }
 
-/// Holds all within `reach` of where light shows; tells the meshes that have something new to hold,
-/// in order. Of places within a width of each other one stands for all.
+/// How firmly a round holds what leaks; lengths in scene units.
+struct Grip {
+    width: f64,
+    /// So far around where light shows all edges are held.
+    reach: f64,
+    /// Whether what shows past outlines is only to be left covered.
+    is_gentle: bool,
+}
+
+impl Grip {
+    fn in_round(round: u32, width: f64) -> Grip {
+        let widths = if round == 1 { FIRST_REACH } else { REACH };
+        Grip { width, reach: widths * width, is_gentle: round <= GENTLE_ROUNDS }
+    }
+}
+
+/// Holds what is around the places where light shows; tells the meshes that have something new to
+/// hold, in order. Of places within a width of each other one stands for all.
 fn hold(
     objects: &[Object],
     leaks: &[Leak],
-    width: f64,
-    reach: f64,
+    grip: &Grip,
     held: &mut [Vec<Held>],
 ) -> BTreeSet<usize> {
     let mut cells = BTreeSet::new();
     let mut changed = BTreeSet::new();
-    let places = |leak: &'_ Leak| {
-        let is_past_outlines = leak.is_past_outlines;
-        leak.places.clone().into_iter().map(move |place| (wide(place), is_past_outlines))
-    };
-    for (place, is_past_outlines) in leaks.iter().flat_map(places) {
-        let size = if is_past_outlines { width * FINE } else { width };
+    let places = leaks.iter().flat_map(|leak| {
+        let is_gentle = grip.is_gentle && leak.is_past_outlines;
+        leak.places.iter().map(move |&place| (wide(place), is_gentle))
+    });
+    for (place, is_gentle) in places {
+        let size = if is_gentle { grip.width * FINE } else { grip.width };
         let cell = (place / size).floor().to_array().map(|cell| cell as i64);
-        if !cells.insert((cell, is_past_outlines)) {
+        if !cells.insert((cell, is_gentle)) {
             continue;
         }
         for object in objects {
             let Some(to_mesh) = object.to_mesh else { continue };
             let at = to_mesh.transform_point3(place).as_vec3().to_array();
-            // What is seen past outlines is only to be left covered.
-            let reach = if is_past_outlines { 0.0 } else { reach };
+            let reach = if is_gentle { 0.0 } else { grip.reach };
             let new = Held { from: at, to: at, radius: (reach / object.scale) as f32 };
             if is_finite(&new) && new.radius.is_finite() {
                 held[object.mesh].push(new);

@@ -307,9 +307,9 @@ mod tests {
     }
 
     #[test]
-    fn one_percent_is_the_default_width() {
+    fn files_are_looked_at_and_all_else_is_as_the_core_has_it() {
         let options = parse("chamfer a.glb").unwrap().options(1);
-        assert_eq!(options, Options::default());
+        assert_eq!(options, Options { verify: Verify::Seen, ..Options::default() });
     }
 
     #[test]

@@ -189,14 +189,14 @@ fn before_and_after(name: &str, percent: f32) -> Option<[Glb; 2]> {
 }
 
 /// A target that turns faces of the source over turns over the chamfers between them, and may tear
-/// others. The second target of the last model crumples a cube: it flips 358 of its faces. The three
-/// chamfers that are left there stand where it folds an edge back until a strip lies on the face
+/// others. The second target of the last model crumples a cube: it flips 358 of its faces. The
+/// chamfers that are left there stand where one folds an edge back until a strip lies on the face
 /// beside it, at about 160 degrees: what has both for neighbours cannot face as both do.
 #[test]
 fn a_morph_target_at_full_weight_flips_nothing_away_from_what_the_source_flips() {
     for (name, most_alone) in [
         ("khr_AnimatedMorphCube.glb", [0, 0]),
-        ("khr_AnimatedMorphSphere.glb", [0, 0]),
+        ("khr_AnimatedMorphSphere.glb", [0, 1]),
         ("blenderio_24_animation_pointer.glb", [2, 1]),
     ] {
         for (percent, most_alone) in [0.5, 2.0].into_iter().zip(most_alone) {
