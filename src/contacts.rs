@@ -98,11 +98,31 @@ fn sheet_rims<'a>(topology: &'a Topology, faces: &'a Faces) -> impl Iterator<Ite
 
 /// The half-edges without twin, but for those of hidden faces: these follow what they lie behind.
 fn open_borders(topology: &Topology) -> impl Iterator<Item = Corner> + '_ {
-    topology.twin.ids().filter(|&corner| {
+    let beside = beside_hidden(topology);
+    topology.twin.ids().filter(move |&corner| {
         topology.twin[corner].is_none()
             && !topology.is_collapsed(corner.triangle())
             && !topology.is_hidden(corner)
+            && beside.binary_search(&corner).is_err()
     })
+}
+
+/// The borders, sorted, that run on from those of hidden faces, along the same wall: they go back
+/// with it.
+fn beside_hidden(topology: &Topology) -> Vec<Corner> {
+    let mut beside = Vec::new();
+    for hidden in &topology.hidden {
+        let (mut onward, mut before) = (hidden.half_edge.next(), hidden.half_edge.prev());
+        while topology.twin[onward].is_some() {
+            onward = topology.twin[onward].next();
+        }
+        while topology.twin[before].is_some() {
+            before = topology.twin[before].prev();
+        }
+        beside.extend([onward, before]);
+    }
+    beside.sort_unstable();
+    beside
 }
 
 fn tolerance(view: &View) -> f64 {

@@ -118,7 +118,7 @@ const BOUNDS: [(&str, f64); 7] = [
     ("1 thin strip", 5e-4),
     ("1 dense strip", 4e-5),
     ("1 thin fill", 0.002),
-    ("1 dense fill", 8e-4),
+    ("1 dense fill", 0.0012),
     ("2 position", 3e-6),
     ("3 affine", 4e-6),
 ];

@@ -32,10 +32,20 @@ fn missing() -> Option<&'static str> {
     if !runs("x86_64-w64-mingw32-gcc") {
         return Some("mingw");
     }
-    if !Path::new("/usr/lib/rustlib/src/rust/library").is_dir() && !has_rustup_target() {
+    if !has_debian_rust() && !has_rustup_target() {
         return Some("Rust for Windows");
     }
     (!Path::new("/usr/bin/wine").exists()).then_some("wine")
+}
+
+/// Whether Debian's Rust is here, with its library's source, and new enough for this package.
+fn has_debian_rust() -> bool {
+    let output = Command::new("/usr/bin/rustc").arg("--version").output();
+    let version = output.map_or_else(|_| Vec::new(), |output| output.stdout);
+    let minor = |text: &str| text.split('.').nth(1).and_then(|minor| minor.parse::<u32>().ok());
+    let has = minor(&String::from_utf8_lossy(&version));
+    Path::new("/usr/lib/rustlib/src/rust/library").is_dir()
+        && has >= minor(env!("CARGO_PKG_RUST_VERSION"))
 }
 
 fn has_rustup_target() -> bool {
@@ -52,7 +62,10 @@ fn install() -> bool {
         output.is_ok_and(|o| o.status.success())
     };
     let install = [&["install", "-y", "--no-install-recommends"][..], &PACKAGES].concat();
-    apt(&install) || apt(&["update"]) && apt(&install)
+    // Lists that are old name old versions. Where they cannot be had anew, those that are there may
+    // do.
+    apt(&["update"]);
+    apt(&install)
 }
 
 /// Builds the library that goes into the Unity package.
