@@ -126,7 +126,9 @@ fn beside_hidden(topology: &Topology) -> Vec<Corner> {
 }
 
 fn tolerance(view: &View) -> f64 {
-    (f64::from(view.mesh.extent()) * TOUCHING).max(view.resolution * TOUCHING_STEPS)
+    // Of the largest meshes single precision cannot tell the extent.
+    let extent = f64::from(view.mesh.extent().min(f32::MAX));
+    (extent * TOUCHING).max(view.resolution * TOUCHING_STEPS)
 }
 
 /// The box around some points, and so far beyond.

@@ -51,7 +51,7 @@ const FINE: f64 = 0.2;
 
 /// Chamfers the meshes of a scene by `run`, which is given the number of a mesh and the mesh with
 /// all that is held, and may be asked for a mesh several times. With `eyes`, the scene is looked at
-/// until no light shows.
+/// until no light shows. Objects of meshes that there are none of are left out.
 ///
 /// # Errors
 /// Whatever `run` gives.
@@ -61,7 +61,7 @@ pub fn chamfer_scene<E>(
     eyes: Option<Eyes>,
     run: &mut dyn FnMut(usize, &Mesh) -> Result<Chamfered, E>,
 ) -> Result<ChamferedScene, E> {
-    let objects: Vec<Object> = placed.iter().filter_map(Object::new).collect();
+    let objects = objects(meshes, placed);
     let mut held = contacts_across(meshes, &objects);
     let mut chamfer = |mesh: usize, held: &[Held]| run(mesh, &Mesh { held, ..meshes[mesh] });
     let all = (0..meshes.len()).map(|mesh| chamfer(mesh, &held[mesh]));
@@ -107,9 +107,14 @@ impl Object {
     }
 }
 
+/// What can be placed; objects of meshes that there are none of are left out.
+fn objects(meshes: &[Mesh], placed: &[Placed]) -> Vec<Object> {
+    placed.iter().filter(|object| object.mesh < meshes.len()).filter_map(Object::new).collect()
+}
+
 /// All triangles of a scene, counter-clockwise where seen from outside.
 pub fn scene_triangles(meshes: &[Mesh], placed: &[Placed]) -> Vec<SceneTriangle> {
-    let objects: Vec<Object> = placed.iter().filter_map(Object::new).collect();
+    let objects = objects(meshes, placed);
     triangles(&objects, |mesh| &meshes[mesh])
 }
 
