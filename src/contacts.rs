@@ -144,6 +144,9 @@ impl Contacts {
             return false;
         }
         let ends = [side, side.next()].map(|corner| view.position_at(corner));
+        if self.near(ends, self.tolerance * 3.0).next().is_none() {
+            return false;
+        }
         if self
             .near(ends, 0.0)
             .any(|rim| rim.radius > self.tolerance && distance_between(rim.ends, ends) < rim.radius)
@@ -266,7 +269,9 @@ pub fn rests(
     }
     let mut rests = Rests::default();
     for edge in edges.hard.iter() {
-        if edge.skipped.is_none() {
+        let ends = [edge.sides[0], edge.sides[0].next()].map(|corner| view.position_at(corner));
+        let reach = view.width + contacts.tolerance;
+        if edge.skipped.is_none() && contacts.near(ends, reach).next().is_some() {
             let wedge = Wedge::new(view, faces, edge.sides);
             let stretches =
                 wedge.map(|wedge| contacts.in_wedge(topology, edge.sides[0], &wedge, view.width));
@@ -282,9 +287,6 @@ impl Rests {
     /// ends: `[side][end]`, both sides in the direction of the first.
     pub fn are_kept(&self, plan: &Plan, edge: Edge, pulled: [[DVec3; 2]; 2]) -> bool {
         let stretches = self.of(edge);
-        if stretches.is_empty() {
-            return true;
-        }
         let sides = plan.edges.hard[edge].sides;
         let Some(wedge) = Wedge::new(&plan.view, &plan.faces, sides) else { return true };
         let (cut, tolerance) = (Cut::new(&wedge, pulled), plan.contacts.tolerance);
@@ -292,7 +294,8 @@ impl Rests {
     }
 
     /// What rests beside an edge.
-    fn of(&self, edge: Edge) -> &[Stretch] {
+    #[inline]
+    pub fn of(&self, edge: Edge) -> &[Stretch] {
         if self.ends.len() == 0 {
             return &[];
         }
