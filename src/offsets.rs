@@ -8,17 +8,21 @@
 //! Where that would bend a surface, the vertex slides along the bend instead: along the border at
 //! the end of a sector, or along the sharpest crease inside of it.
 
+mod follow;
+
 use glam::DVec3;
 
 use crate::edges::{is_hard, seam_between};
 use crate::faces::Faces;
-use crate::ids::{Corner, Few, Id, IdVec, Sector};
+use crate::ids::{Corner, Id, IdVec, Sector};
 use crate::math::{Turn, area_vector, unit};
 use crate::mesh::UV_CHANNELS;
 use crate::resample::{Foot, locate, uv_at};
-use crate::sectors::{Fan, Follower, Sectors};
+use crate::sectors::{Fan, Sectors};
 use crate::topology::Topology;
 use crate::view::View;
+
+use follow::follow;
 
 /// No vertex moves farther than this many widths: between edges that meet at less than 39 degrees
 /// the exact distance shoots out, and a tip would lose its point. The corners of ramps and
@@ -99,80 +103,6 @@ pub fn offsets(
         }
     }
     offsets
-}
-
-/// A hidden face stays behind the visible ones: its corner goes along with theirs, as far as its
-/// own plane lets it, but never out of the solid. None where the fan has no plane.
-fn follow(
-    view: &View,
-    faces: &Faces,
-    offsets: &IdVec<Sector, Offset>,
-    corners: &[Corner],
-    followers: &[Follower],
-) -> Option<Offset> {
-    let area = |corner: &&Corner| area_vector(view.triangle(corner.triangle())).length_squared();
-    let &within = corners.iter().max_by(|one, other| area(one).total_cmp(&area(other)))?;
-    let normal = faces.normal[within.triangle()];
-    let is_level = |corner: &Corner| faces.normal[corner.triangle()].dot(normal) > LEVEL_COSINE;
-    if !corners.iter().all(is_level) {
-        return None;
-    }
-    let at = view.position_at(within);
-    let paths = followers.iter().map(|follower| Path::new(view, normal, at, follower));
-    let paths: Few<Path> = paths.collect();
-    let leads: Few<DVec3> =
-        followers.iter().map(|follower| offsets[follower.leader].vector).collect();
-    let vector = step(&paths, &leads, normal);
-    let foot = locate(view, within, at, vector)?;
-    let offset = Offset { vector, within, foot, is_capped: false };
-    vector.is_finite().then_some(offset)
-}
-
-/// The border of a hidden face at one of its ends.
-struct Path {
-    /// From there along the border.
-    along: DVec3,
-    /// From the border into the face.
-    inward: DVec3,
-}
-
-impl Path {
-    fn new(view: &View, normal: DVec3, at: DVec3, follower: &Follower) -> Path {
-        let [from, to] = [follower.border, follower.border.next()].map(|end| view.position_at(end));
-        let along = unit(to - from);
-        Path { along: if from == at { along } else { -along }, inward: normal.cross(along) }
-    }
-
-    /// How far the face goes in where the one in front of it moves by a vector. Where that leads
-    /// in at all it goes as far: a chamfer is less deep anywhere between its sides.
-    fn depth(&self, lead: DVec3) -> f64 {
-        let is_inward = lead.dot(self.inward) > 0.0;
-        if is_inward { (lead - self.along * lead.dot(self.along)).length() } else { 0.0 }
-    }
-
-    /// The same, and never past the end of the border.
-    fn step(&self, lead: DVec3) -> DVec3 {
-        self.along * lead.dot(self.along).max(0.0) + self.inward * self.depth(lead)
-    }
-}
-
-/// How a hidden face moves at a corner of its borders, behind faces that lead by some vectors.
-fn step(paths: &[Path], leads: &[DVec3], normal: DVec3) -> DVec3 {
-    let [one, other] = paths else { return paths[0].step(leads[0]) };
-    let (lead, is_same) = (leads[0], leads[0] == leads[1]);
-    if is_same && one.along.dot(other.along) < -CREASE_COSINE {
-        // The border runs on: its vertex may slide either way.
-        one.along * lead.dot(one.along) + one.inward * one.depth(lead)
-    } else if is_same {
-        let is_inward = paths.iter().all(|path| lead.dot(path.inward) >= 0.0);
-        if is_inward { lead - normal * lead.dot(normal) } else { DVec3::ZERO }
-    } else if one.inward.dot(other.along) > 0.0 {
-        // The chamfer of the edge that leaves here cuts the corner off.
-        one.step(leads[0]) + other.step(leads[1])
-    } else {
-        // It covers a corner that goes inwards.
-        DVec3::ZERO
-    }
 }
 
 /// A corner of a fan, unfolded into the plane.

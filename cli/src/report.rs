@@ -46,7 +46,7 @@ pub struct MeshReport {
     pub mean_width: f32,
     /// The width asked for, in mesh units.
     pub width: f32,
-    /// Time in the core.
+    /// Time in the core and for looking at the scene: its share of what the file took.
     pub milliseconds: f64,
     /// Its hard edges with two sides, where they were asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -110,7 +110,7 @@ pub struct ReportTotals {
     pub counts: Counts,
     /// Mean width as a share (0 to 1) of the width asked for, weighted by edge length.
     pub mean_width: f32,
-    /// Time in the core.
+    /// Time in the core and for looking at scenes.
     pub milliseconds: f64,
 }
 

@@ -4,11 +4,10 @@ use glam::DVec3;
 
 use super::drawing::{BLUE, Drawing, INK, ORANGE, Pen, RED};
 use super::models::{add_block, nothing};
-use super::result::outcome_paint;
-use super::scene::{CLAY, Camera, FRONT, Facet, Scene, triangles};
+use super::result::draw_outcomes;
+use super::scene::{Camera, FRONT};
 use crate::mesh::{Held, Mesh};
 use crate::options::{Options, Width};
-use crate::report::{Outcome, TriangleKind};
 use crate::view::wide;
 
 pub fn contacts() -> Drawing {
@@ -40,23 +39,7 @@ fn draw_block_below_rim(drawing: &mut Drawing, camera: Camera, inset: f32) {
     let options = Options { width: Width::Units(0.2), ..Options::default() };
     let mesh = Mesh { held: &held, ..block.as_mesh() };
     let result = crate::chamfer(&mesh, &options).unwrap();
-    let paint = |place: usize| {
-        let source = result.triangle_sources[place];
-        match source.kind {
-            TriangleKind::Edge => outcome_paint(result.verdicts[source.index as usize].outcome),
-            _ => CLAY,
-        }
-    };
-    let facets = triangles(&result.mesh)
-        .enumerate()
-        .map(|(place, points)| Facet { points, paint: paint(place) })
-        .collect();
-    let scene = Scene::new(camera, facets);
-    scene.paint(drawing);
-    for verdict in result.verdicts.iter().filter(|verdict| verdict.outcome == Outcome::Skipped) {
-        let ends = verdict.vertices.map(|vertex| wide(block.positions[vertex as usize]));
-        scene.line(drawing, ends, Pen::new(RED, 2.6));
-    }
+    let scene = draw_outcomes(drawing, camera, &block, &result);
     for Held { from, to, .. } in held {
         let [from, to] = [from, to].map(wide);
         scene.line(drawing, [from, to], Pen::new(BLUE, 1.8));

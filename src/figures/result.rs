@@ -111,6 +111,19 @@ pub fn verdicts() -> Drawing {
     add_card(&mut mesh, [1.4, 0.0], [2.1, 1.1]);
     let result = chamfered(&mesh, 0.12);
     let camera = Camera::new(FRONT, [0.5, 0.4, 0.3], 95.0, [220.0, 165.0]);
+    draw_outcomes(&mut drawing, camera, &mesh, &result);
+    write_totals(&mut drawing, &result);
+    drawing.legend(&[(GREEN, "full"), (ORANGE, "narrowed"), (RED, "skipped")]);
+    drawing
+}
+
+/// A result with its strips painted by what became of their edges, and lines where edges stay.
+pub fn draw_outcomes(
+    drawing: &mut Drawing,
+    camera: Camera,
+    mesh: &MeshBuffers,
+    result: &Chamfered,
+) -> Scene {
     let paint = |place: usize| {
         let source = result.triangle_sources[place];
         match source.kind {
@@ -123,17 +136,15 @@ pub fn verdicts() -> Drawing {
         .map(|(place, points)| Facet { points, paint: paint(place) })
         .collect();
     let scene = Scene::new(camera, facets);
-    scene.paint(&mut drawing);
+    scene.paint(drawing);
     for verdict in result.verdicts.iter().filter(|verdict| verdict.outcome == Outcome::Skipped) {
         let ends = verdict.vertices.map(|vertex| wide(mesh.positions[vertex as usize]));
-        scene.line(&mut drawing, ends, Pen::new(RED, 2.6));
+        scene.line(drawing, ends, Pen::new(RED, 2.6));
     }
-    write_totals(&mut drawing, &result);
-    drawing.legend(&[(GREEN, "full"), (ORANGE, "narrowed"), (RED, "skipped")]);
-    drawing
+    scene
 }
 
-pub fn outcome_paint(outcome: Outcome) -> Paint {
+fn outcome_paint(outcome: Outcome) -> Paint {
     match outcome {
         Outcome::Full => [85.0, 165.0, 115.0],
         Outcome::Narrowed => [226.0, 150.0, 65.0],
