@@ -48,11 +48,21 @@ pub fn least(plan: &Plan, triangle: Triangle, old: [DVec3; 3], share: f64) -> [D
 /// Whether a triangle is still as broad as it has to be, but for what rounding does.
 pub fn is_kept(plan: &Plan, triangle: Triangle, [old, new]: [[DVec3; 3]; 2]) -> bool {
     let whole = area_vector(old);
-    let sides = [0, 1, 2].map(|k| new[(k + 1) % 3] - new[k]);
-    let longest = sides.iter().map(|side| side.length_squared()).fold(0.0, f64::max).sqrt();
-    let area = whole.dot(area_vector(new)) + whole.length() * longest * plan.view.resolution;
-    let least = least(plan, triangle, old, plan.view.least_breadth);
-    (0..3).all(|k| area >= least[k].dot(sides[k]) || goes_on(plan, triangle, k, old))
+    let area = whole.dot(area_vector(new));
+    let least = plan.view.least_breadth * whole.length_squared();
+    let side = |points: [DVec3; 3], k: usize| points[(k + 1) % 3] - points[k];
+    let rounding = || {
+        let longest = (0..3).map(|k| side(new, k).length_squared()).fold(0.0, f64::max).sqrt();
+        whole.length() * longest * plan.view.resolution
+    };
+    (0..3).all(|k| {
+        let (before, after) = (side(old, k), side(new, k));
+        let (square, asked) = (before.length_squared(), least * before.dot(after));
+        area * square >= asked
+            || !ends_face(plan, triangle.corners()[k])
+            || (area + rounding()) * square >= asked
+            || goes_on(plan, triangle, k, old)
+    })
 }
 
 /// Whether a face ends at a half-edge: at a chamfer, or at a border.

@@ -3,7 +3,7 @@
 //! They stay lines: their corners go with the first real triangle on that line, all of them with
 //! the same one, so that nothing opens and no edge gets crowded that was not.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 use crate::ids::{Cluster, Corner, IdVec, Triangle};
 use crate::plan::Plan;
@@ -39,12 +39,19 @@ fn line_of(plan: &Plan, triangle: Triangle) -> [Cluster; 2] {
 }
 
 /// For each line of a collapsed triangle, the first half-edge of a real triangle there.
-fn first_half_edges(plan: &Plan, collapsed: &[Triangle]) -> HashMap<[Cluster; 2], Option<Corner>> {
-    let mut first: HashMap<[Cluster; 2], Option<Corner>> =
+fn first_half_edges(plan: &Plan, collapsed: &[Triangle]) -> BTreeMap<[Cluster; 2], Option<Corner>> {
+    let topology = &plan.topology;
+    let mut first: BTreeMap<[Cluster; 2], Option<Corner>> =
         collapsed.iter().map(|&triangle| (line_of(plan, triangle), None)).collect();
-    let real = plan.view.triangles().filter(|&triangle| !plan.topology.is_collapsed(triangle));
+    // Most half-edges do not start where one of these lines ends.
+    let mut is_end = IdVec::filled(false, plan.weld.first_vertex.len());
+    first.keys().flatten().for_each(|&cluster| is_end[cluster] = true);
+    let real = plan.view.triangles().filter(|&triangle| !topology.is_collapsed(triangle));
     for half_edge in real.flat_map(Triangle::corners) {
-        let ends = [half_edge, half_edge.next()].map(|corner| plan.topology.cluster_at[corner]);
+        let ends = [half_edge, half_edge.next()].map(|corner| topology.cluster_at[corner]);
+        if !ends.iter().all(|&cluster| is_end[cluster]) {
+            continue;
+        }
         if let Some(found) = first.get_mut(&[ends[0].min(ends[1]), ends[0].max(ends[1])]) {
             found.get_or_insert(half_edge);
         }

@@ -84,7 +84,7 @@ impl FillMap<'_> {
     /// The first way, and the first owner in rank, that fits in all channels that cannot run on; or
     /// else those that fit best.
     fn add(&self, owners: &Owners, patches: &mut Patches) {
-        let broken = |channel: &usize| self.own_misfit(*channel) > MOST_STRETCH;
+        let broken = |channel: &usize| !self.fits_as_it_is(*channel);
         let all = channels_of(self.plan);
         let channels = all.filter(broken).fold(0, |channels, k| channels | 1 << k);
         let mut lay = Lay::default();
@@ -213,11 +213,11 @@ impl FillMap<'_> {
         self.misfit_on(channel, owner, at, Facing::AsFace, &uvs)
     }
 
-    /// How badly it lies where its vertices are in their own charts; infinite where these are not
-    /// one around the corner.
-    fn own_misfit(&self, channel: usize) -> f64 {
+    /// Whether it fits where its vertices are in their own charts, and these are one around the
+    /// corner.
+    fn fits_as_it_is(&self, channel: usize) -> bool {
         if self.seams(channel) > self.allowed_seams() {
-            return f64::INFINITY;
+            return false;
         }
         let places = 0..self.sectors.len();
         let mut uvs: Few<DVec2> = places.map(|place| self.own_uv(place, channel)).collect();
@@ -226,7 +226,7 @@ impl FillMap<'_> {
         uvs.extend(middles.map(|blend| place_of(self.plan, channel, &blend)));
         let facing = self.facing(channel);
         let on = |owner: usize| self.misfit_on(channel, owner, self.first(owner), facing, &uvs);
-        (0..self.sectors.len().min(MOST_OWNERS)).map(on).fold(f64::INFINITY, f64::min)
+        (0..self.sectors.len().min(MOST_OWNERS)).any(|owner| on(owner) <= MOST_STRETCH)
     }
 
     /// How the fill may lie between the faces around the corner.

@@ -1,8 +1,10 @@
 //! Ground: the texture that a chart covers around a chamfer.
 
+use std::cell::OnceCell;
+
 use glam::DVec2;
 
-use crate::ids::{Corner, Triangle};
+use crate::ids::{Corner, Few, Triangle};
 use crate::plan::Plan;
 
 use super::density::{longest_square, size, texture_area, uv_point};
@@ -26,8 +28,30 @@ const SAMPLES: [[f64; 3]; 7] = [
     [1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0],
 ];
 
-/// A chamfer may lie on so many triangles of a chart: more would take long to find.
+/// A chamfer may lie on so many triangles of a chart, and of those around a corner on so many from
+/// it on either way: more would take long to find.
 const MOST_FACES: usize = 64;
+
+/// A triangle of the chart on the texture.
+#[derive(Clone, Copy)]
+struct Face {
+    points: [DVec2; 3],
+    /// Its least and its greatest coordinates.
+    bounds: [DVec2; 2],
+}
+
+impl Face {
+    fn new(points: [DVec2; 3]) -> Face {
+        Face { points, bounds: bounds(points) }
+    }
+
+    /// Whether a point is on it, or as near to it.
+    fn is_below(&self, point: DVec2, near: f64) -> bool {
+        let [low, high] = self.bounds;
+        let outside = (low - point).max(point - high).max_element();
+        outside <= near && is_on(self.points, point, near)
+    }
+}
 
 /// The source triangles around some corners that lie in the corners' own chart of a channel, and
 /// what follows on these.
@@ -36,25 +60,46 @@ pub struct Ground<'a> {
     channel: usize,
     /// Corners of chamfered edges.
     corners: &'a [Corner],
+    /// The triangles around them, once that is asked for.
+    around: OnceCell<Few<Face>>,
 }
 
 impl<'a> Ground<'a> {
     pub fn new(plan: &'a Plan, channel: usize, corners: &'a [Corner]) -> Self {
-        Ground { plan, channel, corners }
+        Ground { plan, channel, corners, around: OnceCell::new() }
     }
 
     /// Whether a triangle on the texture lies on it.
     pub fn covers(&self, triangle: [DVec2; 3]) -> bool {
         let near = longest_square(triangle).sqrt() * MARGIN + size(triangle) * ROUNDING;
-        if self.any_face(|face| triangle.iter().all(|&point| is_on(face, point, near))) {
+        let all_below = |face: &Face| triangle.iter().all(|&point| face.is_below(point, near));
+        // Most chamfers lie on the triangle that they are cut off from.
+        if all_below(&Face::new(self.points(self.corners[0].triangle()))) {
+            return true;
+        }
+        let around = self.around.get_or_init(|| self.faces_around());
+        if around.iter().any(all_below) {
             return true;
         }
         let samples = SAMPLES.map(|weights| (0..3).map(|k| triangle[k] * weights[k]).sum());
-        if samples.iter().all(|&point| self.any_face(|face| is_on(face, point, near))) {
+        let all_on = |faces: &[Face]| {
+            samples.iter().all(|&point| faces.iter().any(|face| face.is_below(point, near)))
+        };
+        if all_on(around) {
             return true;
         }
-        let below = self.below(triangle, near);
-        samples.iter().all(|&point| below.iter().any(|&face| is_on(self.points(face), point, near)))
+        let below = self.below(triangle, near).into_iter();
+        all_on(&below.map(|face| Face::new(self.points(face))).collect::<Few<Face>>())
+    }
+
+    /// The triangles around the corners.
+    fn faces_around(&self) -> Few<Face> {
+        let mut faces = Few::new();
+        self.any_corner(|corner| {
+            faces.push(Face::new(self.points(corner.triangle())));
+            false
+        });
+        faces
     }
 
     /// The triangles of the chart that reach below one on the texture, as far as they follow on each
@@ -97,11 +142,6 @@ impl<'a> Ground<'a> {
         found
     }
 
-    /// Whether one of the triangles is such.
-    fn any_face(&self, is_such: impl Fn([DVec2; 3]) -> bool) -> bool {
-        self.any_corner(|corner| is_such(self.points(corner.triangle())))
-    }
-
     /// Whether the corner of one of them is such.
     fn any_corner(&self, mut is_such: impl FnMut(Corner) -> bool) -> bool {
         let is_such = &mut is_such;
@@ -112,23 +152,29 @@ impl<'a> Ground<'a> {
     /// chart's end, is such.
     fn any_ahead(&self, at: Corner, is_such: &mut impl FnMut(Corner) -> bool) -> bool {
         let mut corner = at;
-        while !is_such(corner) {
+        for _ in 0..MOST_FACES {
+            if is_such(corner) {
+                return true;
+            }
             let side = corner.prev();
             corner = self.plan.topology.twin[side];
             if corner == at || !self.runs_on(side) {
-                return false;
+                break;
             }
         }
-        true
+        false
     }
 
     /// As [`Ground::any_ahead`], of the corners before one, clockwise.
     fn any_behind(&self, at: Corner, is_such: &mut impl FnMut(Corner) -> bool) -> bool {
         let mut corner = at;
-        while self.runs_on(corner) {
+        for _ in 0..MOST_FACES {
+            if !self.runs_on(corner) {
+                break;
+            }
             corner = self.plan.topology.twin[corner].next();
             if corner == at {
-                return false;
+                break;
             }
             if is_such(corner) {
                 return true;

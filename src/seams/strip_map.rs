@@ -174,10 +174,11 @@ impl<'a> StripMap<'a> {
         };
         let uvs = [0, 1, 2, 3].map(uv);
         match way {
-            Way::Own => [0, 1]
-                .map(|owner| self.misfit_on(owner, &self.ends[owner], channel, uvs))
-                .into_iter()
-                .fold(f64::INFINITY, f64::min),
+            Way::Own => {
+                let on = |owner: usize| self.misfit_on(owner, &self.ends[owner], channel, uvs);
+                let first = on(0);
+                if first <= MOST_STRETCH { first } else { first.min(on(1)) }
+            }
             Way::Flat(owner, room) => self.misfit_on(owner, &[room.corner], channel, uvs),
             Way::Band(owner, ..) | Way::Inside(owner) | Way::Abreast(owner) => {
                 self.misfit_on(owner, &self.ends[owner], channel, uvs)
