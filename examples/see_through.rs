@@ -43,10 +43,10 @@ impl Request {
             is_verbose: false,
             is_held: false,
             is_turned: false,
-            judge: Eyes::default(),
+            judge: Eyes::with_threads(0),
             only: None,
             folder: measure::FOLDER.to_owned(),
-            eyes: Eyes::default(),
+            eyes: Eyes::with_threads(0),
             close_ups: None,
             percents: Vec::new(),
         };

@@ -7,6 +7,7 @@
 use crate::error::Error;
 use crate::mesh::Mesh;
 use crate::options::Verify;
+use crate::see_through::Eyes;
 
 /// For each source vertex, the weld and the copies of its ids.
 const BYTES_PER_VERTEX: u64 = 512;
@@ -19,8 +20,8 @@ const BYTES_PER_CORNER: u64 = 1024;
 const BYTES_PER_CORNER_IN_FULL: u64 = 512;
 
 /// For each corner where the result is looked at: both scenes, what is new in them, and how they lie
-/// on a picture.
-const BYTES_PER_CORNER_SEEN: u64 = 1024;
+/// on the picture that each thread draws.
+const BYTES_PER_CORNER_SEEN: u64 = 1408;
 
 /// Vertices that come of a corner at most, and of a source vertex itself, while the streams grow:
 /// an array that grows stands there twice for a moment.
@@ -29,8 +30,8 @@ const COPIES_PER_CORNER: u64 = 4;
 /// For each submesh, its count in the source, in the making and in the result.
 const BYTES_PER_SUBMESH: u64 = 64;
 
-/// Depths of a few pictures of the default size.
-const BYTES_OF_PICTURES: u64 = 16 << 20;
+/// Depths of a few pictures of the default size for each thread.
+const BYTES_OF_PICTURES: u64 = (16 << 20) * Eyes::MOST_THREADS as u64;
 
 /// What even an empty mesh may take, error messages included.
 const BYTES_PER_CALL: u64 = 1 << 20;

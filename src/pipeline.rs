@@ -59,7 +59,8 @@ pub fn chamfer_with_progress(
             progress(told)
         })
     };
-    let mut scene = chamfer_scene(&[*mesh], &alone, Some(Eyes::default()), &mut run)?;
+    let eyes = Some(Eyes::with_threads(options.threads));
+    let mut scene = chamfer_scene(&[*mesh], &alone, eyes, &mut run)?;
     Ok(scene.meshes.swap_remove(0))
 }
 

@@ -15,6 +15,7 @@ use std::collections::{BTreeSet, HashSet};
 
 use glam::DVec3;
 
+use crate::threads::Threads;
 use raster::{Depths, Faces};
 use sight::Sight;
 use views::View;
@@ -30,17 +31,36 @@ pub struct Eyes {
     pub views: usize,
     /// Samples along each side of a view.
     pub resolution: usize,
+    /// How many threads may look; 0 for as many as there are cores, but never more than
+    /// [`Eyes::MOST_THREADS`]. What is seen is the same.
+    pub threads: u32,
 }
 
 impl Eyes {
     /// Further directions are left out.
     pub const MOST_VIEWS: usize = views::DIRECTIONS.len();
+
+    /// Each thread needs memory for its own pictures.
+    pub const MOST_THREADS: u32 = 4;
+}
+
+impl Eyes {
+    /// The default, with so many threads.
+    pub fn with_threads(threads: u32) -> Eyes {
+        Eyes { threads, ..Eyes::default() }
+    }
+
+    fn threads(&self) -> Threads {
+        let cores = || std::thread::available_parallelism().map_or(1, |cores| cores.get() as u32);
+        let wanted = if self.threads == 0 { cores() } else { self.threads };
+        Threads::new(wanted.min(Eyes::MOST_THREADS), usize::MAX)
+    }
 }
 
 impl Default for Eyes {
-    /// Slits of a thousandth of the scene show, from all directions that there are.
+    /// Slits of a thousandth of the scene show, from all directions that there are; one thread.
     fn default() -> Eyes {
-        Eyes { views: Eyes::MOST_VIEWS, resolution: 768 }
+        Eyes { views: Eyes::MOST_VIEWS, resolution: 768, threads: 1 }
     }
 }
 
@@ -91,9 +111,10 @@ pub fn leaks(
     let changes = Changes::between(before, after);
     let frame = views::Frame::around(before).filter(|_| !changes.gone.is_empty());
     let Some(frame) = frame else { return Vec::new() };
-    let mut pictures = Pictures::default();
-    let views = frame.views(eyes.views, eyes.resolution);
-    views.flat_map(|view| pictures.leaks(&view, &changes, f64::from(width) * REACH)).collect()
+    let views: Vec<View> = frame.views(eyes.views, eyes.resolution).collect();
+    let reach = f64::from(width) * REACH;
+    let look = |pictures: &mut Pictures, view: &View| pictures.leaks(view, &changes, reach);
+    eyes.threads().map_large(&views, Pictures::default, look).concat()
 }
 
 /// Two scenes, with what is the same in both taken apart: that is drawn once.

@@ -124,6 +124,24 @@ impl Threads {
         items.iter().map(value).collect()
     }
 
+    /// The value for each item, in their order, where each is much work, with a scratch value that
+    /// each thread makes once.
+    pub fn map_large<I: Sync, T: Send, S>(
+        &self,
+        items: &[I],
+        scratch: impl Fn() -> S + Sync + Send,
+        value: impl Fn(&mut S, &I) -> T + Sync + Send,
+    ) -> Vec<T> {
+        #[cfg(feature = "parallel")]
+        if let Some(pool) = &self.pool {
+            use rayon::prelude::*;
+            let each = || items.par_iter().with_max_len(1).map_init(&scratch, &value).collect();
+            return pool.install(each);
+        }
+        let mut scratch = scratch();
+        items.iter().map(|item| value(&mut scratch, item)).collect()
+    }
+
     /// The ids that are such, in ascending order.
     pub fn filter<I: Id + Send>(
         &self,
@@ -153,6 +171,8 @@ mod tests {
             assert!(squares.iter().copied().eq((0..10_000).map(|number| number * number)));
             let numbers: Vec<u32> = (0..10_000).collect();
             assert_eq!(threads.map_each(&numbers, |number| number + 1)[9_999], 10_000);
+            let counted = threads.map_large(&numbers[..9], || 0, |_, number| number + 1);
+            assert_eq!(counted, (1..10).collect::<Vec<u32>>());
             let odd = threads.filter(10_000, |vertex: Vertex| vertex.0 % 2 == 1);
             assert!(odd.into_iter().eq((0..5_000).map(|half| Vertex(2 * half + 1))));
         }

@@ -96,7 +96,7 @@ pub fn chamfer_document(
     progress: &dyn Fn(f32),
 ) -> Result<ChamferedScene> {
     let meshes: Vec<Mesh> = document.meshes().iter().map(|mesh| mesh.mesh.as_mesh()).collect();
-    let eyes = (options.verify == Verify::Seen).then(Eyes::default);
+    let eyes = (options.verify == Verify::Seen).then(|| Eyes::with_threads(options.threads));
     // The scene looks through all meshes together.
     let each = match options.verify {
         Verify::Seen => Options { verify: Verify::Full, ..*options },

@@ -28,7 +28,7 @@ pub fn look([before, after]: [&dyn Document; 2], width: Option<f32>) -> SeeThrou
         None if before == after => SeeThrough::default(),
         None => SeeThrough::not_checked("there are no chamfers to tell the width: give --width"),
         Some(width) => {
-            let found = leaks(&before, &after, width, Eyes::default());
+            let found = leaks(&before, &after, width, Eyes::with_threads(0));
             SeeThrough { width: Some(width), places: merged(found, width), ..SeeThrough::default() }
         }
     }
