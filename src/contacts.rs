@@ -9,7 +9,7 @@ mod wedge;
 
 use glam::DVec3;
 
-use crate::bvh::{Aabb, Bounds, Forest};
+use crate::bvh::{Aabb, Tree};
 use crate::edges::{BACK_TO_BACK_COSINE, Edges};
 use crate::faces::{Faces, faces};
 use crate::ids::{Corner, Edge, Few, IdVec};
@@ -44,8 +44,7 @@ struct Rim {
 pub struct Contacts {
     /// `#rims`.
     rims: Vec<Rim>,
-    forest: Forest,
-    bounds: Bounds,
+    tree: Tree,
     /// Within this distance, in mesh units, something touches.
     tolerance: f64,
 }
@@ -66,12 +65,8 @@ pub fn contacts(view: &View, topology: &Topology, faces: &Faces) -> Contacts {
     let tolerance = if rims.is_empty() { 0.0 } else { tolerance(view) };
     let boxes: Vec<Aabb> =
         rims.iter().map(|rim| around(rim.ends, rim.radius.max(tolerance))).collect();
-    let numbers = (0..rims.len() as u32).collect();
-    let forest = Forest::new(numbers, &[rims.len() as u32], &boxes, None);
-    let tree = forest.tree(0);
-    let boxes = tree.order.iter().map(|&number| boxes[number as usize]).collect();
-    let bounds = Bounds::new(tree, boxes, Vec::new());
-    Contacts { rims, forest, bounds, tolerance }
+    let tree = Tree::new(&boxes, &[]);
+    Contacts { rims, tree, tolerance }
 }
 
 /// The open borders of a mesh, in mesh units; none of a mesh that breaks a rule.
@@ -175,9 +170,8 @@ impl Contacts {
 
     /// What may come within a distance of a segment.
     fn near(&self, segment: [DVec3; 2], reach: f64) -> impl Iterator<Item = &Rim> {
-        let tree = self.forest.tree(0);
-        let places = tree.overlapping(&self.bounds, around(segment, reach));
-        places.map(move |place| &self.rims[tree.order[place] as usize])
+        let near = self.tree.overlapping(around(segment, reach));
+        near.map(|number| &self.rims[number as usize])
     }
 
     /// The stretches of border that lie in the wedge that is cut off along an edge where both its

@@ -6,9 +6,7 @@
 //! A ring that still fails keeps its old position, so the result is never worse than the source.
 
 mod breadth;
-mod cells;
 mod collisions;
-mod parts;
 mod room;
 
 use std::cmp::Ordering;
@@ -26,7 +24,6 @@ use crate::strips;
 use crate::validity::{opens_along, stays_line, survives};
 
 pub use breadth::deep;
-pub use parts::Parts;
 
 /// How much a sector that takes part in something bad keeps in each round.
 const SHRINK: f64 = 0.5;
@@ -79,7 +76,7 @@ fn bounded(plan: &Plan, shares: &IdVec<Sector, f64>) -> Limits {
 }
 
 /// Anything that can go bad.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Element {
     Surface(Triangle),
     Strip(Edge),

@@ -1,7 +1,6 @@
 //! The stages in their order: the only file that knows it.
 
 use std::ops::ControlFlow;
-use std::sync::Arc;
 
 use crate::attributes::attributes;
 use crate::contacts::contacts;
@@ -227,7 +226,6 @@ pub(crate) fn shape(view: &View, weld: Weld, done: &mut Done) -> Result<Shape, E
         contacts: contacts.into(),
         edges: edges.into(),
         sectors: sectors.into(),
-        parts: Arc::default(),
     })
 }
 
