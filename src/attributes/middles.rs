@@ -21,8 +21,8 @@ const EQUALLY_NEAR: f64 = 0.999;
 /// So many neighbours are tried in pairs: of more, as around the tip of a huge cone, every so manyth.
 const MOST_TRIED: usize = 64;
 
-/// Appends a vertex at the mean of some of a ring's points.
-pub fn append(
+/// The vertex at the mean of some of a ring's points.
+pub fn add(
     plan: &Plan,
     placement: &Placement,
     streams: &mut Streams,
@@ -33,7 +33,9 @@ pub fn append(
     let points: Few<DVec3> = sectors.iter().map(|&s| placement.point[s]).collect();
     let normal = unit(places.iter().map(|&place| placement.normals[sectors[place]][0]).sum());
     let position = corners::middle(&points, places);
-    streams.append_between(plan, (position, normal), nearest(plan, sectors, position), taken)
+    let cluster = plan.topology.cluster_at[plan.sectors.fans[sectors[0]].first];
+    let near = nearest(plan, sectors, position);
+    streams.add_between(plan, cluster, (position, normal), (near, taken))
 }
 
 /// The blend of a ring's corner and two of its neighbours, none of negative weight, that comes
