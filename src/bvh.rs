@@ -52,7 +52,7 @@ impl Aabb {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Kin {
     /// What that is: only things with the same can be told apart.
-    around: Option<u32>,
+    around: Option<u64>,
     bounds: Aabb,
 }
 
@@ -60,13 +60,13 @@ impl Kin {
     /// Nothing in common with anything.
     pub const NONE: Kin = Kin { around: None, bounds: Aabb::EMPTY };
 
-    pub fn new(around: u32, bounds: Aabb) -> Kin {
+    pub fn new(around: u64, bounds: Aabb) -> Kin {
         Kin { around: Some(around), bounds }
     }
 
     /// The number of what it has in common with others; past all others for nothing.
-    pub fn crowd(&self) -> u32 {
-        self.around.unwrap_or(u32::MAX)
+    pub fn crowd(&self) -> u64 {
+        self.around.unwrap_or(u64::MAX)
     }
 
     /// Whether the two have nothing to do with each other, though their boxes overlap.
@@ -116,7 +116,7 @@ impl Tree {
     pub fn new(boxes: &[Aabb], kin: &[Kin]) -> Tree {
         let curve = Curve::through(boxes);
         let crowd = |number: usize| kin.get(number).map_or(0, Kin::crowd);
-        let mut places: Vec<(u32, u64, u32)> = boxes
+        let mut places: Vec<(u64, u64, u32)> = boxes
             .iter()
             .enumerate()
             .map(|(number, each)| (crowd(number), curve.place(each), number as u32))
@@ -183,7 +183,7 @@ impl Tree {
         let crowd = |place: usize| self.kin.get(place).map(Kin::crowd);
         if crowd(own.start) != crowd(own.end - 1) {
             let kin = &self.kin[own.clone()];
-            let edge = |is_before: &dyn Fn(u32) -> bool| {
+            let edge = |is_before: &dyn Fn(u64) -> bool| {
                 own.start + kin.partition_point(|kin| is_before(kin.crowd()))
             };
             let here = self.kin[middle].crowd();

@@ -13,10 +13,11 @@ mod crowds;
 use glam::DVec3;
 use robust::{Coord, Coord3D, orient2d, orient3d};
 
-use crate::bvh::{Aabb, Tree};
+use crate::bvh::{Aabb, Kin, Tree};
 
 use apart::{are_apart, are_apart_but_for_corner};
-use crowds::crowds;
+
+pub(crate) use crowds::{Around, crowds};
 
 pub(crate) type Triangle = [[f32; 3]; 3];
 
@@ -32,30 +33,19 @@ pub(crate) fn self_intersections(
     let corners = |triangle: &[u32; 3]| triangle.map(|v| positions[v as usize]);
     let triangles: Vec<Triangle> = triangles.iter().map(corners).collect();
     let in_one_part = |a: u32, b: u32| part_of[a as usize] == part_of[b as usize];
-    cutting_pairs(&triangles, Some(Crowded::Here), in_one_part)
-}
-
-/// Where crowds are looked for.
-#[derive(Clone, Copy)]
-pub(crate) enum Crowded<'a> {
-    /// Where the triangles meet.
-    Here,
-    /// Also where they met before they were pulled apart: `sources` are `#triangles`.
-    AsThere { sources: &'a [Triangle] },
+    cutting_pairs(&triangles, &crowds(&triangles).unwrap_or_default(), in_one_part)
 }
 
 /// The pairs of triangles that cut each other, of those that are asked for; the smaller number
-/// first, in ascending order. Where many meet at one place, as `crowded` tells, finding out where
-/// they lie as seen from there keeps the time linear.
+/// first, in ascending order. `kin` is `#triangles`, or none where no crowd meets.
 pub(crate) fn cutting_pairs(
     triangles: &[Triangle],
-    crowded: Option<Crowded>,
+    kin: &[Kin],
     is_asked: impl Fn(u32, u32) -> bool,
 ) -> Vec<(u32, u32)> {
     let corners = |t: u32| &triangles[t as usize];
     let boxes: Vec<Aabb> = triangles.iter().map(bounds).collect();
-    let kin = crowded.and_then(|crowded| crowds(triangles, crowded)).unwrap_or_default();
-    let tree = Tree::new(&boxes, &kin);
+    let tree = Tree::new(&boxes, kin);
     let mut pairs: Vec<(u32, u32)> = tree
         .pairs()
         .map(|(a, b)| (tree.number(a), tree.number(b)))

@@ -7,6 +7,7 @@
 
 mod breadth;
 mod collisions;
+mod crowds;
 mod room;
 
 use std::cmp::Ordering;

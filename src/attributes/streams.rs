@@ -142,7 +142,6 @@ impl Streams {
         }
     }
 
-
     /// A vertex's value in a UV channel.
     pub fn uv(&self, vertex: u32, channel: usize) -> DVec2 {
         let uv = &self.vertices.uvs[channel];

@@ -15,7 +15,7 @@ use smallvec::SmallVec;
 
 use crate::bvh::{Aabb, Kin};
 
-use super::{Crowded, Triangle};
+use super::Triangle;
 
 /// Where fewer meet, comparing each with each costs less than knowing them.
 const CROWD: u8 = 32;
@@ -34,25 +34,14 @@ type Name = [Place; 2];
 
 /// `#triangles`: the corner or side that each crowds around with others, and where it lies as seen
 /// from there. None where there is no crowd, as in nearly all meshes.
-pub fn crowds(triangles: &[Triangle], crowded: Crowded) -> Option<Vec<Kin>> {
-    let here = Meeting::of(triangles);
-    let there = match crowded {
-        Crowded::AsThere { sources } => Meeting::of(sources).map(|meeting| (meeting, sources)),
-        Crowded::Here => None,
-    };
-    if here.is_none() && there.is_none() {
-        return None;
-    }
+pub(crate) fn crowds(triangles: &[Triangle]) -> Option<Vec<Kin>> {
+    let meeting = Meeting::of(triangles)?;
     let mut names = Names::default();
-    let kin = triangles.iter().enumerate().map(|(number, triangle)| {
-        // What still meets at one place is not told apart as seen from another.
-        let here = || here.as_ref()?.around(triangle);
-        let there = || there.as_ref().and_then(|(there, sources)| there.around(&sources[number]));
-        here()
-            .or_else(there)
-            .map_or(Kin::NONE, |(name, around)| Kin::new(names.of(name), around.seen(triangle)))
-    });
-    Some(kin.collect())
+    let kin = |triangle: &Triangle| match meeting.around(triangle) {
+        Some((name, around)) => Kin::new(names.of(name), around.seen(triangle)),
+        None => Kin::NONE,
+    };
+    Some(triangles.iter().map(kin).collect())
 }
 
 /// Where many of some triangles meet.
@@ -156,18 +145,18 @@ const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
 /// Numbers for what crowds gather around, each its own: two triangles of one number have it in
 /// common for certain.
 #[derive(Default)]
-struct Names(HashMap<Name, u32, BuildHasherDefault<Mixer>>);
+struct Names(HashMap<Name, u64, BuildHasherDefault<Mixer>>);
 
 impl Names {
-    fn of(&mut self, what: Name) -> u32 {
-        let next = self.0.len() as u32;
+    fn of(&mut self, what: Name) -> u64 {
+        let next = self.0.len() as u64;
         *self.0.entry(what).or_insert(next)
     }
 }
 
 /// What a crowd gathers around: a point, or the line through two.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Around {
+pub(crate) struct Around {
     points: [[f32; 3]; 2],
     /// Along the line; zero for a point.
     along: DVec3,
@@ -250,7 +239,7 @@ mod tests {
     }
 
     fn kin_of(triangles: &[Triangle]) -> Option<Vec<Kin>> {
-        crowds(triangles, Crowded::Here)
+        crowds(triangles)
     }
 
     fn met(kin: &[Kin], one: usize) -> usize {

@@ -9,22 +9,21 @@ use std::sync::OnceLock;
 
 use glam::DVec3;
 
+use crate::bvh::Kin;
 use crate::corners::middle;
 use crate::groups::Groups;
-use crate::ids::{Cluster, Corner, Few, Id, IdVec, Ring, Sector};
-use crate::intersect::{Crowded, Triangle, cutting_pairs};
+use crate::ids::{Corner, Few, Id, IdVec, Ring, Sector};
+use crate::intersect::{self, Triangle, cutting_pairs};
 use crate::placement::Placement;
 use crate::plan::Plan;
 use crate::report::Reason;
 use crate::strips;
 
+use super::crowds::{Crowd, Crowds, crowds};
 use super::{Element, Limits, apply, around, bad_around, blame, fill, sectors_of, shrink};
 
 /// Rounds in which width is given back: the rest is within an eighth of what would fit.
 const GIVE_BACK_ROUNDS: usize = 3;
-
-/// Where so many corners meet, boxes alone do not tell triangles apart.
-const CROWD: u32 = 32;
 
 /// Shrinks the sectors of all that cuts, until nothing does that did not in the source, and gives
 /// back what is safe.
@@ -134,8 +133,8 @@ struct Part<'a> {
     plan: &'a Plan<'a>,
     /// In order.
     elements: Vec<Element>,
-    /// Whether more corners than a few meet somewhere.
-    has_crowds: bool,
+    /// `#elements`: the crowd of each; none at all where there are none.
+    crowds: Vec<Option<Crowd>>,
     /// Whether it cuts through itself in the source. Only looked for once it matters.
     was_cut: OnceLock<bool>,
 }
@@ -143,8 +142,6 @@ struct Part<'a> {
 /// A triangle of a part.
 struct Laid {
     corners: Triangle,
-    /// Where what it belongs to lies in the source: a triangle, an edge or a point.
-    source: Triangle,
     /// Place in the part's elements.
     element: u32,
     /// Whether it is new or has moved.
@@ -172,13 +169,11 @@ impl Part<'_> {
     fn new_cuts(&self, placement: &Placement, open: &[Element]) -> Vec<Element> {
         let laid = self.lay_out(placement, open);
         let triangles: Vec<Triangle> = laid.iter().map(|each| each.corners).collect();
-        let sources: Vec<Triangle> = laid.iter().map(|each| each.source).collect();
         let is_asked = |a: u32, b: u32| {
             let [a, b] = [a, b].map(|number| &laid[number as usize]);
             (a.is_open | b.is_open) & (a.is_changed | b.is_changed)
         };
-        let crowded = self.has_crowds.then_some(Crowded::AsThere { sources: &sources });
-        let pairs = cutting_pairs(&triangles, crowded, is_asked);
+        let pairs = cutting_pairs(&triangles, &self.kin(placement, &laid), is_asked);
         if pairs.is_empty() || self.was_cut() {
             return Vec::new();
         }
@@ -199,9 +194,24 @@ impl Part<'_> {
                     Element::Strip(_) | Element::Fill(_) => None,
                 })
                 .collect();
-            let crowded = self.has_crowds.then_some(Crowded::Here);
-            !cutting_pairs(&triangles, crowded, |_, _| true).is_empty()
+            let kin = intersect::crowds(&triangles).unwrap_or_default();
+            !cutting_pairs(&triangles, &kin, |_, _| true).is_empty()
         })
+    }
+
+    /// `#triangles`: where each lies as seen from where its crowd meets; none without any crowd.
+    fn kin(&self, placement: &Placement, laid: &[Laid]) -> Vec<Kin> {
+        if self.crowds.is_empty() {
+            return Vec::new();
+        }
+        let kin = |each: &Laid| match self.crowds[each.element as usize] {
+            Some(crowd) => {
+                let around = crowd.around(self.plan, placement);
+                Kin::new(crowd.name(), around.seen(&each.corners))
+            }
+            None => Kin::NONE,
+        };
+        laid.iter().map(kin).collect()
     }
 
     fn source(&self, corner: Corner) -> [f32; 3] {
@@ -216,10 +226,9 @@ impl Part<'_> {
             while open.next_if(|next| next.key() < element.key()).is_some() {}
             let is_open = open.peek() == Some(&&element);
             let is_changed = self.is_changed(placement, element);
-            let source = self.source_of(element);
             let mut add = |corners: [DVec3; 3]| {
                 let corners = corners.map(|point| point.as_vec3().to_array());
-                laid.push(Laid { corners, source, element: place, is_changed, is_open });
+                laid.push(Laid { corners, element: place, is_changed, is_open });
             };
             self.each_triangle(placement, element, &mut add);
         }
@@ -232,20 +241,6 @@ impl Part<'_> {
             let sector = self.plan.sectors.sector_of[corner];
             sector.is_some() && placement.has_moved(self.plan, sector)
         })
-    }
-
-    fn source_of(&self, element: Element) -> Triangle {
-        let plan = self.plan;
-        match element {
-            Element::Surface(triangle) => triangle.corners().map(|corner| self.source(corner)),
-            Element::Strip(edge) => {
-                let side = plan.edges.hard[edge].sides[0];
-                [side, side.next(), side.next()].map(|corner| self.source(corner))
-            }
-            Element::Fill(ring) => {
-                [self.source(plan.sectors.fans[plan.sectors.ring(ring)[0]].first); 3]
-            }
-        }
     }
 
     fn each_triangle(
@@ -302,25 +297,17 @@ fn parts<'a>(plan: &'a Plan<'a>) -> Vec<Part<'a>> {
         .collect();
     // They stand in the order of their keys.
     all.sort_by_key(|(label, _)| *label);
-    let is_crowded = crowded_clusters(plan);
+    let crowds = crowds(plan);
     let part = |group: &[(u32, Element)]| {
         let elements: Vec<Element> = group.iter().map(|(_, element)| *element).collect();
-        let has_crowds = elements.iter().any(|element| match element {
-            Element::Surface(triangle) => {
-                triangle.corners().iter().any(|&c| is_crowded[plan.topology.cluster_at[c]])
-            }
-            Element::Strip(_) | Element::Fill(_) => false,
-        });
-        Part { plan, elements, has_crowds, was_cut: OnceLock::new() }
+        let of = |crowds: &Crowds| -> Vec<Option<Crowd>> {
+            elements.iter().map(|&element| crowds.of(plan, element)).collect()
+        };
+        let crowds = crowds.as_ref().map(of).filter(|all| all.iter().any(Option::is_some));
+        let (crowds, was_cut) = (crowds.unwrap_or_default(), OnceLock::new());
+        Part { plan, elements, crowds, was_cut }
     };
     all.chunk_by(|one, other| one.0 == other.0).map(part).collect()
-}
-
-/// `#clusters`: whether many corners meet there.
-fn crowded_clusters(plan: &Plan) -> IdVec<Cluster, bool> {
-    let mut corners_at = IdVec::filled(0, plan.weld.first_vertex.len());
-    plan.topology.cluster_at.iter().for_each(|&cluster| corners_at[cluster] += 1);
-    IdVec::from_vec(corners_at.iter().map(|&count: &u32| count >= CROWD).collect())
 }
 
 /// `#triangles`: the first triangle of the part of each, touching ones included.
