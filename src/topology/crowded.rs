@@ -50,12 +50,18 @@ pub struct Hidden {
     pub behind: Corner,
 }
 
-/// Pairs half-edges that run forth with some that run back.
-pub fn crowd(view: &View, forth: &[Corner], back: &[Corner]) -> Crowd {
+/// Pairs half-edges that run forth with some that run back. What is in one part already, as the
+/// caller tells, stays together where the faces leave a choice.
+pub fn crowd(
+    view: &View,
+    forth: &[Corner],
+    back: &[Corner],
+    part: &mut dyn FnMut(Corner) -> u32,
+) -> Crowd {
     if forth.is_empty() || back.is_empty() {
         return Crowd::default();
     }
-    let around = Around::new(view, forth, back);
+    let around = Around::new(view, forth, back, part);
     let airs = around.airs(view);
     let visible = around.marked(airs.pairs.iter().flatten());
     if airs.are_all {
@@ -100,6 +106,8 @@ struct Face {
     /// Such a face has its air where angles are larger, and its solid where they are smaller.
     runs_forth: bool,
     inward: DVec3,
+    /// What it is connected with by other edges.
+    part: u32,
     /// Grows with the angle about the edge, from 0 to 4.
     angle: f64,
     /// Which of the directions it lies in.
@@ -123,16 +131,21 @@ struct Airs {
 }
 
 impl Around {
-    fn new(view: &View, forth: &[Corner], back: &[Corner]) -> Around {
+    fn new(
+        view: &View,
+        forth: &[Corner],
+        back: &[Corner],
+        part: &mut dyn FnMut(Corner) -> u32,
+    ) -> Around {
         let axis = unit(view.position_at(forth[0].next()) - view.position_at(forth[0]));
         let reference = inward(view, forth[0], axis);
-        let face = |half_edge: Corner, runs_forth| {
+        let mut face = |half_edge: Corner, runs_forth| {
             let inward = inward(view, half_edge, axis);
             // What lies on the first face is not to come last for being a rounding below it.
             let lies_on_first = inward.dot(reference) > SAME_DIRECTION;
             let angle = pseudo_angle(inward, reference, axis.cross(reference));
             let angle = if lies_on_first { 0.0 } else { angle };
-            Face { half_edge, runs_forth, inward, angle, ray: 0 }
+            Face { half_edge, runs_forth, inward, part: part(half_edge), angle, ray: 0 }
         };
         let mut faces: Vec<Face> = forth.iter().map(|&half_edge| face(half_edge, true)).collect();
         faces.extend(back.iter().map(|&half_edge| face(half_edge, false)));
@@ -172,18 +185,22 @@ impl Around {
         airs
     }
 
-    /// Pairs faces of one place with faces of another: those that share their vertices first.
-    fn matched(&self, view: &View, [forth, mut back]: [Vec<usize>; 2]) -> Vec<[usize; 2]> {
+    /// Pairs faces of one place with faces of another: those first that share their vertices and are
+    /// in one part, then those of one part, and then those that share their vertices.
+    fn matched(&self, view: &View, [mut forth, mut back]: [Vec<usize>; 2]) -> Vec<[usize; 2]> {
         let mut pairs = Vec::new();
-        let mut single = Vec::new();
-        for one in forth {
-            let joins = |&other: &usize| self.share_vertices(view, one, other);
-            match self.is_small().then(|| back.iter().position(joins)).flatten() {
-                Some(found) => pairs.push([one, back.remove(found)]),
-                None => single.push(one),
-            }
+        let is_choice = self.is_small() && forth.len().max(back.len()) > 1;
+        for (shares, is_part) in [(true, true), (false, true), (true, false)] {
+            let joins = |one: usize, other: usize| {
+                (!is_part || self.faces[one].part == self.faces[other].part)
+                    && (!shares || self.share_vertices(view, one, other))
+            };
+            forth.retain(|&one| {
+                let found = is_choice.then(|| back.iter().position(|&other| joins(one, other)));
+                found.flatten().map(|found| pairs.push([one, back.remove(found)])).is_none()
+            });
         }
-        pairs.extend(single.into_iter().zip(back).map(|(one, other)| [one, other]));
+        pairs.extend(forth.into_iter().zip(back).map(|(one, other)| [one, other]));
         pairs
     }
 
@@ -356,7 +373,7 @@ mod tests {
         let half_edges = (0..faces.len()).map(|face| Corner::new(3 * face));
         let looks_left = |corner: &Corner| matches!(faces[corner.index() / 3], Left(_));
         let (forth, back): (Vec<_>, Vec<_>) = half_edges.partition(looks_left);
-        crowd(&view, &forth, &back)
+        crowd(&view, &forth, &back, &mut |corner| corner.0)
     }
 
     /// The pairs, each and all sorted, and what is left over behind what, as places of faces.
