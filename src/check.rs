@@ -143,6 +143,7 @@ fn check_geometry(
     hardness::check_hard_edges(source, result, origins, findings);
     let solids = Solids::new(source);
     let solids = [&solids, &solids.carried(result, origins)];
+    findings.after.non_manifold_edges = solids[1].crowded_edges(result);
     solids::check_sides([source, result], solids, origins, findings);
     if depth != Verify::Fast {
         intersections::check_intersections([source, result], solids, origins, findings);

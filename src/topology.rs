@@ -5,8 +5,10 @@
 //! vertices, normals and positions have a say in who belongs to whom.
 
 mod crowded;
+mod solids;
 
 pub use crowded::Hidden;
+pub use solids::solids;
 
 use crate::groups::Groups;
 use crate::ids::{Cluster, Corner, Id, IdVec, Triangle};
@@ -20,7 +22,8 @@ pub struct Topology {
     pub cluster_at: IdVec<Corner, Cluster>,
     /// `#corners`: the opposite half-edge, or none at a border and in collapsed triangles.
     pub twin: IdVec<Corner, Corner>,
-    /// Half-edges, sorted, that lie with both their faces on another edge: sheets of two sides.
+    /// Half-edges, sorted, that lie with both their faces on another edge: sheets of two sides. Not
+    /// those of closed skins, which are solids.
     pub doubled: Vec<Corner>,
     /// Half-edges without twin, sorted, that lie behind visible faces on their edge.
     pub hidden: Vec<Hidden>,
@@ -72,6 +75,7 @@ pub fn topology(view: &View, weld: &Weld) -> Topology {
     joined.doubled.sort_unstable();
     joined.hidden.sort_unstable();
     joined.contacts.sort_unstable();
+    solids::keep_sheets(view, &mut joined);
     joined
 }
 

@@ -5,8 +5,8 @@ use super::rules::{Element, Findings, Rule};
 use super::surface::{HalfEdge, Surface};
 use crate::groups::Groups;
 
-/// Chamfers that lie on each other all along hide from which solid they are; after so many rounds
-/// from edge to edge, what is left is judged by itself.
+/// Where chamfers lie on each other, it takes rounds from edge to edge to tell them apart: more than
+/// so many hardly ever find anything.
 const MOST_ROUNDS: usize = 8;
 
 /// With more sides on one edge, comparing all of them would take too long.
@@ -40,24 +40,20 @@ impl Solids {
     }
 
     /// Triangles of the source are part of the same solid as there, and new ones of the solid that
-    /// they continue.
+    /// they continue. Where chamfers of several solids lie on each other all along, nobody can tell
+    /// which of them a new triangle continues: it is one by itself.
     pub fn carried(&self, after: &Surface, origins: &Origins) -> Solids {
         let mut known: Vec<Option<u32>> =
             origins.triangles.iter().map(|s| s.map(|[c, ..]| self.of[c as usize / 3])).collect();
         let across = Across::new(after);
         across.spread(&mut known);
-        // Where only one solid lacks a side there is no doubt; where several do, the first one will.
-        let mut is_sure = true;
         for _ in 0..MOST_ROUNDS {
-            let adopted = adopt(after, &mut known, is_sure);
-            if !adopted && !is_sure {
+            if !adopt(after, &mut known) {
                 break;
             }
-            is_sure = adopted;
             across.spread(&mut known);
         }
-        adopt_by_vertex(after, &mut known);
-        // New solids, numbered past those of the source.
+        // Numbered past the solids of the source.
         let past = self.of.len() as u32;
         let own = |(triangle, label): (usize, Option<u32>)| label.unwrap_or(past + triangle as u32);
         Solids { of: known.into_iter().enumerate().map(own).collect() }
@@ -109,7 +105,8 @@ fn open_parts(surface: &Surface, part_of: &[u32]) -> Vec<bool> {
     is_open
 }
 
-/// Which triangles continue each other for sure: across edges of two sides.
+/// Which triangles continue each other for sure: across edges of two sides, and across others where
+/// they alone share both vertices.
 struct Across {
     /// Sorted: a triangle, and one that it continues.
     pairs: Vec<[u32; 2]>,
@@ -118,10 +115,22 @@ struct Across {
 impl Across {
     fn new(surface: &Surface) -> Across {
         let mut pairs = Vec::new();
+        let mut join = |one: u32, other: u32| pairs.extend([[one, other], [other, one]]);
         for (forward, backward) in surface.edges() {
             if let ([one], [other]) = (forward, backward) {
-                let [one, other] = [one, other].map(triangle);
-                pairs.extend([[one, other], [other, one]]);
+                join(triangle(one), triangle(other));
+                continue;
+            }
+            let mut sides: Vec<([usize; 2], bool, u32)> = forward
+                .iter()
+                .chain(backward)
+                .map(|h| (ends(surface, h), h.reversed, triangle(h)))
+                .collect();
+            sides.sort_unstable();
+            for same in sides.chunk_by(|a, b| a.0 == b.0) {
+                if let [(_, false, one), (_, true, other)] = *same {
+                    join(one, other);
+                }
             }
         }
         pairs.sort_unstable();
@@ -144,58 +153,52 @@ impl Across {
     }
 }
 
-/// A new triangle at an edge where a solid lacks a side of its direction is that side; where several
-/// solids do, only if none has to be sure. Tells whether there was any.
-fn adopt(surface: &Surface, known: &mut [Option<u32>], is_sure: bool) -> bool {
+/// The vertices at the ends of a half-edge, in the order of their positions.
+fn ends(surface: &Surface, half_edge: &HalfEdge) -> [usize; 2] {
+    let [a, b] = half_edge.corners.map(|corner| surface.vertex(corner));
+    if half_edge.reversed { [b, a] } else { [a, b] }
+}
+
+/// Where the new triangles on one side of an edge are as many as one solid alone lacks there, they
+/// are its own. Tells whether there were any.
+fn adopt(surface: &Surface, known: &mut [Option<u32>]) -> bool {
     let mut adopted = false;
     let few = |(a, b): &(&[HalfEdge], &[HalfEdge])| a.len() + b.len() <= MOST_SIDES;
     for (forward, backward) in surface.edges().filter(few) {
         for (here, there) in [(forward, backward), (backward, forward)] {
-            for side in here.iter().map(triangle) {
-                if known[side as usize].is_none() {
-                    let mut lacking = lacking(known, here, there);
-                    lacking.dedup();
-                    if lacking.len() == 1 || !is_sure {
-                        known[side as usize] = lacking.first().copied();
-                        adopted |= !lacking.is_empty();
-                    }
-                }
+            let new: Vec<u32> =
+                here.iter().map(triangle).filter(|&t| known[t as usize].is_none()).collect();
+            let knows_all = there.iter().all(|h| known[triangle(h) as usize].is_some());
+            if new.is_empty() || !knows_all {
+                continue;
+            }
+            let lacking = lacking(known, here, there);
+            if lacking.len() == new.len() && lacking.iter().all(|&solid| solid == lacking[0]) {
+                new.iter().for_each(|&t| known[t as usize] = Some(lacking[0]));
+                adopted = true;
             }
         }
     }
     adopted
 }
 
-/// The solids, sorted, that have more sides there than here.
+/// The solids, sorted, that have more sides there than here, each as often as it lacks one.
 fn lacking(known: &[Option<u32>], here: &[HalfEdge], there: &[HalfEdge]) -> Vec<u32> {
-    let count = |sides: &[HalfEdge], label: u32| {
-        sides.iter().filter(|h| known[triangle(h) as usize] == Some(label)).count()
+    let labels = |sides: &[HalfEdge]| -> Vec<u32> {
+        sides.iter().filter_map(|h| known[triangle(h) as usize]).collect()
     };
-    let labels = there.iter().filter_map(|h| known[triangle(h) as usize]);
-    let mut lacking: Vec<u32> =
-        labels.filter(|&label| count(there, label) > count(here, label)).collect();
+    let mut lacking = labels(there);
+    for label in labels(here) {
+        if let Some(place) = lacking.iter().position(|&other| other == label) {
+            lacking.swap_remove(place);
+        }
+    }
     lacking.sort_unstable();
     lacking
 }
 
-/// What is left is part of the first solid that it shares a vertex with.
-fn adopt_by_vertex(surface: &Surface, known: &mut [Option<u32>]) {
-    if known.iter().all(Option::is_some) {
-        return;
-    }
-    let vertices = |triangle: usize| [0, 1, 2].map(|k| surface.vertex((3 * triangle + k) as u32));
-    let mut solid_at: Vec<Option<u32>> = vec![None; surface.mesh.positions.len()];
-    for (triangle, label) in known.iter().enumerate().filter(|(_, label)| label.is_some()) {
-        for vertex in vertices(triangle) {
-            solid_at[vertex] = solid_at[vertex].min(*label).or(*label);
-        }
-    }
-    for (triangle, label) in known.iter_mut().enumerate().filter(|(_, label)| label.is_none()) {
-        *label = vertices(triangle).iter().filter_map(|&vertex| solid_at[vertex]).min();
-    }
-}
-
-/// No more sides of one solid meet on an edge than did where the edge comes from.
+/// No more sides of one solid meet on an edge than did where the edge comes from, and no more of all
+/// solids than these may have together.
 ///
 /// A skin that is there twice has four sides on each edge, before and after. Where several sides
 /// meet on an edge of the source, its chamfers may have them too.
@@ -208,17 +211,25 @@ pub(super) fn check_sides(
     let allowed = Allowed::new([before, after], source, origins);
     for edge in after.edges().filter(|(a, b)| a.len() + b.len() > 2) {
         let clusters = edge.0.first().or(edge.1.first()).map_or([0; 2], |h| h.clusters);
-        let is_too_many =
-            |&(solid, sides): &(u32, usize)| sides > 2 && sides > allowed.on(solid, clusters);
-        if result.sides(&edge).iter().any(is_too_many) {
+        let allowed = allowed.on(clusters);
+        let of = |solid: u32| {
+            let place = allowed.binary_search_by_key(&solid, |&(solid, _)| solid);
+            place.map_or(LEAST_SIDES, |place| allowed[place].1)
+        };
+        let together = allowed.iter().map(|&(_, sides)| sides).sum::<usize>().max(LEAST_SIDES);
+        let is_too_many = |&(solid, sides): &(u32, usize)| sides > of(solid);
+        if edge.0.len() + edge.1.len() > together || result.sides(&edge).iter().any(is_too_many) {
             findings.note(Rule::NonManifold, Element::Edge(clusters[0], clusters[1]));
         }
     }
 }
 
+/// Any edge may have two sides.
+const LEAST_SIDES: usize = 2;
+
 /// How many sides of a solid may meet around each place of the result.
 struct Allowed {
-    /// Sorted: the solid, the cluster, and the most sides that met on one edge where it comes from.
+    /// Sorted: the cluster, the solid, and the most sides that met on one edge where it comes from.
     most: Vec<(u32, u32, usize)>,
 }
 
@@ -228,7 +239,7 @@ impl Allowed {
         for edge in before.edges().filter(|(a, b)| a.len() + b.len() > 2) {
             let clusters = edge.0.first().or(edge.1.first()).map_or([0; 2], |h| h.clusters);
             for (solid, sides) in source.sides(&edge) {
-                at_source.extend(clusters.map(|cluster| (solid, cluster, sides)));
+                at_source.extend(clusters.map(|cluster| (cluster, solid, sides)));
             }
         }
         let at_source = Allowed::sorted(at_source);
@@ -239,8 +250,10 @@ impl Allowed {
         let corners = origins.triangles.iter().enumerate().filter_map(corners_of).flatten();
         let carried = corners.map(|(now, old)| {
             let solid = source.of[old as usize / 3];
-            let sides = at_source.at(solid, before.cluster(old)).unwrap_or(2);
-            (solid, after.cluster(now), sides)
+            let key = (before.cluster(old), solid);
+            let place = at_source.most.binary_search_by_key(&key, |&(c, solid, _)| (c, solid));
+            let sides = place.map_or(LEAST_SIDES, |place| at_source.most[place].2);
+            (after.cluster(now), solid, sides.max(LEAST_SIDES))
         });
         Allowed::sorted(carried.collect())
     }
@@ -249,19 +262,30 @@ impl Allowed {
         // Of equal places the last one counts: that with most sides.
         most.sort_unstable();
         most.reverse();
-        most.dedup_by_key(|&mut (solid, cluster, _)| (solid, cluster));
+        most.dedup_by_key(|&mut (cluster, solid, _)| (cluster, solid));
         most.reverse();
         Allowed { most }
     }
 
-    fn at(&self, solid: u32, cluster: u32) -> Option<usize> {
-        let key = (solid, cluster);
-        let found = self.most.binary_search_by_key(&key, |&(solid, cluster, _)| (solid, cluster));
-        found.ok().map(|place| self.most[place].2)
+    fn at(&self, cluster: u32) -> &[(u32, u32, usize)] {
+        let first = self.most.partition_point(|&(other, ..)| other < cluster);
+        let count = self.most[first..].partition_point(|&(other, ..)| other == cluster);
+        &self.most[first..first + count]
     }
 
-    /// Nothing is known of the vertex in the middle of a corner: the other end tells.
-    fn on(&self, solid: u32, clusters: [u32; 2]) -> usize {
-        clusters.iter().filter_map(|&cluster| self.at(solid, cluster)).min().unwrap_or(2)
+    /// The solids at both ends of an edge, sorted, and how many sides each may have. Nothing is
+    /// known of the vertex in the middle of a corner: the other end tells.
+    fn on(&self, clusters: [u32; 2]) -> Vec<(u32, usize)> {
+        let own = |&(_, solid, sides): &(u32, u32, usize)| (solid, sides);
+        match clusters.map(|cluster| self.at(cluster)) {
+            [one, []] | [[], one] => one.iter().map(own).collect(),
+            [one, other] => {
+                let both = |&(_, solid, sides): &(u32, u32, usize)| {
+                    let place = other.binary_search_by_key(&solid, |&(_, solid, _)| solid).ok()?;
+                    Some((solid, sides.min(other[place].2)))
+                };
+                one.iter().filter_map(both).collect()
+            }
+        }
     }
 }

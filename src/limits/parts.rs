@@ -1,4 +1,4 @@
-//! Parts: what is joined by edges, with a tree over each part that is chamfered.
+//! Parts: solids and what else is joined by edges, with a tree over each that is chamfered.
 //!
 //! No width has a say in them: a tree is over the cells of a part, which are its source triangles,
 //! its strips and its fills, wherever these come to stand.
@@ -8,12 +8,11 @@ use std::sync::OnceLock;
 
 use crate::bvh::{Aabb, Bounds, Forest, Kin, Tree};
 use crate::corners::middle;
-use crate::groups::Groups;
 use crate::ids::{Cluster, Corner, Edge, Few, Id, IdVec, Ring, Sector, Triangle};
 use crate::intersect::{self, Around, bounds, cut_each_other};
 use crate::placement::Placement;
 use crate::plan::Plan;
-use crate::topology::Topology;
+use crate::topology::{Topology, solids};
 use crate::view::View;
 
 /// Where fewer meet, comparing each with each costs less than telling them apart.
@@ -175,7 +174,7 @@ fn source_box(plan: &Plan, cell: Cell) -> Aabb {
 /// The numbers of the cells of all parts with chamfered edges, part by part, and where each part
 /// ends.
 fn by_part(plan: &Plan, counts: &Counts) -> (Vec<u32>, Vec<u32>) {
-    let label_of = labels(plan);
+    let label_of = solids(&plan.topology);
     let label = |corner: Corner| label_of[corner.triangle().index()] as usize;
     let mut is_chamfered = vec![false; label_of.len()];
     for edge in plan.edges.hard.iter().filter(|edge| edge.skipped.is_none()) {
@@ -230,20 +229,6 @@ fn each_cell(
 /// Whether the fill of a ring has a cell for each of its sectors.
 pub fn is_crowded(ring: &[Sector]) -> bool {
     ring.len() >= CROWD
-}
-
-/// `#triangles`: the first triangle of the part of each, touching ones included.
-fn labels(plan: &Plan) -> Vec<u32> {
-    let mut groups = Groups::singles(plan.view.corner_count() / 3);
-    let mut join = |one: Corner, other: Corner| groups.join(one.triangle().0, other.triangle().0);
-    for corner in plan.topology.twin.ids() {
-        let twin = plan.topology.twin[corner];
-        if twin.is_some() && corner < twin {
-            join(corner, twin);
-        }
-    }
-    plan.topology.touching.iter().for_each(|&[one, other]| join(one, other));
-    groups.labels()
 }
 
 /// What many triangles of a part meet at.
