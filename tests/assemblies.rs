@@ -34,7 +34,8 @@ fn config() -> Config {
 
 /// Places on a coarse grid, so that boxes have corners, edges and sides in common.
 fn block() -> impl Strategy<Value = Block> {
-    let without = prop_oneof![4 => Just(0u8), 1 => (0..6u32).prop_map(|face| 1 << face), 1 => 0..63u8];
+    let without =
+        prop_oneof![4 => Just(0u8), 1 => (0..6u32).prop_map(|face| 1 << face), 1 => 0..63u8];
     let skin = prop_oneof![
         5 => Just(Skin::Once),
         1 => Just(Skin::Copied),
@@ -49,8 +50,8 @@ fn block() -> impl Strategy<Value = Block> {
 }
 
 fn turn() -> impl Strategy<Value = DMat3> {
-    let turned = (0.0..3.0f64)
-        .prop_map(|angle| DMat3::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), angle));
+    let turned =
+        (0.0..3.0f64).prop_map(|angle| DMat3::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), angle));
     prop_oneof![2 => Just(DMat3::IDENTITY), 1 => turned]
 }
 
@@ -101,7 +102,12 @@ fn scan() {
             if !findings.is_sound() {
                 is_bad = true;
                 let rules: Vec<_> = findings.breaches.iter().map(|b| b.rule.name()).collect();
-                if true { eprintln!("{verify:?} {rules:?} merged {is_merged} {percent} {blocks:?} {}\n{findings}", turn == DMat3::IDENTITY); }
+                if true {
+                    eprintln!(
+                        "{verify:?} {rules:?} merged {is_merged} {percent} {blocks:?} {}\n{findings}",
+                        turn == DMat3::IDENTITY
+                    );
+                }
                 *tally.entry(format!("{verify:?} {rules:?}")).or_insert(0) += 1;
             }
         }
@@ -113,40 +119,106 @@ fn scan() {
 #[test]
 #[ignore]
 fn one() {
-    let b = |low, high, w, skin, d| Block { without: w, diagonals: d, ..Block::new(low, high).with(skin) };
+    let b = |low, high, w, skin, d| Block {
+        without: w,
+        diagonals: d,
+        ..Block::new(low, high).with(skin)
+    };
     let cases = [
-        (true, 8.6313f32, vec![b([2.0, 3.0, 3.0], [3.0, 6.0, 5.0], 0, Skin::Once, 913), b([1.0, 2.0, 1.0], [4.0, 4.0, 2.0], 0, Skin::Once, 270), b([1.0, 2.0, 2.0], [4.0, 4.0, 3.0], 0, Skin::Once, 2855)]),
-        (true, 0.4972961, vec![b([1.0, 2.0, 0.0], [3.0, 5.0, 2.0], 36, Skin::Once, 1843), b([1.0, 1.0, 2.0], [3.0, 4.0, 4.0], 0, Skin::Once, 335), b([1.0, 1.0, 0.0], [3.0, 4.0, 2.0], 0, Skin::Once, 2384)]),
-        (false, 2.617, vec![b([2.0, 2.0, 1.0], [5.0, 3.0, 4.0], 0, Skin::Once, 2237), b([2.0, 2.0, 1.0], [5.0, 5.0, 3.0], 4, Skin::TwoSided, 3242)]),
-        (false, 1.55, vec![b([3.0, 2.0, 1.0], [4.0, 5.0, 4.0], 0, Skin::Once, 2799), b([3.0, 0.0, 1.0], [4.0, 2.0, 2.0], 16, Skin::TwoSided, 3675), b([3.0, 1.0, 3.0], [5.0, 2.0, 5.0], 8, Skin::Copied, 1081)]),
+        (
+            true,
+            8.6313f32,
+            vec![
+                b([2.0, 3.0, 3.0], [3.0, 6.0, 5.0], 0, Skin::Once, 913),
+                b([1.0, 2.0, 1.0], [4.0, 4.0, 2.0], 0, Skin::Once, 270),
+                b([1.0, 2.0, 2.0], [4.0, 4.0, 3.0], 0, Skin::Once, 2855),
+            ],
+        ),
+        (
+            true,
+            0.4972961,
+            vec![
+                b([1.0, 2.0, 0.0], [3.0, 5.0, 2.0], 36, Skin::Once, 1843),
+                b([1.0, 1.0, 2.0], [3.0, 4.0, 4.0], 0, Skin::Once, 335),
+                b([1.0, 1.0, 0.0], [3.0, 4.0, 2.0], 0, Skin::Once, 2384),
+            ],
+        ),
+        (
+            false,
+            2.617,
+            vec![
+                b([2.0, 2.0, 1.0], [5.0, 3.0, 4.0], 0, Skin::Once, 2237),
+                b([2.0, 2.0, 1.0], [5.0, 5.0, 3.0], 4, Skin::TwoSided, 3242),
+            ],
+        ),
+        (
+            false,
+            1.55,
+            vec![
+                b([3.0, 2.0, 1.0], [4.0, 5.0, 4.0], 0, Skin::Once, 2799),
+                b([3.0, 0.0, 1.0], [4.0, 2.0, 2.0], 16, Skin::TwoSided, 3675),
+                b([3.0, 1.0, 3.0], [5.0, 2.0, 5.0], 8, Skin::Copied, 1081),
+            ],
+        ),
     ];
     for (merged, percent, blocks) in cases {
-    for angle in [0.0, 0.2, 0.3, 0.5, 0.7, 1.0, 1.2, 1.5, 2.0, 2.5] {
-    let turn = DMat3::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), angle);
-    let mesh = assembly(&blocks, turn, merged);
-    let options = Options { width: Width::PercentOfExtent(percent), ..Options::default() };
-    let result = chamfer(&mesh.as_mesh(), &options).unwrap();
-    let findings = check(&mesh.as_mesh(), &result, Verify::Full);
-    if findings.is_sound() { continue; }
-    eprintln!("====== {blocks:?}");
-    for breach in &findings.breaches { eprintln!("{breach:?}"); }
-    let back = turn.transpose();
-    let show = |t: usize| { let tri = &result.mesh.indices[3 * t..3 * t + 3]; eprintln!("   {t} {tri:?} {:?} {:.3?}", result.triangle_sources[t], tri.iter().map(|&v| (back * DVec3::from(result.mesh.positions[v as usize].map(f64::from))).to_array()).collect::<Vec<_>>()); };
-    for breach in &findings.breaches { for e in &breach.first { match e {
-      chamfer::check::Element::Edge(a, b) => {
-        eprintln!("edge {a} {b}");
-        for (t, tri) in result.mesh.indices.chunks(3).enumerate() {
-            let pos = |v: u32| result.mesh.positions[v as usize];
-            let has = |w: u32| tri.iter().any(|&x| pos(x) == pos(w));
-            if has(*a) && has(*b) { show(t) }
-        } }
-      chamfer::check::Element::Triangles(a, b) => { eprintln!("cut"); show(*a as usize); show(*b as usize) }
-      _ => {}
-    } } }
-    for (k, v) in result.verdicts.iter().enumerate() { if v.reason != chamfer::Reason::None { 
-        let p = v.vertices.map(|v| (back * DVec3::from(mesh.positions[v as usize].map(f64::from))).to_array());
-        eprintln!("{k} {v:?} {:.2?}", p); } }
-        break;
-    }
+        for angle in [0.0, 0.2, 0.3, 0.5, 0.7, 1.0, 1.2, 1.5, 2.0, 2.5] {
+            let turn = DMat3::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), angle);
+            let mesh = assembly(&blocks, turn, merged);
+            let options = Options { width: Width::PercentOfExtent(percent), ..Options::default() };
+            let result = chamfer(&mesh.as_mesh(), &options).unwrap();
+            let findings = check(&mesh.as_mesh(), &result, Verify::Full);
+            if findings.is_sound() {
+                continue;
+            }
+            eprintln!("====== {blocks:?}");
+            for breach in &findings.breaches {
+                eprintln!("{breach:?}");
+            }
+            let back = turn.transpose();
+            let show = |t: usize| {
+                let tri = &result.mesh.indices[3 * t..3 * t + 3];
+                eprintln!(
+                    "   {t} {tri:?} {:?} {:.3?}",
+                    result.triangle_sources[t],
+                    tri.iter()
+                        .map(|&v| (back
+                            * DVec3::from(result.mesh.positions[v as usize].map(f64::from)))
+                        .to_array())
+                        .collect::<Vec<_>>()
+                );
+            };
+            for breach in &findings.breaches {
+                for e in &breach.first {
+                    match e {
+                        chamfer::check::Element::Edge(a, b) => {
+                            eprintln!("edge {a} {b}");
+                            for (t, tri) in result.mesh.indices.chunks(3).enumerate() {
+                                let pos = |v: u32| result.mesh.positions[v as usize];
+                                let has = |w: u32| tri.iter().any(|&x| pos(x) == pos(w));
+                                if has(*a) && has(*b) {
+                                    show(t)
+                                }
+                            }
+                        }
+                        chamfer::check::Element::Triangles(a, b) => {
+                            eprintln!("cut");
+                            show(*a as usize);
+                            show(*b as usize)
+                        }
+                        _ => {}
+                    }
+                }
+            }
+            for (k, v) in result.verdicts.iter().enumerate() {
+                if v.reason != chamfer::Reason::None {
+                    let p = v.vertices.map(|v| {
+                        (back * DVec3::from(mesh.positions[v as usize].map(f64::from))).to_array()
+                    });
+                    eprintln!("{k} {v:?} {:.2?}", p);
+                }
+            }
+            break;
+        }
     }
 }

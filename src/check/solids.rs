@@ -9,13 +9,14 @@ use crate::groups::Groups;
 /// so many hardly ever find anything.
 const MOST_ROUNDS: usize = 8;
 
+/// Sides whose directions about an edge differ by less than this, in radians, lie on each other.
+const SAME_TURN: f64 = 1e-4;
+
 /// With more sides on one edge, comparing all of them would take too long.
 const MOST_SIDES: usize = 64;
 
-/// The triangles of a mesh by solid.
-///
-/// Parts are connected across edges of two sides. One that is closed is a solid, whatever touches
-/// it. The others belong together where they share an edge: who can tell which of them are one?
+/// The triangles of a mesh by solid: connected across edges of two sides, and where more sides meet
+/// each with the next opposite one behind it, through the solid.
 pub(super) struct Solids {
     /// `#triangles`: the number of its solid.
     pub of: Vec<u32>,
@@ -30,11 +31,10 @@ impl Solids {
             }
         }
         let part_of = parts.clone().labels();
-        let is_open = open_parts(surface, &part_of);
-        for (forward, backward) in surface.edges() {
-            let all = forward.iter().chain(backward).map(triangle);
-            let open: Vec<u32> = all.filter(|&t| is_open[part_of[t as usize] as usize]).collect();
-            open.windows(2).for_each(|pair| parts.join(pair[0], pair[1]));
+        for edge in surface.edges().filter(|(a, b)| a.len() + b.len() > 2) {
+            for pair in behind_each_other(surface, edge, &part_of) {
+                parts.join(pair[0], pair[1]);
+            }
         }
         Solids { of: parts.labels() }
     }
@@ -85,24 +85,48 @@ fn triangle(half_edge: &HalfEdge) -> u32 {
     half_edge.corners[0] / 3
 }
 
-/// `#triangles`, by the first of each part: whether its own sides of some edge do not match.
-fn open_parts(surface: &Surface, part_of: &[u32]) -> Vec<bool> {
-    let mut is_open = vec![false; part_of.len()];
-    let part = |half_edge: &HalfEdge| part_of[triangle(half_edge) as usize];
-    for (forward, backward) in surface.edges() {
-        match (forward, backward) {
-            ([_], [_]) => {}
-            _ => {
-                let mut ways: Vec<(u32, i32)> = forward.iter().map(|h| (part(h), 1)).collect();
-                ways.extend(backward.iter().map(|h| (part(h), -1)));
-                ways.sort_unstable();
-                for own in ways.chunk_by(|a, b| a.0 == b.0) {
-                    is_open[own[0].0 as usize] |= own.iter().map(|(_, way)| way).sum::<i32>() != 0;
-                }
-            }
+/// Pairs of triangles at an edge of many sides that bound one solid: each and the next one that runs
+/// the other way, if one turns from it to its back. Of several in one direction, those of its own
+/// part, or else all: who can tell? Of too many sides, all are one.
+fn behind_each_other(
+    surface: &Surface,
+    (forward, backward): (&[HalfEdge], &[HalfEdge]),
+    part_of: &[u32],
+) -> Vec<[u32; 2]> {
+    let sides = || forward.iter().chain(backward);
+    if forward.len() + backward.len() > MOST_SIDES || forward.is_empty() || backward.is_empty() {
+        return sides().zip(sides().skip(1)).map(|(a, b)| [triangle(a), triangle(b)]).collect();
+    }
+    let mut pairs = Vec::new();
+    for (here, there) in [(forward, backward), (backward, forward)] {
+        for one in here {
+            let turns = there.iter().map(|other| (turn(surface, one, other), triangle(other)));
+            let turns: Vec<(f64, u32)> = turns.collect();
+            let least = turns.iter().map(|(turn, _)| *turn).fold(f64::INFINITY, f64::min);
+            let next = || turns.iter().filter(|(turn, _)| *turn < least + SAME_TURN);
+            let is_own = |other: &u32| part_of[*other as usize] == part_of[triangle(one) as usize];
+            let own = next().map(|(_, other)| *other).find(is_own);
+            let all =
+                next().map(|(_, other)| *other).filter(|other| own.is_none_or(|own| own == *other));
+            pairs.extend(all.map(|other| [triangle(one), other]));
         }
     }
-    is_open
+    pairs
+}
+
+/// How far one turns about an edge from one side to another by way of its back, in radians. Of two
+/// sides that lie on each other back to back, each is the last that the other one meets.
+fn turn(surface: &Surface, one: &HalfEdge, other: &HalfEdge) -> f64 {
+    let frame = |side: &HalfEdge| {
+        let [from, to] = side.corners.map(|corner| surface.position(corner));
+        let third = 9 * triangle(side) + 3 - side.corners[0] - side.corners[1];
+        let along = (to - from).normalize_or_zero();
+        let inward = (surface.position(third) - from).reject_from(along).normalize_or_zero();
+        (inward, along.cross(inward))
+    };
+    let ((inward, up), (direction, _)) = (frame(one), frame(other));
+    let turn = f64::atan2(-direction.dot(up), direction.dot(inward));
+    if turn < SAME_TURN { turn + std::f64::consts::TAU } else { turn }
 }
 
 /// Which triangles continue each other for sure: across edges of two sides, and across others where

@@ -68,6 +68,9 @@ pub fn crowd(
         // Sheets of two sides: each gap is a room, and its walls meet in it.
         return Crowd { pairs: around.half_edges(&airs.pairs), ..Crowd::default() };
     }
+    if let Some(crowd) = around.apart(view, part) {
+        return Crowd { is_contact: airs.gaps != 1, ..crowd };
+    }
     let left = around.left_over(&visible);
     let mut pairs = around.pairs_of_solids(view, &visible, &left);
     let mut left: Vec<usize> = (0..left.len()).filter(|&place| left[place]).collect();
@@ -229,6 +232,35 @@ impl Around {
         let mut left: Vec<bool> = visible.iter().map(|visible| !visible).collect();
         facing.iter().flatten().for_each(|&place| left[place] = false);
         left
+    }
+
+    /// Parts that have one face of each kind here are closed without the others. Where what is left
+    /// can be closed too, they are pairs, and the rest is paired by itself. None where all is rest.
+    fn apart(&self, view: &View, part: &mut dyn FnMut(Corner) -> u32) -> Option<Crowd> {
+        if !self.is_small() {
+            return None;
+        }
+        let mut places: Vec<usize> = (0..self.faces.len()).collect();
+        places.sort_by_key(|&place| (self.faces[place].part, !self.faces[place].runs_forth, place));
+        let (mut pairs, mut rest) = (Vec::new(), [Vec::new(), Vec::new()]);
+        for own in places.chunk_by(|&a, &b| self.faces[a].part == self.faces[b].part) {
+            match *own {
+                [one, other] if self.faces[one].runs_forth != self.faces[other].runs_forth => {
+                    pairs.push([one, other].map(|place| self.faces[place].half_edge));
+                }
+                _ => own.iter().for_each(|&place| {
+                    let Face { half_edge, runs_forth, .. } = self.faces[place];
+                    rest[usize::from(!runs_forth)].push(half_edge);
+                }),
+            }
+        }
+        let [forth, back] = rest;
+        if pairs.is_empty() || forth.len() != back.len() {
+            return None;
+        }
+        let crowd = crowd(view, &forth, &back, part);
+        pairs.extend(crowd.pairs);
+        Some(Crowd { pairs, ..crowd })
     }
 
     /// Pairs around the solids: going round, faces that run back open one, and those that run forth

@@ -81,7 +81,8 @@ fn add_skin(mesh: &mut MeshBuffers, block: &Block, turn: DMat3, inward: bool, di
         let first = mesh.positions.len() as u32;
         mesh.positions.extend(corners.map(|corner| corner.as_vec3().to_array()));
         mesh.normals.extend([normal.as_vec3().to_array(); 4]);
-        let triangles = if diagonals >> face & 1 == 0 { [0, 1, 2, 0, 2, 3] } else { [1, 2, 3, 1, 3, 0] };
+        let triangles =
+            if diagonals >> face & 1 == 0 { [0, 1, 2, 0, 2, 3] } else { [1, 2, 3, 1, 3, 0] };
         mesh.indices.extend(triangles.map(|corner| first + corner));
     }
 }
