@@ -45,7 +45,7 @@ impl Solids {
     pub fn carried(&self, after: &Surface, origins: &Origins) -> Solids {
         let mut known: Vec<Option<u32>> =
             origins.triangles.iter().map(|s| s.map(|[c, ..]| self.of[c as usize / 3])).collect();
-        let across = Across::new(after);
+        let across = Across::new(after, &known);
         across.spread(&mut known);
         for _ in 0..MOST_ROUNDS {
             if !adopt(after, &mut known) {
@@ -85,9 +85,9 @@ fn triangle(half_edge: &HalfEdge) -> u32 {
     half_edge.corners[0] / 3
 }
 
-/// Pairs of triangles at an edge of many sides that bound one solid: each and the next one that runs
-/// the other way, if one turns from it to its back. Of several in one direction, those of its own
-/// part, or else all: who can tell? Of too many sides, all are one.
+/// Pairs of triangles at an edge of many sides that bound one solid: each is the next one of the other
+/// if one turns from there to its back. Of several in one direction, those of its own part, or else
+/// all: who can tell? Of too many sides, all are one.
 fn behind_each_other(
     surface: &Surface,
     (forward, backward): (&[HalfEdge], &[HalfEdge]),
@@ -97,19 +97,29 @@ fn behind_each_other(
     if forward.len() + backward.len() > MOST_SIDES || forward.is_empty() || backward.is_empty() {
         return sides().zip(sides().skip(1)).map(|(a, b)| [triangle(a), triangle(b)]).collect();
     }
+    let [ahead, behind] = [(forward, backward), (backward, forward)]
+        .map(|(here, there)| next_behind(surface, here, there, part_of));
+    ahead.into_iter().filter(|&[one, other]| behind.contains(&[other, one])).collect()
+}
+
+/// For each side here, the next ones there.
+fn next_behind(
+    surface: &Surface,
+    here: &[HalfEdge],
+    there: &[HalfEdge],
+    part_of: &[u32],
+) -> Vec<[u32; 2]> {
     let mut pairs = Vec::new();
-    for (here, there) in [(forward, backward), (backward, forward)] {
-        for one in here {
-            let turns = there.iter().map(|other| (turn(surface, one, other), triangle(other)));
-            let turns: Vec<(f64, u32)> = turns.collect();
-            let least = turns.iter().map(|(turn, _)| *turn).fold(f64::INFINITY, f64::min);
-            let next = || turns.iter().filter(|(turn, _)| *turn < least + SAME_TURN);
-            let is_own = |other: &u32| part_of[*other as usize] == part_of[triangle(one) as usize];
-            let own = next().map(|(_, other)| *other).find(is_own);
-            let all =
-                next().map(|(_, other)| *other).filter(|other| own.is_none_or(|own| own == *other));
-            pairs.extend(all.map(|other| [triangle(one), other]));
-        }
+    for one in here {
+        let turns = there.iter().map(|other| (turn(surface, one, other), triangle(other)));
+        let turns: Vec<(f64, u32)> = turns.collect();
+        let least = turns.iter().map(|(turn, _)| *turn).fold(f64::INFINITY, f64::min);
+        let next = turns.iter().filter(|(turn, _)| *turn < least + SAME_TURN);
+        let next: Vec<u32> = next.map(|(_, other)| *other).collect();
+        let is_own = |other: &&u32| part_of[**other as usize] == part_of[triangle(one) as usize];
+        let own: Vec<u32> = next.iter().filter(is_own).copied().collect();
+        let all = if own.is_empty() { next } else { own };
+        pairs.extend(all.into_iter().map(|other| [triangle(one), other]));
     }
     pairs
 }
@@ -129,15 +139,15 @@ fn turn(surface: &Surface, one: &HalfEdge, other: &HalfEdge) -> f64 {
     if turn < SAME_TURN { turn + std::f64::consts::TAU } else { turn }
 }
 
-/// Which triangles continue each other for sure: across edges of two sides, and across others where
-/// they alone share both vertices.
+/// Which triangles continue each other for sure: across edges of two sides, and across others one of
+/// the source and a new one that alone share both vertices.
 struct Across {
     /// Sorted: a triangle, and one that it continues.
     pairs: Vec<[u32; 2]>,
 }
 
 impl Across {
-    fn new(surface: &Surface) -> Across {
+    fn new(surface: &Surface, known: &[Option<u32>]) -> Across {
         let mut pairs = Vec::new();
         let mut join = |one: u32, other: u32| pairs.extend([[one, other], [other, one]]);
         for (forward, backward) in surface.edges() {
@@ -152,7 +162,9 @@ impl Across {
                 .collect();
             sides.sort_unstable();
             for same in sides.chunk_by(|a, b| a.0 == b.0) {
-                if let [(_, false, one), (_, true, other)] = *same {
+                if let [(_, false, one), (_, true, other)] = *same
+                    && known[one as usize].is_some() != known[other as usize].is_some()
+                {
                     join(one, other);
                 }
             }
