@@ -22,6 +22,9 @@ pub(super) fn check_intersections(
     for &(triangle, _) in &pairs_before {
         cut_before[parts_before[triangle as usize] as usize] = true;
     }
+    for solid in source.lying_on_themselves(before) {
+        cut_before[solid as usize] = true;
+    }
     // The solids of the source come first, and those that are new past them.
     let mut may_cut = vec![false; parts_before.len() + parts_after.len()];
     for (triangle, source) in origins.triangles.iter().enumerate() {

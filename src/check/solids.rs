@@ -1,5 +1,7 @@
 //! Which solid each triangle is part of: what merely touches another solid is judged by itself.
 
+use glam::DVec3;
+
 use super::origins::Origins;
 use super::rules::{Element, Findings, Rule};
 use super::surface::{HalfEdge, Surface};
@@ -57,6 +59,22 @@ impl Solids {
         let past = self.of.len() as u32;
         let own = |(triangle, label): (usize, Option<u32>)| label.unwrap_or(past + triangle as u32);
         Solids { of: known.into_iter().enumerate().map(own).collect() }
+    }
+
+    /// The solids whose skin lies on itself somewhere, as copies do: sides of one direction that run
+    /// the same way about an edge. Rounding decides whether such skins cut each other.
+    pub fn lying_on_themselves(&self, surface: &Surface) -> Vec<u32> {
+        let mut found = Vec::new();
+        for (forward, backward) in surface.edges().filter(|(a, b)| a.len() + b.len() > 2) {
+            for same in [forward, backward] {
+                let direction = |side: &HalfEdge| (self.of_side(side), frame(surface, side)[0]);
+                let mut all: Vec<(u32, DVec3)> = same.iter().map(direction).collect();
+                all.sort_by_key(|(solid, _)| *solid);
+                let own = all.chunk_by(|a, b| a.0 == b.0).take(MOST_SIDES);
+                found.extend(own.filter(|own| has_twice(own)).map(|own| own[0].0));
+            }
+        }
+        found
     }
 
     /// How many sides an edge has in each of its solids: their numbers, sorted, and the counts.
@@ -124,19 +142,28 @@ fn next_behind(
     pairs
 }
 
+/// Whether two sides, of the first ones, lie on each other.
+fn has_twice(own: &[(u32, DVec3)]) -> bool {
+    let own = &own[..own.len().min(MOST_SIDES)];
+    let lies_on = |a: &DVec3, b: &DVec3| a.angle_between(*b) < SAME_TURN;
+    own.iter().enumerate().any(|(place, (_, a))| own[..place].iter().any(|(_, b)| lies_on(a, b)))
+}
+
 /// How far one turns about an edge from one side to another by way of its back, in radians. Of two
 /// sides that lie on each other back to back, each is the last that the other one meets.
 fn turn(surface: &Surface, one: &HalfEdge, other: &HalfEdge) -> f64 {
-    let frame = |side: &HalfEdge| {
-        let [from, to] = side.corners.map(|corner| surface.position(corner));
-        let third = 9 * triangle(side) + 3 - side.corners[0] - side.corners[1];
-        let along = (to - from).normalize_or_zero();
-        let inward = (surface.position(third) - from).reject_from(along).normalize_or_zero();
-        (inward, along.cross(inward))
-    };
-    let ((inward, up), (direction, _)) = (frame(one), frame(other));
+    let ([inward, up], [direction, _]) = (frame(surface, one), frame(surface, other));
     let turn = f64::atan2(-direction.dot(up), direction.dot(inward));
     if turn < SAME_TURN { turn + std::f64::consts::TAU } else { turn }
+}
+
+/// From an edge into the face of one of its sides, and out of the face; unit.
+fn frame(surface: &Surface, side: &HalfEdge) -> [DVec3; 2] {
+    let [from, to] = side.corners.map(|corner| surface.position(corner));
+    let third = 9 * triangle(side) + 3 - side.corners[0] - side.corners[1];
+    let along = (to - from).normalize_or_zero();
+    let inward = (surface.position(third) - from).reject_from(along).normalize_or_zero();
+    [inward, along.cross(inward)]
 }
 
 /// Which triangles continue each other for sure: across edges of two sides, and across others one of
@@ -247,12 +274,12 @@ pub(super) fn check_sides(
     let allowed = Allowed::new([before, after], source, origins);
     for edge in after.edges().filter(|(a, b)| a.len() + b.len() > 2) {
         let clusters = edge.0.first().or(edge.1.first()).map_or([0; 2], |h| h.clusters);
+        let together = allowed.together(clusters);
         let allowed = allowed.on(clusters);
         let of = |solid: u32| {
             let place = allowed.binary_search_by_key(&solid, |&(solid, _)| solid);
             place.map_or(LEAST_SIDES, |place| allowed[place].1)
         };
-        let together = allowed.iter().map(|&(_, sides)| sides).sum::<usize>().max(LEAST_SIDES);
         let is_too_many = |&(solid, sides): &(u32, usize)| sides > of(solid);
         if edge.0.len() + edge.1.len() > together || result.sides(&edge).iter().any(is_too_many) {
             findings.note(Rule::NonManifold, Element::Edge(clusters[0], clusters[1]));
@@ -307,6 +334,18 @@ impl Allowed {
         let first = self.most.partition_point(|&(other, ..)| other < cluster);
         let count = self.most[first..].partition_point(|&(other, ..)| other == cluster);
         &self.most[first..first + count]
+    }
+
+    /// How many sides may meet on an edge: those of all solids at its ends.
+    fn together(&self, clusters: [u32; 2]) -> usize {
+        let mut all: Vec<(u32, usize)> = clusters
+            .iter()
+            .flat_map(|&cluster| self.at(cluster))
+            .map(|&(_, solid, sides)| (solid, sides))
+            .collect();
+        all.sort_unstable();
+        let most = all.chunk_by(|a, b| a.0 == b.0).map(|own| own[own.len() - 1].1);
+        most.sum::<usize>().max(LEAST_SIDES)
     }
 
     /// The solids at both ends of an edge, sorted, and how many sides each may have. Nothing is
