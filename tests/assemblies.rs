@@ -7,8 +7,8 @@
 #[path = "support/boxes.rs"]
 mod boxes;
 
-use chamfer::check::check;
-use chamfer::{Options, Verify, Width, chamfer};
+use chamfer::check::{assert_sound, check};
+use chamfer::{Chamfered, MeshBuffers, Options, Reason, Verify, Width, chamfer};
 use glam::{DMat3, DVec3};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -80,152 +80,59 @@ proptest! {
     }
 }
 
+fn chamfered(name: &str, mesh: &MeshBuffers, width: f32) -> Chamfered {
+    let options = Options { width: Width::Units(width), ..Options::default() };
+    let result = chamfer(&mesh.as_mesh(), &options).unwrap();
+    assert_sound(name, &mesh.as_mesh(), &result);
+    result
+}
+
+/// A top and four legs that reach through it, flush with its sides and its upper face: five solids.
 #[test]
-#[ignore]
-fn scan() {
-    use proptest::strategy::ValueTree;
-    use proptest::test_runner::TestRunner;
-    let n: usize = std::env::var("SCAN").ok().and_then(|n| n.parse().ok()).unwrap_or(1000);
-    let mut runner = TestRunner::new(config());
-    let strategy = (vec(block(), 1..6), turn(), any::<bool>(), percent());
-    let mut bad = 0;
-    let mut tally = std::collections::BTreeMap::new();
-    for _ in 0..n {
-        let (blocks, turn, is_merged, percent) = strategy.new_tree(&mut runner).unwrap().current();
-        let mesh = assembly(&blocks, turn, is_merged);
-        let mut is_bad = false;
-        for verify in [Verify::Fast, Verify::Full] {
-            let width = Width::PercentOfExtent(percent);
-            let options = Options { width, verify, ..Options::default() };
-            let result = chamfer(&mesh.as_mesh(), &options).unwrap();
-            let findings = check(&mesh.as_mesh(), &result, verify);
-            if !findings.is_sound() {
-                is_bad = true;
-                let rules: Vec<_> = findings.breaches.iter().map(|b| b.rule.name()).collect();
-                if true {
-                    eprintln!(
-                        "{verify:?} {rules:?} merged {is_merged} {percent} {blocks:?} {}\n{findings}",
-                        turn == DMat3::IDENTITY
-                    );
-                }
-                *tally.entry(format!("{verify:?} {rules:?}")).or_insert(0) += 1;
-            }
-        }
-        bad += usize::from(is_bad);
+fn a_table_with_flush_legs_is_five_solids() {
+    let mut blocks = vec![Block::new([0.0, 0.9, 0.0], [2.0, 1.0, 1.0])];
+    for (x, z) in [(0.0, 0.0), (1.9, 0.0), (0.0, 0.9), (1.9, 0.9)] {
+        blocks.push(Block::new([x, 0.0, z], [x + 0.1, 1.0, z + 0.1]));
     }
-    eprintln!("{bad} of {n}: {tally:#?}");
+    let table = assembly(&blocks, DMat3::IDENTITY, false);
+    let result = chamfered("table", &table, 0.02);
+    assert!(result.totals.chamfered + result.totals.narrowed >= 58);
+}
+
+/// A wall and a skirting board with a lower edge in common: both keep their own faces there.
+#[test]
+fn a_board_on_a_wall_is_chamfered_with_it() {
+    let wall = Block::new([0.0, 0.0, 0.0], [4.0, 3.0, 0.2]);
+    let board = Block::new([0.0, 0.0, 0.0], [4.0, 0.2, 0.3]);
+    let mesh = assembly(&[wall, board], DMat3::IDENTITY, false);
+    let result = chamfered("wall", &mesh, 0.04);
+    assert_eq!(result.totals.chamfered, 24);
 }
 
 #[test]
-#[ignore]
-fn one() {
-    let b = |low, high, w, skin, d| Block {
-        without: w,
-        diagonals: d,
-        ..Block::new(low, high).with(skin)
-    };
-    let cases = [
-        (
-            false,
-            18.061472f32,
-            vec![
-                b([1.0, 3.0, 0.0], [4.0, 4.0, 1.0], 1, Skin::Once, 2002),
-                b([1.0, 1.0, 0.0], [4.0, 3.0, 2.0], 0, Skin::Once, 3655),
-                b([2.0, 1.0, 0.0], [4.0, 3.0, 3.0], 4, Skin::Once, 2937),
-                b([3.0, 2.0, 2.0], [5.0, 3.0, 3.0], 0, Skin::Copied, 1449),
-            ],
-        ),
-        (
-            true,
-            7.58,
-            vec![
-                b([3.0, 2.0, 1.0], [6.0, 5.0, 3.0], 0, Skin::TwoSided, 1575),
-                b([3.0, 0.0, 2.0], [4.0, 2.0, 4.0], 1, Skin::TwoSided, 1942),
-                b([2.0, 0.0, 0.0], [3.0, 2.0, 3.0], 0, Skin::Copied, 2406),
-                b([3.0, 2.0, 3.0], [4.0, 3.0, 6.0], 0, Skin::Copied, 2520),
-            ],
-        ),
-        (
-            true,
-            1.0,
-            vec![
-                b([1.0, 2.0, 2.0], [3.0, 3.0, 4.0], 60, Skin::Once, 1971),
-                b([2.0, 3.0, 1.0], [5.0, 4.0, 2.0], 0, Skin::Once, 3933),
-                b([3.0, 2.0, 0.0], [6.0, 3.0, 2.0], 8, Skin::Once, 3143),
-                b([3.0, 0.0, 0.0], [4.0, 2.0, 2.0], 1, Skin::Once, 3884),
-                b([1.0, 2.0, 1.0], [4.0, 4.0, 4.0], 0, Skin::Once, 496),
-            ],
-        ),
-        (
-            false,
-            1.0,
-            vec![
-                b([1.0, 2.0, 3.0], [3.0, 3.0, 6.0], 32, Skin::Once, 1377),
-                b([3.0, 3.0, 2.0], [5.0, 6.0, 5.0], 0, Skin::Once, 4060),
-                b([2.0, 3.0, 1.0], [4.0, 5.0, 3.0], 11, Skin::Copied, 1478),
-                b([1.0, 3.0, 2.0], [2.0, 5.0, 3.0], 0, Skin::Once, 612),
-                b([1.0, 3.0, 1.0], [2.0, 6.0, 3.0], 0, Skin::Once, 734),
-            ],
-        ),
-    ];
-    for (merged, percent, blocks) in cases {
-        for angle in [0.0, 0.2, 0.3, 0.5, 0.7, 1.0, 1.2, 1.5, 2.0, 2.5] {
-            let turn = DMat3::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), angle);
-            let mesh = assembly(&blocks, turn, merged);
-            let options = Options { width: Width::PercentOfExtent(percent), ..Options::default() };
-            let result = chamfer(&mesh.as_mesh(), &options).unwrap();
-            let findings = check(&mesh.as_mesh(), &result, Verify::Full);
-            if findings.is_sound() {
-                continue;
-            }
-            eprintln!("====== {blocks:?}");
-            for breach in &findings.breaches {
-                eprintln!("{breach:?}");
-            }
-            let back = turn.transpose();
-            let show = |t: usize| {
-                let tri = &result.mesh.indices[3 * t..3 * t + 3];
-                eprintln!(
-                    "   {t} {tri:?} {:?} {:.3?}",
-                    result.triangle_sources[t],
-                    tri.iter()
-                        .map(|&v| (back
-                            * DVec3::from(result.mesh.positions[v as usize].map(f64::from)))
-                        .to_array())
-                        .collect::<Vec<_>>()
-                );
-            };
-            for breach in &findings.breaches {
-                for e in &breach.first {
-                    match e {
-                        chamfer::check::Element::Edge(a, b) => {
-                            eprintln!("edge {a} {b}");
-                            for (t, tri) in result.mesh.indices.chunks(3).enumerate() {
-                                let pos = |v: u32| result.mesh.positions[v as usize];
-                                let has = |w: u32| tri.iter().any(|&x| pos(x) == pos(w));
-                                if has(*a) && has(*b) {
-                                    show(t)
-                                }
-                            }
-                        }
-                        chamfer::check::Element::Triangles(a, b) => {
-                            eprintln!("cut");
-                            show(*a as usize);
-                            show(*b as usize)
-                        }
-                        _ => {}
-                    }
-                }
-            }
-            for (k, v) in result.verdicts.iter().enumerate() {
-                if v.reason != chamfer::Reason::None {
-                    let p = v.vertices.map(|v| {
-                        (back * DVec3::from(mesh.positions[v as usize].map(f64::from))).to_array()
-                    });
-                    eprintln!("{k} {v:?} {:.2?}", p);
-                }
-            }
-            break;
-        }
+fn a_box_that_is_there_twice_is_chamfered_twice() {
+    for (skin, diagonals) in
+        [(Skin::Copied, 0), (Skin::Copied, 0o77), (Skin::TwoSided, 0), (Skin::TwoSided, 0o52)]
+    {
+        let block = Block { diagonals, ..Block::new([0.0; 3], [1.0; 3]).with(skin) };
+        let mesh = assembly(&[block], DMat3::IDENTITY, false);
+        let result = chamfered("box", &mesh, 0.02);
+        assert_eq!(result.totals.chamfered, 24, "{skin:?}");
+        let [first, second] = [0, 24].map(|start| {
+            let mut points = result.mesh.positions[start..start + 24].to_vec();
+            points.sort_by(|a, b| a.partial_cmp(b).unwrap());
+            points
+        });
+        assert_eq!(first, second, "both skins follow");
     }
+}
+
+/// A folded sheet of two sides ends somewhere: it is a card, and keeps its shape.
+#[test]
+fn a_folded_card_of_two_sides_keeps_its_fold() {
+    let block = Block { without: 0b11_1010, ..Block::new([0.0; 3], [1.0; 3]).with(Skin::TwoSided) };
+    let card = assembly(&[block], DMat3::IDENTITY, false);
+    let result = chamfered("card", &card, 0.02);
+    assert_eq!(result.mesh.positions, card.positions);
+    assert!(result.verdicts.iter().all(|verdict| verdict.reason == Reason::ZeroThickness));
 }

@@ -274,8 +274,8 @@ pub(super) fn check_sides(
     let allowed = Allowed::new([before, after], source, origins);
     for edge in after.edges().filter(|(a, b)| a.len() + b.len() > 2) {
         let clusters = edge.0.first().or(edge.1.first()).map_or([0; 2], |h| h.clusters);
-        let together = allowed.together(clusters);
         let allowed = allowed.on(clusters);
+        let together = allowed.iter().map(|&(_, sides)| sides).sum::<usize>().max(LEAST_SIDES);
         let of = |solid: u32| {
             let place = allowed.binary_search_by_key(&solid, |&(solid, _)| solid);
             place.map_or(LEAST_SIDES, |place| allowed[place].1)
@@ -334,18 +334,6 @@ impl Allowed {
         let first = self.most.partition_point(|&(other, ..)| other < cluster);
         let count = self.most[first..].partition_point(|&(other, ..)| other == cluster);
         &self.most[first..first + count]
-    }
-
-    /// How many sides may meet on an edge: those of all solids at its ends.
-    fn together(&self, clusters: [u32; 2]) -> usize {
-        let mut all: Vec<(u32, usize)> = clusters
-            .iter()
-            .flat_map(|&cluster| self.at(cluster))
-            .map(|&(_, solid, sides)| (solid, sides))
-            .collect();
-        all.sort_unstable();
-        let most = all.chunk_by(|a, b| a.0 == b.0).map(|own| own[own.len() - 1].1);
-        most.sum::<usize>().max(LEAST_SIDES)
     }
 
     /// The solids at both ends of an edge, sorted, and how many sides each may have. Nothing is
