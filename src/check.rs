@@ -12,6 +12,7 @@ mod matching;
 mod nearest;
 mod origins;
 mod rules;
+mod solids;
 mod surface;
 mod triangles;
 mod values;
@@ -23,6 +24,7 @@ use crate::options::Verify;
 use crate::report::Chamfered;
 
 use origins::Origins;
+use solids::Solids;
 use surface::Surface;
 use widths::Ruler;
 
@@ -66,7 +68,10 @@ pub fn compare(before: &Mesh, after: &Mesh, depth: Verify) -> Findings {
     let (origins, mut findings) = likelier_origins(&surfaces, findings);
     if depth != Verify::Fast {
         let [source, result] = &surfaces;
-        intersections::check_intersections(source, result, &origins, &mut findings);
+        let before = Solids::new(source);
+        let after = before.carried(result, &origins);
+        let solids = [&before, &after];
+        intersections::check_intersections([source, result], solids, &origins, &mut findings);
     }
     findings
 }
@@ -136,8 +141,12 @@ fn check_geometry(
     triangles::check_triangles(source, result, origins, findings);
     flatness::check_flatness(source, result, origins, findings);
     hardness::check_hard_edges(source, result, origins, findings);
+    let solids = Solids::new(source);
+    let solids = [&solids, &solids.carried(result, origins)];
+    findings.after.non_manifold_edges = solids[1].crowded_edges(result);
+    solids::check_sides([source, result], solids, origins, findings);
     if depth != Verify::Fast {
-        intersections::check_intersections(source, result, origins, findings);
+        intersections::check_intersections([source, result], solids, origins, findings);
     }
     findings.edges = Ruler::new(surfaces, origins).measure_all();
 }

@@ -44,7 +44,8 @@ pub enum Rule {
     /// As many border loops as in the source. Where a border of the source touches a non-manifold
     /// edge, loops are a matter of opinion, and [`Rule::Gapes`] alone tells.
     BorderLoops,
-    /// No more edges with more than two sides than in the source.
+    /// No edge has more sides in one solid than two, or than an edge of the source had where it comes
+    /// from. Solids that merely touch are judged each by itself.
     NonManifold,
     /// No source triangle turns over, and no new one faces away from its vertex normals.
     Flipped,
@@ -56,7 +57,8 @@ pub enum Rule {
     FlatNormal,
     /// No hard edge where the source has none: strips and fills shade smoothly into their sides.
     HardEdges,
-    /// No edge-connected component cuts through itself that did not in the source.
+    /// No solid cuts through itself that did not in the source. What is closed across edges of two
+    /// sides is a solid; open parts are one where they share an edge.
     SelfIntersection,
 }
 
@@ -145,7 +147,7 @@ pub struct Facts {
     pub border_half_edges: usize,
     /// Loops that these form.
     pub border_loops: usize,
-    /// Edges with more than two half-edges.
+    /// Edges with more than two sides, but for those along which solids touch, with two each.
     pub non_manifold_edges: usize,
     /// Edges whose normals differ by more than about one degree at either end.
     pub hard_edges: usize,

@@ -1,6 +1,7 @@
 //! A mesh welded by position: its edges, borders and connected parts.
 
 use super::rules::{Element, Facts, Findings, Rule};
+use super::solids::Solids;
 use super::triangles::normal_with_area;
 use super::values::{count_odd, vector};
 use crate::groups::Groups;
@@ -145,7 +146,7 @@ impl<'a> Surface<'a> {
             components: self.components().iter().enumerate().filter(|&part| is_first(part)).count(),
             border_half_edges: self.edges().map(|(a, b)| a.len().abs_diff(b.len())).sum(),
             border_loops: self.border_loops(),
-            non_manifold_edges: self.edges().filter(is_non_manifold).count(),
+            non_manifold_edges: Solids::new(self).crowded_edges(self),
             hard_edges: self.edges().filter(|edge| self.is_hard(edge)).count(),
             flat_triangles: triangles.filter(has_no_area).count(),
             odd_normals,
@@ -217,7 +218,7 @@ fn weld(positions: &[[f32; 3]]) -> Vec<u32> {
     cluster_of
 }
 
-/// Balance, border loops and non-manifold edges, as in the source.
+/// Balance and border loops, as in the source.
 pub(super) fn check_edges(before: &Surface, after: &Surface, findings: &mut Findings) {
     let [source, result] = [findings.before, findings.after];
     let element = |(a, b): (&[HalfEdge], &[HalfEdge])| {
@@ -232,9 +233,5 @@ pub(super) fn check_edges(before: &Surface, after: &Surface, findings: &mut Find
     // Elsewhere `Rule::Gapes` has to do.
     if before.has_clear_borders() && source.border_loops != result.border_loops {
         findings.note(Rule::BorderLoops, Element::Mesh);
-    }
-    let added = result.non_manifold_edges.saturating_sub(source.non_manifold_edges);
-    for edge in after.edges().filter(is_non_manifold).take(added) {
-        findings.note(Rule::NonManifold, element(edge));
     }
 }

@@ -1,6 +1,6 @@
 //! Collisions: what would cut through itself, though no triangle flips.
 //!
-//! Each edge-connected part is laid out as triangles, where its sectors stand, and searched. What
+//! Each solid, and what else is joined by edges, is laid out as triangles, where its sectors stand, and searched. What
 //! cuts shrinks, and the part is searched again, until nothing cuts; then half of what was taken
 //! is tried again, and so on. Only parts that are clean in the source are kept clean: where one
 //! cuts through itself already, a chamfer across the cut has to cut as well.
@@ -11,13 +11,13 @@ use glam::DVec3;
 
 use crate::bvh::Kin;
 use crate::corners::middle;
-use crate::groups::Groups;
 use crate::ids::{Corner, Few, Id, IdVec, Ring, Sector};
 use crate::intersect::{self, Triangle, cutting_pairs};
 use crate::placement::Placement;
 use crate::plan::Plan;
 use crate::report::Reason;
 use crate::strips;
+use crate::topology::solids;
 
 use super::crowds::{Crowd, Crowds, crowds};
 use super::{Element, Limits, apply, around, bad_around, blame, fill, sectors_of, shrink};
@@ -128,7 +128,7 @@ fn take_back(plan: &Plan, limits: &mut Limits, tries: &mut [Try], sector: Sector
     true
 }
 
-/// What is joined by edges, if some of it is chamfered.
+/// A solid, or what else is joined by edges, if some of it is chamfered.
 struct Part<'a> {
     plan: &'a Plan<'a>,
     /// In order.
@@ -276,7 +276,7 @@ impl Part<'_> {
 
 /// The parts with chamfered edges.
 fn parts<'a>(plan: &'a Plan<'a>) -> Vec<Part<'a>> {
-    let label_of = labels(plan);
+    let label_of = solids(&plan.topology);
     let label = |corner: Corner| label_of[corner.triangle().index()];
     let mut is_chamfered = vec![false; label_of.len()];
     let chamfered =
@@ -308,20 +308,6 @@ fn parts<'a>(plan: &'a Plan<'a>) -> Vec<Part<'a>> {
         Part { plan, elements, crowds, was_cut }
     };
     all.chunk_by(|one, other| one.0 == other.0).map(part).collect()
-}
-
-/// `#triangles`: the first triangle of the part of each, touching ones included.
-fn labels(plan: &Plan) -> Vec<u32> {
-    let mut groups = Groups::singles(plan.view.corner_count() / 3);
-    let mut join = |one: Corner, other: Corner| groups.join(one.triangle().0, other.triangle().0);
-    for corner in plan.topology.twin.ids() {
-        let twin = plan.topology.twin[corner];
-        if twin.is_some() && corner < twin {
-            join(corner, twin);
-        }
-    }
-    plan.topology.touching.iter().for_each(|&[one, other]| join(one, other));
-    groups.labels()
 }
 
 #[cfg(test)]
