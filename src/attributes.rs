@@ -9,14 +9,15 @@ mod index;
 pub mod middles;
 mod streams;
 
+use crate::breaks::same_chart;
 use crate::ids::{Corner, Few, IdVec, Sector, Vertex};
 use crate::placement::Placement;
 use crate::plan::Plan;
 use crate::report::Blend;
-use crate::resample::{chart_foot, same_chart, surface_foot};
+use crate::resample::{chart_foot, surface_foot};
 
 use streams::Row;
-pub use streams::{Channels, Streams};
+pub use streams::{Streams, Taken};
 
 /// The vertices of the result, as far as source triangles use them.
 pub struct Attributes {
@@ -116,7 +117,7 @@ fn twin_of(
     let is_twin = |seen: &&Seen| {
         streams.are_equal(&seen.row, row)
             && !(plan.view.normal(seen.vertex) == plan.view.normal(vertex)
-                && same_chart(plan, seen.vertex, vertex))
+                && same_chart(&plan.view, seen.vertex, vertex))
     };
     seen.iter().find(is_twin).map(|seen| seen.output)
 }
@@ -147,8 +148,8 @@ fn blends(plan: &Plan, sector: Sector, corner: Corner, share: f64) -> [Blend; 2]
         _ => blend,
     };
 
-    let surface = surface_foot(plan, sector, corner).blend(plan, share);
-    [surface, from_own(chart.blend(plan, share))]
+    let surface = surface_foot(plan, sector, corner).blend(&plan.view, share);
+    [surface, from_own(chart.blend(&plan.view, share))]
 }
 
 #[cfg(test)]

@@ -2,28 +2,16 @@
 
 use glam::DVec3;
 
+use crate::breaks::{is_hard, seam_between};
 use crate::contacts::Contacts;
 use crate::faces::Faces;
-use crate::ids::{Corner, Edge, Id, IdVec, Vertex};
+use crate::ids::{Corner, Edge, IdVec, Vertex};
 use crate::mesh::UV_CHANNELS;
 use crate::report::Reason;
-use crate::resample::uv_at;
+use crate::tolerance::{ALIKE_COSINE, BACK_TO_BACK_COSINE};
 use crate::topology::Topology;
 use crate::view::View;
 use crate::weld::Weld;
-
-/// Normals that differ by less than a degree are one normal: importers quantize them.
-pub const HARD_COSINE: f64 = 0.999_847_695_156_391_2;
-
-/// Two normals that both differ from a third one by less than 0.4 degrees differ by less than one.
-const ALIKE_COSINE: f64 = 0.999_975_630_705_4;
-
-/// Two faces back to back: their normals are opposite to within a tenth of a degree. Between them
-/// there is nothing to cut off.
-pub const BACK_TO_BACK_COSINE: f64 = -0.999_998_476_913_288;
-
-/// UV values that differ by less than this share of their size are one: exporters round.
-pub const EQUAL_UV: f32 = 1e-6;
 
 /// A hard edge with two sides.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,18 +67,6 @@ pub fn edges(view: &View, topology: &Topology, faces: &Faces, contacts: &Contact
     Edges { hard, chamfered_at }
 }
 
-/// Whether the stored normals differ between two half-edges that are twins.
-pub fn is_hard(view: &View, side: Corner, other: Corner) -> bool {
-    let differ = |one: Corner, other: Corner| {
-        let (one, other) = (view.vertex_at(one), view.vertex_at(other));
-        one != other && {
-            let (one, other) = (view.normal(one), view.normal(other));
-            one.dot(other) < HARD_COSINE * (one.length_squared() * other.length_squared()).sqrt()
-        }
-    };
-    differ(side, other.next()) || differ(side.next(), other)
-}
-
 /// What keeps a hard edge from being chamfered whatever the width.
 fn obstacle(topology: &Topology, faces: &Faces, side: Corner, other: Corner) -> Option<Reason> {
     let [one, two] = [side, other].map(|half_edge| faces.normal[half_edge.triangle()]);
@@ -113,13 +89,6 @@ fn seam_channels(view: &View, side: Corner, other: Corner) -> u8 {
     };
     let present = (0..UV_CHANNELS).filter(|&channel| view.mesh.uvs[channel].components > 0);
     present.filter(differs).fold(0, |channels, channel| channels | 1 << channel)
-}
-
-/// Whether two corners at one position differ in a UV channel.
-pub fn seam_between(view: &View, channel: usize, one: Corner, other: Corner) -> bool {
-    let uv = &view.mesh.uvs[channel];
-    let [one, other] = [one, other].map(|corner| uv_at(uv, view.vertex_at(corner).index()));
-    one.iter().zip(other).any(|(&a, &b)| (a - b).abs() > EQUAL_UV * a.abs().max(1.0))
 }
 
 #[cfg(test)]

@@ -14,6 +14,7 @@ use std::cmp::Ordering;
 
 use glam::DVec3;
 
+use crate::contacts::Wedge;
 use crate::corners;
 use crate::ids::{Corner, Edge, Few, IdVec, Ring, Sector, Triangle};
 use crate::math::{area_vector, unit};
@@ -23,8 +24,6 @@ use crate::plan::Plan;
 use crate::report::Reason;
 use crate::strips;
 use crate::validity::{opens_along, stays_line, survives};
-
-pub use breadth::deep;
 
 /// How much a sector that takes part in something bad keeps in each round.
 const SHRINK: f64 = 0.5;
@@ -311,7 +310,8 @@ fn contacts_are_kept(plan: &Plan, placement: &Placement, edge: Edge) -> bool {
     }
     let [b1, a1, a2, b2] =
         strips::corners(&plan.edges.hard[edge]).map(|corner| placement.position_at(plan, corner));
-    plan.rests.are_kept(plan, edge, [[a1, b1], [a2, b2]])
+    let wedge = Wedge::new(&plan.view, &plan.faces, plan.edges.hard[edge].sides);
+    wedge.is_none_or(|wedge| plan.rests.are_kept(edge, &wedge, [[a1, b1], [a2, b2]]))
 }
 
 fn fill_is_valid(plan: &Plan, placement: &Placement, ring: Ring) -> bool {

@@ -12,12 +12,12 @@ mod follow;
 
 use glam::DVec3;
 
-use crate::edges::{is_hard, seam_between};
+use crate::breaks::{is_hard, seam_between, uv_at};
 use crate::faces::Faces;
+use crate::foot::{Foot, locate};
 use crate::ids::{Corner, Id, IdVec, Sector};
 use crate::math::{Turn, area_vector, unit};
 use crate::mesh::UV_CHANNELS;
-use crate::resample::{Foot, locate, uv_at};
 use crate::sectors::{Fan, Sectors};
 use crate::topology::Topology;
 use crate::view::View;
@@ -473,7 +473,7 @@ mod tests {
         let sector = plan.sectors.fans.ids().find(at_corner).unwrap();
         let offset = &plan.offsets[sector];
         assert!(offset.vector.y.abs() < 1e-9, "{}", offset.vector);
-        let blend = offset.foot.blend(&plan, 1.0);
+        let blend = offset.foot.blend(&plan.view, 1.0);
         let corners = blend.vertices.map(|v| plan.view.position(crate::ids::Vertex(v)));
         let rebuilt = crate::resample::weighted_sum(&blend, corners);
         assert!(rebuilt.distance(DVec3::ONE + offset.vector) < 1e-6, "{rebuilt}");

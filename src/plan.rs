@@ -2,13 +2,13 @@
 
 use std::sync::Arc;
 
-use crate::contacts::{Contacts, Rests, rests};
+use crate::contacts::Contacts;
 use crate::edges::Edges;
 use crate::faces::Faces;
 use crate::ids::{Cluster, IdVec, Sector};
-use crate::limits::deep;
 use crate::offsets::Offset;
-use crate::sectors::Sectors;
+use crate::rests::{Rests, rests};
+use crate::sectors::{Sectors, deep};
 use crate::topology::Topology;
 use crate::view::View;
 use crate::weld::Weld;
@@ -30,7 +30,6 @@ pub struct Plan<'a> {
     pub weld: Arc<Weld>,
     pub topology: Arc<Topology>,
     pub faces: Arc<Faces>,
-    pub contacts: Arc<Contacts>,
     pub edges: Arc<Edges>,
     pub sectors: Arc<Sectors>,
     /// `#sectors`: the move at full width.
@@ -47,7 +46,7 @@ impl<'a> Plan<'a> {
         let Shape { weld, topology, faces, contacts, edges, sectors } = shape.clone();
         let rests = rests(&view, &topology, &faces, &edges, &contacts);
         let deep = deep(&topology, &sectors, weld.first_vertex.len());
-        Plan { view, weld, topology, faces, contacts, edges, sectors, offsets, rests, deep }
+        Plan { view, weld, topology, faces, edges, sectors, offsets, rests, deep }
     }
 }
 

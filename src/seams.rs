@@ -23,7 +23,7 @@ use density::uv_point;
 
 pub use fill_map::add_fill;
 pub use owners::{Owners, owners};
-pub use patch::{Joint, Middle, Parts, Patches, Taken};
+pub use patch::{Joint, Middle, Parts, Patches};
 pub use strip_map::add_strip;
 
 /// The UV channels that a mesh has.

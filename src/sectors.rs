@@ -6,7 +6,7 @@
 
 use crate::contacts::Contacts;
 use crate::edges::Edges;
-use crate::ids::{Cluster, Corner, Id, IdVec, Ring, Sector};
+use crate::ids::{Cluster, Corner, Id, IdVec, Ring, Sector, Triangle};
 use crate::topology::{Hidden, Topology};
 use crate::view::View;
 
@@ -230,6 +230,19 @@ fn add_ring(sectors: &mut Sectors, first: Sector) {
     }
     let closed = sector.is_some();
     sectors.rings.push(RingRange { start, end: sectors.members.len() as u32, closed });
+}
+
+/// `#clusters`: whether a face goes on for at least a row of triangles behind a vertex inside of
+/// it. No chamfer reaches these, so the first row may be given away.
+pub fn deep(topology: &Topology, sectors: &Sectors, clusters: usize) -> IdVec<Cluster, bool> {
+    let mut deep = IdVec::filled(false, clusters);
+    for triangle in (0..topology.twin.len() / 3).map(|triangle| Triangle(triangle as u32)) {
+        let corners = triangle.corners();
+        if corners.iter().all(|&corner| sectors.sector_of[corner].is_none()) {
+            corners.iter().for_each(|&corner| deep[topology.cluster_at[corner]] = true);
+        }
+    }
+    deep
 }
 
 #[cfg(test)]

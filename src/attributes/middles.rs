@@ -5,14 +5,13 @@
 
 use glam::DVec3;
 
-use super::Streams;
+use super::{Streams, Taken};
 use crate::corners;
 use crate::ids::{Few, Sector, Vertex};
 use crate::math::unit;
 use crate::placement::{Placement, base};
 use crate::plan::Plan;
 use crate::report::Blend;
-use crate::seams::Taken;
 
 /// Blends whose distances differ by less than this share are equally near: then the first counts,
 /// whatever the last bits say.

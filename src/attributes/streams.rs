@@ -14,11 +14,18 @@ use crate::mesh::{MeshBuffers, Uv, UvBuffer};
 use crate::plan::Plan;
 use crate::report::{Blend, VertexSource, VertexSources};
 use crate::resample::{blended_normal, weighted_sum};
-use crate::seams::Taken;
 use crate::view::{View, wide};
 
 /// UV channels as bits.
 pub type Channels = u8;
+
+/// A place in a chart that a chamfer continues.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Taken {
+    /// The UV channels that go there.
+    pub channels: Channels,
+    pub place: Blend,
+}
 
 /// What a stream holds, and so how it is blended.
 #[derive(Clone, Copy, PartialEq)]

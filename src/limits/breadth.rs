@@ -7,27 +7,12 @@
 
 use glam::DVec3;
 
-use crate::ids::{Cluster, Corner, IdVec, Triangle};
+use crate::ids::{Corner, Triangle};
 use crate::math::area_vector;
 use crate::plan::Plan;
-use crate::sectors::Sectors;
-use crate::topology::Topology;
 
 /// A rim that runs along a side within a tenth of a degree does not lead away from it.
 const LEAST_LEAN: f64 = 0.002;
-
-/// `#clusters`: whether a face goes on for at least a row of triangles behind a vertex inside of
-/// it. No chamfer reaches these, so the first row may be given away.
-pub fn deep(topology: &Topology, sectors: &Sectors, clusters: usize) -> IdVec<Cluster, bool> {
-    let mut deep = IdVec::filled(false, clusters);
-    for triangle in (0..topology.twin.len() / 3).map(|triangle| Triangle(triangle as u32)) {
-        let corners = triangle.corners();
-        if corners.iter().all(|&corner| sectors.sector_of[corner].is_none()) {
-            corners.iter().for_each(|&corner| deep[topology.cluster_at[corner]] = true);
-        }
-    }
-    deep
-}
 
 /// What has to stay of a triangle: for each of its sides at which the face ends, the least area
 /// for each unit of the side's length, along the old side; zero for the others. Areas are counted

@@ -13,7 +13,7 @@ use std::cmp::Ordering;
 
 use glam::DVec3;
 
-use crate::edges::is_hard;
+use crate::breaks::is_hard;
 use crate::ids::Corner;
 use crate::math::{area_vector, unit};
 use crate::view::View;

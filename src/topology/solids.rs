@@ -6,10 +6,10 @@
 use glam::DVec3;
 
 use super::Topology;
-use crate::edges::BACK_TO_BACK_COSINE;
 use crate::groups::Groups;
 use crate::ids::{Corner, Id, Triangle};
 use crate::math::{area_vector, unit};
+use crate::tolerance::BACK_TO_BACK_COSINE;
 use crate::view::View;
 
 /// `#triangles`: the smallest number in the solid of each.
