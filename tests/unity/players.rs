@@ -37,3 +37,12 @@ fn a_player_without_a_library_says_so() {
     assert!(printed.starts_with("LibraryMissingException: "), "{printed}");
     assert!(printed.contains("CHAMFER_LIBRARY"), "{printed}");
 }
+
+/// A build ships one mesh, not two: players have no field for the originals.
+#[test]
+fn players_know_nothing_of_originals() {
+    let Some(program) = mono::program() else { return };
+    let player = program.player(&["UNITY_STANDALONE"]);
+    assert!(imports(&player, "ChamferModifier"));
+    assert!(!imports(&player, "ChamferedMesh") && !imports(&player, "MeshUtility"));
+}

@@ -18,8 +18,6 @@ namespace ChamferEditor
         private static void Draw()
         {
             var settings = ChamferProjectSettings.instance;
-            // Unity makes singletons of this kind not editable.
-            settings.hideFlags &= ~HideFlags.NotEditable;
             var serialized = new SerializedObject(settings);
             EditorGUILayout.PropertyField(serialized.FindProperty("settings"), true);
             EditorGUILayout.PropertyField(serialized.FindProperty("folders"), true);

@@ -1,6 +1,4 @@
-using System.Globalization;
 using System.Text;
-using Chamfer;
 using Chamfer.Streams;
 using UnityEditor;
 using UnityEngine;
@@ -46,23 +44,16 @@ namespace ChamferEditor
             }
         }
 
-        private static string Text(ChamferProjectSettings project)
+        /// <summary>All that the settings say.</summary>
+        internal static string Text(ChamferProjectSettings project)
         {
             var text = new StringBuilder(LibraryCheck.Version()).Append('\n');
-            Append(text, project.settings);
+            text.Append(SettingsText.Of(project.settings));
             foreach (var rule in project.folders)
             {
-                text.Append('\n').Append(rule.Folder).Append(' ');
-                Append(text, rule.settings);
+                text.Append('\n').Append(rule.Folder).Append(' ').Append(SettingsText.Of(rule.settings));
             }
             return text.ToString();
-        }
-
-        private static void Append(StringBuilder text, ChamferSettings settings)
-        {
-            text.Append(settings.width.ToString("R", CultureInfo.InvariantCulture)).Append(' ').Append(settings.unit);
-            text.Append(' ').Append(settings.verify).Append(' ').Append(settings.submeshMode).Append(' ');
-            text.Append(settings.submesh);
         }
     }
 }

@@ -5,7 +5,7 @@ namespace ChamferEditor
     /// <summary>What jobs did, in words.</summary>
     internal sealed class JobSummary
     {
-        private int meshes, without, chamfered, narrowed, skipped;
+        private int meshes, without, already, chamfered, narrowed, skipped;
         private readonly List<string> failures = new List<string>();
 
         /// <summary>Whether some mesh could not be chamfered.</summary>
@@ -24,11 +24,24 @@ namespace ChamferEditor
             }
         }
 
+        /// <summary>Meshes that were chamfered before, and are left as they are.</summary>
+        internal void AddAlready(int count)
+        {
+            already += count;
+        }
+
+        /// <summary>What could not be done.</summary>
+        internal void AddFailures(IEnumerable<string> sentences)
+        {
+            failures.AddRange(sentences);
+        }
+
         public override string ToString()
         {
             string text = Meshes(meshes) + ": " + chamfered + " edges chamfered, " + narrowed + " narrowed, " + skipped
                 + " skipped";
             if (without > 0) { text += "; " + Meshes(without) + " without hard edges left alone"; }
+            if (already > 0) { text += "; " + Meshes(already) + " chamfered already left alone"; }
             return failures.Count == 0 ? text : text + "\n" + string.Join("\n", failures);
         }
 

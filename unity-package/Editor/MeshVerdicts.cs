@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using Chamfer;
+using Chamfer.Streams;
 using UnityEngine;
 
 namespace ChamferEditor
@@ -8,19 +9,27 @@ namespace ChamferEditor
     /// <summary>What became of the hard edges of a mesh, and where they are.</summary>
     internal sealed class MeshVerdicts
     {
+        private readonly Vector3[] positions;
+        private readonly int[][] ends;
         private readonly Vector3[][] segments;
 
-        /// <param name="positions">Those of the source, which need not be readable any more.</param>
+        /// <param name="source">What the edges are of; it need not be readable any more.</param>
         /// <param name="report">About the source's edges.</param>
         /// <param name="settings">What the mesh was made with.</param>
-        internal MeshVerdicts(Vector3[] positions, ChamferReport report, ChamferSettings settings)
+        internal MeshVerdicts(MeshArrays source, ChamferReport report, ChamferSettings settings)
         {
             Report = report;
             Settings = settings;
-            segments = new Vector3[Enum.GetValues(typeof(EdgeOutcome)).Length][];
-            for (int outcome = 0; outcome < segments.Length; outcome++)
+            bool hasBones = source.Skin != null && source.Skin.BonesPerVertex.Length > 0;
+            Skin = hasBones ? source.Skin : null;
+            positions = source.Positions;
+            int outcomes = Enum.GetValues(typeof(EdgeOutcome)).Length;
+            ends = new int[outcomes][];
+            segments = new Vector3[outcomes][];
+            for (int outcome = 0; outcome < outcomes; outcome++)
             {
-                segments[outcome] = Lines(positions, report.Verdicts, (EdgeOutcome)outcome);
+                ends[outcome] = EndsOf(report.Verdicts, (EdgeOutcome)outcome);
+                segments[outcome] = Array.ConvertAll(ends[outcome], vertex => positions[vertex]);
             }
         }
 
@@ -28,22 +37,31 @@ namespace ChamferEditor
 
         internal ChamferSettings Settings { get; }
 
+        /// <summary>The source's bone weights; null if it has none.</summary>
+        internal Skin Skin { get; }
+
         /// <summary>Two points for each edge with that outcome.</summary>
         internal Vector3[] Segments(EdgeOutcome outcome)
         {
             return segments[(int)outcome];
         }
 
-        private static Vector3[] Lines(Vector3[] positions, IReadOnlyList<EdgeVerdict> verdicts, EdgeOutcome outcome)
+        /// <summary>As <see cref="Segments"/>, as vertices of the source.</summary>
+        internal int[] Ends(EdgeOutcome outcome)
         {
-            var ends = new List<Vector3>();
+            return ends[(int)outcome];
+        }
+
+        private static int[] EndsOf(IReadOnlyList<EdgeVerdict> verdicts, EdgeOutcome outcome)
+        {
+            var vertices = new List<int>();
             foreach (var verdict in verdicts)
             {
                 if (verdict.Outcome != outcome) { continue; }
-                ends.Add(positions[verdict.FirstVertex]);
-                ends.Add(positions[verdict.SecondVertex]);
+                vertices.Add(verdict.FirstVertex);
+                vertices.Add(verdict.SecondVertex);
             }
-            return ends.ToArray();
+            return vertices.ToArray();
         }
     }
 }

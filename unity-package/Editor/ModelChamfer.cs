@@ -41,7 +41,7 @@ namespace ChamferEditor
             var scene = MeshScene.Of(root.transform, slots);
             var results = SceneRun.Run(scene.Objects, settings, null, CancellationToken.None,
                 (why, mesh) => warn("Not chamfered: " + why, mesh));
-            foreach (var result in results) { MeshWriter.Overwrite(result.Mesh, result.Output.Mesh); }
+            foreach (var result in results) { MeshWriter.Overwrite(result.Mesh, result.Output.Mesh, result.Mesh); }
             foreach (var slot in slots)
             {
                 int before = submeshes[slot.Mesh];

@@ -18,10 +18,16 @@ namespace ChamferEditor
         public override void OnInspectorGUI()
         {
             bool changed = DrawSettings();
-            DrawButtons();
+            var action = DrawButtons();
             DrawReport();
             // Settings that nobody has applied yet are no preview: the first click is the user's.
-            if (changed) { Preview(Modifiers.Where(modifier => modifier.livePreview && modifier.IsApplied)); }
+            var previewed = Modifiers.Where(modifier => modifier.livePreview && modifier.IsApplied).ToList();
+            if (changed && previewed.Count > 0) { action = () => ForEach(previewed, ModifierActions.Preview); }
+            if (action == null) { return; }
+            failures.Clear();
+            action();
+            // Dialogs and progress bars leave the layout of this event behind them.
+            GUIUtility.ExitGUI();
         }
 
         private bool DrawSettings()
@@ -42,16 +48,21 @@ namespace ChamferEditor
             }
         }
 
-        private void DrawButtons()
+        /// <summary>What the user clicked on; null for nothing.</summary>
+        private Action DrawButtons()
         {
+            Action action = null;
+            bool isApplied = Modifiers.Any(modifier => modifier.IsApplied);
+            string why = isApplied ? "" : "Nothing is chamfered yet: press Chamfer";
             EditorGUILayout.BeginHorizontal();
-            if (GUILayout.Button("Chamfer")) { Chamfer(Modifiers); }
-            using (new EditorGUI.DisabledScope(!Modifiers.Any(modifier => modifier.IsApplied)))
+            if (GUILayout.Button("Chamfer")) { action = () => ForEach(Modifiers, ModifierActions.Chamfer); }
+            using (new EditorGUI.DisabledScope(!isApplied))
             {
-                if (GUILayout.Button("Revert")) { ForEach(ModifierActions.Revert); }
-                if (GUILayout.Button("Save as Asset")) { Save(); }
+                if (GUILayout.Button(new GUIContent("Revert", why))) { action = Revert; }
+                if (GUILayout.Button(new GUIContent("Save as Asset", why))) { action = Save; }
             }
             EditorGUILayout.EndHorizontal();
+            return action;
         }
 
         private void DrawReport()
@@ -69,31 +80,23 @@ namespace ChamferEditor
             if (modifier.showEdges) { VerdictOverlay.Draw(modifier); }
         }
 
-        private void Chamfer(IEnumerable<ChamferModifier> modifiers)
+        private void Revert()
         {
-            failures.Clear();
-            foreach (var modifier in modifiers) { failures.AddRange(ModifierActions.Chamfer(modifier)); }
-        }
-
-        private void Preview(IEnumerable<ChamferModifier> modifiers)
-        {
-            failures.Clear();
-            foreach (var modifier in modifiers) { failures.AddRange(ModifierActions.Preview(modifier)); }
+            foreach (var modifier in Modifiers) { ModifierActions.Revert(modifier); }
         }
 
         private void Save()
         {
             string chosen = EditorUtility.SaveFolderPanel("Save chamfered meshes", "Assets", "");
             if (string.IsNullOrEmpty(chosen)) { return; }
-            failures.Clear();
             string folder = ModifierActions.ProjectFolder(chosen, Application.dataPath);
             if (folder == null) { failures.Add("Choose a folder inside the project's Assets to save meshes in"); }
-            else { ForEach(modifier => ModifierActions.Save(modifier, folder)); }
+            else { foreach (var modifier in Modifiers) { ModifierActions.Save(modifier, folder); } }
         }
 
-        private void ForEach(Action<ChamferModifier> action)
+        private void ForEach(IEnumerable<ChamferModifier> modifiers, Func<ChamferModifier, IEnumerable<string>> action)
         {
-            foreach (var modifier in Modifiers) { action(modifier); }
+            foreach (var modifier in modifiers) { failures.AddRange(action(modifier)); }
         }
     }
 }

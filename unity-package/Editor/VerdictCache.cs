@@ -40,7 +40,7 @@ namespace ChamferEditor
             foreach (var entry in entries) { known[entry.chamfered] = null; }
             foreach (var result in SceneRun.Run(objects, settings, null, CancellationToken.None, (why, mesh) => { }))
             {
-                var verdicts = new MeshVerdicts(result.Source.Positions, result.Output.Report, settings);
+                var verdicts = new MeshVerdicts(result.Source, result.Output.Report, settings);
                 foreach (var entry in entries.FindAll(entry => entry.original == result.Mesh))
                 {
                     known[entry.chamfered] = verdicts;

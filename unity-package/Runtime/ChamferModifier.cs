@@ -6,7 +6,7 @@ namespace Chamfer
 {
     /// <summary>
     /// Remembers how the meshes of an object were chamfered, and what they were before. It does nothing while
-    /// the game runs: its inspector does the work.
+    /// the game runs: its inspector does the work, and players do not have it.
     /// </summary>
     [DisallowMultipleComponent]
     [AddComponentMenu("Mesh/Chamfer Modifier")]
@@ -14,7 +14,7 @@ namespace Chamfer
     {
         [SerializeField] internal ChamferSettings settings = ChamferSettings.Default;
 
-        [SerializeField, Tooltip("Also chamfer the meshes of all children.")]
+        [SerializeField, Tooltip("Also chamfer the meshes of all children that have no modifier of their own.")]
         internal bool includeChildren;
 
         [SerializeField, Tooltip("Chamfer anew whenever a setting changes.")]
@@ -23,15 +23,38 @@ namespace Chamfer
         [SerializeField, Tooltip("Draw each hard edge in the colour of what became of it.")]
         internal bool showEdges;
 
-        [SerializeField] internal List<ChamferedMesh> meshes = new List<ChamferedMesh>();
-
         /// <summary>How the meshes are chamfered.</summary>
         public ChamferSettings Settings => settings;
 
+#if UNITY_EDITOR
+        // The originals are for the editor only: a player would carry every mesh twice.
+        [SerializeField] internal List<ChamferedMesh> meshes = new List<ChamferedMesh>();
+
         /// <summary>Whether some mesh is chamfered now.</summary>
         public bool IsApplied => meshes.Count > 0;
+
+        private void Reset()
+        {
+            LeaveOutOfBuilds();
+        }
+
+        private void OnValidate()
+        {
+            LeaveOutOfBuilds();
+        }
+
+        /// <summary>Scenes are also cleared when they are built, but nothing is called for prefabs.</summary>
+        internal void LeaveOutOfBuilds()
+        {
+            hideFlags |= HideFlags.DontSaveInBuild;
+        }
+#else
+        /// <summary>Whether some mesh is chamfered now; players do not know.</summary>
+        public bool IsApplied => false;
+#endif
     }
 
+#if UNITY_EDITOR
     /// <summary>One mesh that a modifier replaced.</summary>
     [Serializable]
     internal struct ChamferedMesh
@@ -44,10 +67,20 @@ namespace Chamfer
         /// <summary>What <see cref="chamfered"/> was made with.</summary>
         public ChamferSettings settings;
 
+        /// <summary>
+        /// Tells the original as it was then, the settings, and what stood around: objects with the same key share a
+        /// mesh. Empty if that is not known.
+        /// </summary>
+        public string key;
+
+        /// <summary>Tells the original as it was then; empty if that is not known.</summary>
+        public string sourceKey;
+
         /// <summary>Where the mesh stood then, from the modifier; zeros if that is not known.</summary>
         public Matrix4x4 placed;
 
         /// <summary>How many materials the renderer got because the chamfers have a submesh of their own.</summary>
         public int addedMaterials;
     }
+#endif
 }

@@ -1,16 +1,30 @@
 // Unity's objects and components, as far as the package uses them.
 using System;
 using System.Collections.Generic;
+using System.Linq;
+using UnityEngine.SceneManagement;
 
 namespace UnityEngine
 {
     public class Object
     {
+        /// What was made, where a test asks for it: Unity keeps what nobody uses any more, the collector here does not.
+        public static List<Object> everMade;
         public string name { get; set; }
+        public HideFlags hideFlags { get; set; }
         public bool destroyed;
+        public Object() { if (everMade != null) { everMade.Add(this); } }
         public static void DestroyImmediate(Object target) { target.destroyed = true; }
+        public static void DestroyImmediate(Object target, bool allowAssets) { target.destroyed = true; }
         public static void Destroy(Object target) { target.destroyed = true; }
-        public static T Instantiate<T>(T original) where T : Object { return (T)original.MemberwiseClone(); }
+
+        public static T Instantiate<T>(T original) where T : Object
+        {
+            var copy = (T)original.MemberwiseClone();
+            if (everMade != null) { everMade.Add(copy); }
+            return copy;
+        }
+
         public static bool operator ==(Object a, Object b)
         {
             bool noA = ReferenceEquals(a, null) || a.destroyed, noB = ReferenceEquals(b, null) || b.destroyed;
@@ -33,9 +47,23 @@ namespace UnityEngine
     public class AddComponentMenu : Attribute { public AddComponentMenu(string path) { } }
 
     [Flags]
-    public enum HideFlags { None = 0, NotEditable = 8 }
+    public enum HideFlags { None = 0, HideInHierarchy = 1, HideInInspector = 2, DontSaveInEditor = 4, NotEditable = 8, DontSaveInBuild = 16, HideAndDontSave = 61 }
 
-    public class ScriptableObject : Object { public HideFlags hideFlags { get; set; } }
+    public class ScriptableObject : Object
+    {
+        public static T CreateInstance<T>() where T : ScriptableObject, new() { return new T(); }
+    }
+
+    public static class Resources
+    {
+        internal static readonly List<WeakReference> components = new List<WeakReference>();
+
+        public static T[] FindObjectsOfTypeAll<T>() where T : Object
+        {
+            components.RemoveAll(one => !one.IsAlive);
+            return components.Select(one => one.Target).OfType<T>().Where(one => one != null).ToArray();
+        }
+    }
 
     public class Transform : Component
     {
@@ -44,6 +72,7 @@ namespace UnityEngine
         public Quaternion localRotation { get; set; }
         public Transform parent { get; internal set; }
         public Matrix4x4 worldToLocalMatrix { get { return localToWorldMatrix.inverse; } }
+        public Transform root { get { return parent != null ? parent.root : this; } }
         public Transform() { localScale = new Vector3(1, 1, 1); }
 
         public Matrix4x4 localToWorldMatrix
@@ -58,23 +87,52 @@ namespace UnityEngine
 
     public class Component : Object
     {
+        /// What this is an instance of, in the prefab that its object was made from.
+        public Component source;
+        /// Whether the prefab's file, or the scene's, knows what was set here.
+        public bool recorded;
         public GameObject gameObject { get; internal set; }
         public Transform transform { get { return gameObject.transform; } }
+        public Component() { Resources.components.Add(new WeakReference(this)); }
 
-        public T GetComponent<T>()
-        {
-            var found = gameObject.GetComponents<T>();
-            return found.Length > 0 ? found[0] : default(T);
-        }
-
+        public T GetComponent<T>() { return gameObject.GetComponent<T>(); }
         public T[] GetComponentsInChildren<T>() { return gameObject.GetComponentsInChildren<T>(false); }
+        public T[] GetComponentsInChildren<T>(bool includeInactive) { return gameObject.GetComponentsInChildren<T>(includeInactive); }
+
+        /// From the object itself up.
+        public T[] GetComponentsInParent<T>(bool includeInactive)
+        {
+            var found = new List<T>();
+            for (var above = transform; above != null; above = above.parent) { found.AddRange(above.gameObject.GetComponents<T>()); }
+            return found.ToArray();
+        }
     }
 
     public class MonoBehaviour : Component { }
     public class Material : Object { }
-    public class MeshFilter : Component { public Mesh sharedMesh { get; set; } }
+
+    public class MeshFilter : Component
+    {
+        private Mesh mesh;
+        private bool set;
+        public Mesh sharedMesh
+        {
+            get { return set || source == null ? mesh : ((MeshFilter)source).sharedMesh; }
+            set { mesh = value; set = true; }
+        }
+        /// What Unity does when the prefab changes: what nobody recorded is lost.
+        public void Merge() { if (!recorded) { set = false; } }
+    }
+
+    public class MeshCollider : Component { public Mesh sharedMesh { get; set; } }
     public class MeshRenderer : Renderer { }
-    public class SkinnedMeshRenderer : Renderer { public Mesh sharedMesh { get; set; } }
+
+    public class SkinnedMeshRenderer : Renderer
+    {
+        public Mesh sharedMesh { get; set; }
+        private Transform[] boneValues = new Transform[0];
+        public Transform[] bones { get { return boneValues; } set { boneValues = value; } }
+    }
 
     public class Renderer : Component
     {
@@ -97,22 +155,50 @@ namespace UnityEngine
     public class GameObject : Object
     {
         private readonly List<Component> components = new List<Component>();
+        private Scene ownScene;
+        /// What this is an instance of.
+        public GameObject source;
         public readonly Children children;
         public Transform transform { get; private set; }
-        public GameObject(string name) { this.name = name; transform = AddComponent<Transform>(); children = new Children(transform); }
+
+        public GameObject(string name)
+        {
+            this.name = name;
+            transform = AddComponent<Transform>();
+            children = new Children(transform);
+            ownScene = SceneManager.active;
+        }
+
+        /// That of the root.
+        public Scene scene
+        {
+            get { return transform.parent != null ? transform.parent.gameObject.scene : ownScene; }
+            set { ownScene = value; }
+        }
 
         public T AddComponent<T>() where T : Component, new()
         {
             var component = new T { name = name };
+            Attach(component);
+            return component;
+        }
+
+        internal void Attach(Component component)
+        {
             component.gameObject = this;
             components.Add(component);
-            return component;
+        }
+
+        public T GetComponent<T>()
+        {
+            var found = GetComponents<T>();
+            return found.Length > 0 ? found[0] : default(T);
         }
 
         public T[] GetComponents<T>()
         {
             var found = new List<T>();
-            foreach (object component in components) { if (component is T) { found.Add((T)component); } }
+            foreach (object component in components) { if (component is T && !((Object)component).destroyed) { found.Add((T)component); } }
             return found.ToArray();
         }
 
@@ -122,9 +208,45 @@ namespace UnityEngine
             foreach (var child in children) { found.AddRange(child.GetComponentsInChildren<T>(includeInactive)); }
             return found.ToArray();
         }
+
+        /// A copy of it and all below, whose references to each other are those of the copies.
+        public GameObject Duplicate(Action<Component, Component> linked = null)
+        {
+            var pairs = new Dictionary<object, object>();
+            var copy = DuplicateObjects(pairs);
+            foreach (var pair in pairs.Where(pair => pair.Key is Component).ToList())
+            {
+                Duplicates.Redirect(pair.Value, pairs);
+                if (linked != null) { linked((Component)pair.Key, (Component)pair.Value); }
+            }
+            return copy;
+        }
+
+        private GameObject DuplicateObjects(Dictionary<object, object> pairs)
+        {
+            var copy = new GameObject(name) { ownScene = ownScene };
+            pairs[this] = copy;
+            pairs[transform] = copy.transform;
+            copy.transform.localPosition = transform.localPosition;
+            copy.transform.localScale = transform.localScale;
+            foreach (var component in GetComponents<Component>())
+            {
+                if (component is Transform) { continue; }
+                var twin = Instantiate(component);
+                Resources.components.Add(new WeakReference(twin));
+                copy.Attach(twin);
+                pairs[component] = twin;
+            }
+            foreach (var child in children) { copy.children.Add(child.DuplicateObjects(pairs)); }
+            return copy;
+        }
     }
 
-    public static class Application { public static string dataPath { get { return "/home/me/Game/Assets"; } } }
+    public static class Application
+    {
+        public static bool isPlaying;
+        public static string dataPath { get { return "/home/me/Game/Assets"; } }
+    }
 
     public static class Debug
     {
@@ -135,19 +257,21 @@ namespace UnityEngine
         public static void LogWarning(object message, Object context) { LogWarning(message); }
         public static void LogError(object message) { logged.Add("error: " + message); }
     }
+}
 
-    public class GUILayoutOption { }
-
-    public static class GUILayout
+namespace UnityEngine.SceneManagement
+{
+    public struct Scene : IEquatable<Scene>
     {
-        /// The button that the mouse is on; only one reacts to a click.
-        public static string clicked;
-
-        public static bool Button(string text, params GUILayoutOption[] options)
-        {
-            if (text != clicked || UnityEditor.EditorGUI.disabled) { return false; }
-            clicked = null;
-            return true;
-        }
+        public string name;
+        public List<GameObject> roots;
+        public GameObject[] GetRootGameObjects() { return roots.ToArray(); }
+        public bool Equals(Scene other) { return name == other.name; }
+        public static bool operator ==(Scene a, Scene b) { return a.Equals(b); }
+        public static bool operator !=(Scene a, Scene b) { return !a.Equals(b); }
+        public override bool Equals(object other) { return other is Scene && Equals((Scene)other); }
+        public override int GetHashCode() { return (name ?? "").GetHashCode(); }
     }
+
+    public static class SceneManager { public static Scene active = new Scene { name = "Main" }; }
 }

@@ -32,7 +32,7 @@ namespace Chamfer.Tests
             for (int time = 0; time < 2; time++)
             {
                 Check.Equal(0, Run("Assets/Meshes"));
-                Check.Equal(2, AssetDatabase.paths.Values.Count(path => path.StartsWith("Assets/Meshes/")));
+                Check.Equal(2, Scene.FilesIn("Assets/Meshes/").Count);
             }
             Check.Equal(12 * 3, mesh.GetTriangles(0).Length);
         }
@@ -44,7 +44,7 @@ namespace Chamfer.Tests
             AssetDatabase.paths[mesh] = "Assets/Earlier/Cube Chamfered.asset";
             Check.Equal(0, Run("Assets/Earlier"));
             Check.Equal(12 * 3, mesh.GetTriangles(0).Length);
-            Check.Equal(1, AssetDatabase.paths.Values.Count(path => path.StartsWith("Assets/Earlier/")));
+            Check.Equal(1, Scene.FilesIn("Assets/Earlier/").Count);
         }
 
         public static void Models_are_labelled_and_imported_again()

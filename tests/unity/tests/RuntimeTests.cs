@@ -176,7 +176,7 @@ namespace Chamfer.Tests
             mesh.SetUVs(1, new Vector3[24]);
             mesh.readable = false;
             var result = Run(mesh).Mesh;
-            Check.Equal(132, result.GetTriangles(0).Length);
+            Check.Equal(132, MeshReader.Read(result).Submeshes[0].Indices.Length);
             Check.Equal(3, result.GetVertexAttributeDimension(VertexAttribute.TexCoord1));
         }
 
@@ -186,8 +186,52 @@ namespace Chamfer.Tests
             mesh.readable = false;
             var result = Run(mesh).Mesh;
             Check.Equal(2, result.blendShapeCount);
-            Check.Equal(result.vertexCount, result.GetBonesPerVertex().Length);
+            Check.Equal(result.vertexCount, MeshReader.Read(result).Skin.BonesPerVertex.Length);
             Check.That(!mesh.readable && mesh != null, "the source is as it was");
+        }
+
+        public static void A_result_is_stored_as_its_source()
+        {
+            foreach (bool flag in new[] { false, true })
+            {
+                var mesh = Shapes.Cube();
+                mesh.readable = mesh.keepVertices = flag;
+                mesh.keepIndices = !flag;
+                mesh.compression = flag ? UnityEditor.ModelImporterMeshCompression.High : UnityEditor.ModelImporterMeshCompression.Off;
+                mesh.indexFormat = flag ? IndexFormat.UInt32 : IndexFormat.UInt16;
+                var result = Run(mesh).Mesh;
+                Check.Equal(flag, result.isReadable);
+                Check.Equal(flag, result.keepVertices);
+                Check.Equal(!flag, result.keepIndices);
+                Check.Equal(mesh.compression, result.compression);
+                Check.Equal(mesh.indexFormat, result.indexFormat);
+                Check.Equal(mesh.indexFormat, MeshChamfer.RunScene(new[] { new PlacedMesh(mesh, Matrix4x4.identity) }, Width(0.1f))[mesh].Mesh.indexFormat);
+            }
+        }
+
+        public static void What_cannot_be_read_can_be_written_all_the_same()
+        {
+            Mesh source = Shapes.FullCube(), target = Shapes.FullCube();
+            source.readable = target.readable = false;
+            var arrays = MeshReader.Read(Run(source).Mesh);
+            MeshWriter.Overwrite(target, arrays, source);
+            Check.Equal(132, MeshReader.Read(target).Submeshes[0].Indices.Length);
+            Check.Equal(2, target.blendShapeCount);
+            Check.That(!target.isReadable, "as before");
+            source.readable = true;
+            MeshWriter.Overwrite(target, arrays, source);
+            Check.That(target.isReadable, "as the source");
+        }
+
+        /// One stream after the other: what a mesh held before must not stay.
+        public static void Overwriting_leaves_nothing_of_before()
+        {
+            var target = Shapes.FullCube();
+            MeshWriter.Overwrite(target, MeshReader.Read(Shapes.Cube()), target);
+            var found = MeshReader.Read(target);
+            Check.That(found.Tangents == null && found.Colors == null && found.Skin.BonesPerVertex.Length == 0, "streams");
+            Check.That(found.Uvs.All(uvs => uvs == null), "channels");
+            Check.Equal(0, target.blendShapeCount);
         }
 
         public static void What_even_a_copy_does_not_show_is_refused()

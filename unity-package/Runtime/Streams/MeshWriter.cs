@@ -11,24 +11,35 @@ namespace Chamfer.Streams
         /// <summary>The most vertices that 16-bit indices reach: Unity keeps the last one for itself.</summary>
         private const int MostShortVertices = 65535;
 
-        internal static Mesh Write(MeshArrays arrays)
+        /// <summary>A new mesh, with the flags of its source: whether scripts may read it, and how it is compressed.</summary>
+        internal static Mesh Write(MeshArrays arrays, Mesh source)
         {
             var mesh = new Mesh { name = arrays.Name };
             Fill(mesh, arrays);
+            MeshFlags.Copy(source, mesh);
             return mesh;
         }
 
-        /// <summary>Replaces everything that a mesh holds: importers know their meshes by identity.</summary>
-        internal static void Overwrite(Mesh mesh, MeshArrays arrays)
+        /// <summary>
+        /// Replaces everything that a mesh holds: importers know their meshes by identity. The source may be the mesh
+        /// itself.
+        /// </summary>
+        internal static void Overwrite(Mesh mesh, MeshArrays arrays, Mesh source)
         {
+            bool isReadable = source.isReadable;
+            // Unity refuses to write what it does not let anybody read.
+            MeshFlags.SetReadable(mesh, true);
             mesh.Clear();
             mesh.ClearBlendShapes();
             Fill(mesh, arrays);
+            MeshFlags.Copy(source, mesh);
+            MeshFlags.SetReadable(mesh, isReadable);
         }
 
         private static void Fill(Mesh mesh, MeshArrays arrays)
         {
-            mesh.indexFormat = arrays.Positions.Length > MostShortVertices ? IndexFormat.UInt32 : IndexFormat.UInt16;
+            bool isWide = arrays.HasWideIndices || arrays.Positions.Length > MostShortVertices;
+            mesh.indexFormat = isWide ? IndexFormat.UInt32 : IndexFormat.UInt16;
             WriteVertices(mesh, arrays);
             WriteSubmeshes(mesh, arrays.Submeshes);
             if (arrays.Skin != null) { WriteSkin(mesh, arrays.Skin); }

@@ -16,6 +16,7 @@ namespace Chamfer.Streams
             {
                 Name = source.Name,
                 Bounds = source.Bounds,
+                HasWideIndices = source.HasWideIndices,
                 Positions = PinnedArrays.Copy<Vector3>(native.Positions, count) ?? new Vector3[0],
                 Normals = PinnedArrays.Copy<Vector3>(native.Normals, count),
                 Tangents = PinnedArrays.Copy<Vector4>(native.Tangents, count),

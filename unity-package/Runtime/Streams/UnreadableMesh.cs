@@ -26,6 +26,7 @@ namespace Chamfer.Streams
                 var arrays = Streams(snapshot[0]);
                 arrays.Name = mesh.name;
                 arrays.Bounds = mesh.bounds;
+                arrays.HasWideIndices = MeshReader.HasWideIndices(mesh);
                 arrays.HasByteColors = MeshReader.HasByteColors(mesh);
                 return arrays;
             }
@@ -37,7 +38,7 @@ namespace Chamfer.Streams
             var copy = UnityEngine.Object.Instantiate(mesh);
             try
             {
-                MarkReadable(copy);
+                MeshFlags.SetReadable(copy, true);
                 if (!copy.isReadable || copy.vertexCount != mesh.vertexCount)
                 {
                     throw new MeshNotReadableException(mesh.name, ", because it has a skin or blend shapes");
@@ -47,17 +48,6 @@ namespace Chamfer.Streams
                 return arrays;
             }
             finally { UnityEngine.Object.DestroyImmediate(copy); }
-        }
-
-        private static void MarkReadable(Mesh mesh)
-        {
-            using (var serialized = new SerializedObject(mesh))
-            {
-                var flag = serialized.FindProperty("m_IsReadable");
-                if (flag == null) { return; }
-                flag.boolValue = true;
-                serialized.ApplyModifiedPropertiesWithoutUndo();
-            }
         }
 
         private static MeshArrays Streams(Mesh.MeshData data)

@@ -1,0 +1,42 @@
+using Chamfer;
+using UnityEngine;
+
+namespace ChamferEditor
+{
+    /// <summary>
+    /// Lies hidden in a file beside meshes that were chamfered: what they were made of. Players do not get it.
+    /// </summary>
+    internal sealed class ChamferRecord : ScriptableObject
+    {
+        /// <summary>None in a model: its meshes were replaced when it was imported.</summary>
+        [SerializeField] internal Mesh source;
+
+        [SerializeField] internal ChamferSettings settings;
+
+        /// <summary>Tells the source as it was then.</summary>
+        [SerializeField] internal string sourceKey;
+
+        /// <summary>Whether the package made the file by itself: what is saved by hand is the user's.</summary>
+        [SerializeField] internal bool isManaged;
+
+        /// <summary>The prefab whose stage the mesh was made in, as its GUID; empty where there are others, too.</summary>
+        [SerializeField] internal string owner = "";
+
+        /// <summary>In a model: what came of it, in words.</summary>
+        [SerializeField] internal string report;
+
+        /// <summary>In a model: what could not be chamfered.</summary>
+        [SerializeField] internal string[] failures = new string[0];
+
+        internal static ChamferRecord Make(Mesh source, ChamferSettings settings)
+        {
+            var record = CreateInstance<ChamferRecord>();
+            record.name = "Chamfer Record";
+            record.hideFlags = HideFlags.HideInHierarchy | HideFlags.DontSaveInBuild;
+            record.settings = settings;
+            record.source = source;
+            record.sourceKey = source != null ? MeshKeys.Of(source) : MeshKeys.Unknown;
+            return record;
+        }
+    }
+}

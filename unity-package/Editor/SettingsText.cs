@@ -1,0 +1,21 @@
+using System.Globalization;
+using Chamfer;
+
+namespace ChamferEditor
+{
+    /// <summary>Settings as text: equal texts chamfer alike.</summary>
+    internal static class SettingsText
+    {
+        internal static string Of(ChamferSettings settings)
+        {
+            return Number(settings.width) + " " + settings.unit + " " + settings.verify + " " + settings.submeshMode + " "
+                + settings.submesh;
+        }
+
+        /// <summary>As it is written on every machine, to the last bit.</summary>
+        internal static string Number(float number)
+        {
+            return number.ToString("R", CultureInfo.InvariantCulture);
+        }
+    }
+}
