@@ -17,7 +17,17 @@ const STRICT: [&str; 4] = [
     // Fields that only native code or the inspector sets.
     "-nowarn:649",
 ];
-const EDITOR: &[&str] = &["UNITY_EDITOR"];
+/// The newest editor, and the oldest.
+const EDITOR: &[&str] = &[
+    "UNITY_EDITOR",
+    "UNITY_2021_3_OR_NEWER",
+    "UNITY_2022_3_OR_NEWER",
+    "UNITY_2023_1_OR_NEWER",
+    "UNITY_6000_0_OR_NEWER",
+    "UNITY_6000_2_OR_NEWER",
+    "UNITY_6000_3_OR_NEWER",
+];
+const OLDEST_EDITOR: &[&str] = &["UNITY_EDITOR", "UNITY_2021_3_OR_NEWER"];
 /// What Unity defines for players that have no library of the package.
 const NO_LIBRARY: [&str; 9] = [
     "UNITY_IOS",
@@ -126,6 +136,7 @@ fn compile_all() -> Program {
     compile(&folder, "Chamfer.Runtime.dll", "unity-package/Runtime", EDITOR, &unity);
     compile(&folder, "Chamfer.Editor.dll", "unity-package/Editor", EDITOR, &runtime);
     compile(&folder, "Chamfer.Tests.exe", "tests/unity/tests", EDITOR, &all);
+    compile_for_oldest(&folder);
     // Samples are copied into projects, where they see what is public only.
     compile(&folder, "Samples.dll", "unity-package/Samples~", EDITOR, &runtime);
 
@@ -133,6 +144,14 @@ fn compile_all() -> Program {
     let built = env::current_exe().unwrap().with_file_name(&library);
     fs::copy(&built, folder.join(&library)).expect("cargo puts the library beside its tests");
     Program { folder }
+}
+
+fn compile_for_oldest(folder: &Path) {
+    let folder = folder.join("oldest");
+    fs::create_dir_all(&folder).unwrap();
+    let runtime = ["../UnityStandIns.dll", "Chamfer.Runtime.dll", "System.Core.dll"];
+    compile(&folder, runtime[1], "unity-package/Runtime", OLDEST_EDITOR, &runtime[..1]);
+    compile(&folder, "Chamfer.Editor.dll", "unity-package/Editor", OLDEST_EDITOR, &runtime);
 }
 
 /// Compiles all C# files below a folder of this repository, with symbols defined.

@@ -5,6 +5,7 @@ using Chamfer;
 using UnityEditor;
 using UnityEditorInternal;
 using UnityEngine;
+using UnityEngine.Serialization;
 using Object = UnityEngine.Object;
 
 namespace ChamferEditor
@@ -19,8 +20,8 @@ namespace ChamferEditor
         [Tooltip("For the menu entry, and for models with the label Chamfer.")]
         [SerializeField] internal ChamferSettings settings = Usual();
 
-        [Tooltip("Models in these folders are chamfered when they are imported.")]
-        [SerializeField] internal List<FolderRule> folders = new List<FolderRule>();
+        [Tooltip("Models that these concern are chamfered when they are imported.")]
+        [SerializeField, FormerlySerializedAs("folders")] internal List<ModelRule> rules = new List<ModelRule>();
 
         [NonSerialized] private string written;
 
@@ -74,19 +75,5 @@ namespace ChamferEditor
         {
             if (made != null && ImportDependency.Text(made) != made.written) { made.Write(); }
         }
-    }
-
-    /// <summary>A folder whose models are chamfered.</summary>
-    [Serializable]
-    internal struct FolderRule
-    {
-        [Tooltip("Such as Assets/Models.")]
-        public string folder;
-
-        [Tooltip("At width 0, the settings for all models count.")]
-        public ChamferSettings settings;
-
-        /// <summary>Without a slash at its end, which users may write; never null.</summary>
-        internal string Folder => (folder ?? "").TrimEnd('/');
     }
 }

@@ -20,10 +20,10 @@ namespace ChamferEditor
             var settings = ChamferProjectSettings.instance;
             var serialized = new SerializedObject(settings);
             EditorGUILayout.PropertyField(serialized.FindProperty("settings"), true);
-            EditorGUILayout.PropertyField(serialized.FindProperty("folders"), true);
+            EditorGUILayout.PropertyField(serialized.FindProperty("rules"), true);
             if (serialized.ApplyModifiedProperties()) { settings.Write(); }
             EditorGUILayout.HelpBox("Models that are imported already follow when you press this.", MessageType.Info);
-            if (GUILayout.Button("Import Models Again")) { ImportDependency.ImportAgain(); }
+            if (GUILayout.Button("Import Models Again")) { ModelImports.All(); }
         }
     }
 }

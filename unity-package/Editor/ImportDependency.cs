@@ -1,4 +1,6 @@
-using System.Text;
+using System;
+using System.Collections.Generic;
+using System.Linq;
 using Chamfer.Streams;
 using UnityEditor;
 using UnityEngine;
@@ -6,26 +8,70 @@ using UnityEngine;
 namespace ChamferEditor
 {
     /// <summary>
-    /// Makes Unity import chamfered models again when Project Settings > Chamfer change, or the library does.
+    /// What imported models depend on, by name, so that Unity imports them again when it changes, and never takes
+    /// from a team's cache what was made otherwise. Every model names what could concern it, also one that is left
+    /// alone.
     /// </summary>
     internal static class ImportDependency
     {
-        /// <summary>What chamfered models depend on.</summary>
-        internal const string Name = "com.chamfer.unity/ProjectSettings";
+        private const string Prefix = "com.chamfer.unity/";
+        private const string FolderPrefix = Prefix + "Folder/";
+        private const string LabelPrefix = Prefix + "Label/";
 
-        /// <summary>Tells Unity of the settings as they are now.</summary>
-        internal static void Register()
+        /// <summary>What chamfered models depend on: the settings for all, and the library.</summary>
+        internal const string Settings = Prefix + "ProjectSettings";
+
+        /// <summary>The rules that hold wherever a model lies.</summary>
+        internal const string Rules = Prefix + "Rules";
+
+        private static readonly Dictionary<string, string> labels = new Dictionary<string, string>();
+
+        /// <summary>What a model depends on before it is known whether it is chamfered.</summary>
+        internal static IEnumerable<string> Of(string path)
         {
-            AssetDatabase.RegisterCustomDependency(Name, Hash128.Compute(Text(ChamferProjectSettings.instance)));
+            yield return Rules;
+            yield return LabelPrefix + AssetDatabase.AssetPathToGUID(path);
+            for (string folder = AssetNames.Folder(path); folder.Length > 0; folder = AssetNames.Folder(folder))
+            {
+                yield return FolderPrefix + folder;
+            }
         }
 
-        /// <summary>Imports the models that the settings concern.</summary>
-        internal static void ImportAgain()
+        /// <summary>Tells Unity of the settings and labels as they are now.</summary>
+        internal static void Register()
         {
-            Register();
-            AssetDatabase.Refresh();
-            // Those that were not chamfered before depend on nothing yet.
-            foreach (var rule in ChamferProjectSettings.instance.folders) { ImportFolder(rule.Folder); }
+            var project = ChamferProjectSettings.instance;
+            Register(Settings, LibraryCheck.Version() + "\n" + SettingsText.Of(project.settings));
+            // A folder whose last rule is gone must not keep what was told of it.
+            AssetDatabase.UnregisterCustomDependencyPrefixFilter(FolderPrefix);
+            Register(Rules, TextOf(project.rules.Where(rule => rule.Folder.Length == 0)));
+            foreach (var rules in project.rules.Where(rule => rule.Folder.Length > 0).GroupBy(rule => rule.Folder))
+            {
+                Register(FolderPrefix + rules.Key, TextOf(rules));
+            }
+            RegisterLabels();
+        }
+
+        /// <summary>Tells Unity of the labels of models as they are now; returns those that have others than before.</summary>
+        internal static List<string> RegisterLabels()
+        {
+            var changed = new List<string>();
+            foreach (string guid in AssetDatabase.FindAssets("t:Model"))
+            {
+                string path = AssetDatabase.GUIDToAssetPath(guid), before;
+                string now = string.Join("\n", ModelFacts.At(path).Labels.Where(IsOfInterest).OrderBy(label => label, StringComparer.Ordinal));
+                if (now == (labels.TryGetValue(guid, out before) ? before : "")) { continue; }
+                labels[guid] = now;
+                Register(LabelPrefix + guid, now);
+                changed.Add(path);
+            }
+            return changed;
+        }
+
+        /// <summary>All that the settings say.</summary>
+        internal static string Text(ChamferProjectSettings project)
+        {
+            return SettingsText.Of(project.settings) + "\n" + TextOf(project.rules);
         }
 
         [InitializeOnLoadMethod]
@@ -35,25 +81,20 @@ namespace ChamferEditor
             if (!AssetDatabase.IsAssetImportWorkerProcess()) { Register(); }
         }
 
-        private static void ImportFolder(string folder)
+        private static bool IsOfInterest(string label)
         {
-            if (!AssetDatabase.IsValidFolder(folder)) { return; }
-            foreach (string guid in AssetDatabase.FindAssets("t:Model", new[] { folder }))
-            {
-                AssetDatabase.ImportAsset(AssetDatabase.GUIDToAssetPath(guid), ImportAssetOptions.ForceUpdate);
-            }
+            return ImportRule.IsLabel(label)
+                || ChamferProjectSettings.instance.rules.Any(rule => string.Equals(rule.label, label, StringComparison.OrdinalIgnoreCase));
         }
 
-        /// <summary>All that the settings say.</summary>
-        internal static string Text(ChamferProjectSettings project)
+        private static string TextOf(IEnumerable<ModelRule> rules)
         {
-            var text = new StringBuilder(LibraryCheck.Version()).Append('\n');
-            text.Append(SettingsText.Of(project.settings));
-            foreach (var rule in project.folders)
-            {
-                text.Append('\n').Append(rule.Folder).Append(' ').Append(SettingsText.Of(rule.settings));
-            }
-            return text.ToString();
+            return string.Join("\n", rules.Select(rule => rule.Text()));
+        }
+
+        private static void Register(string name, string text)
+        {
+            AssetDatabase.RegisterCustomDependency(name, Hash128.Compute(text));
         }
     }
 }

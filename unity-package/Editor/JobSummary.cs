@@ -1,4 +1,5 @@
 using System.Collections.Generic;
+using System.Linq;
 
 namespace ChamferEditor
 {
@@ -6,6 +7,7 @@ namespace ChamferEditor
     internal sealed class JobSummary
     {
         private int meshes, without, already, chamfered, narrowed, skipped;
+        private readonly List<string> notes = new List<string>();
         private readonly List<string> failures = new List<string>();
 
         /// <summary>Whether some mesh could not be chamfered.</summary>
@@ -16,6 +18,7 @@ namespace ChamferEditor
             failures.AddRange(job.Failures);
             foreach (var result in job.Results.Values)
             {
+                if (result.Report.Quads > 0) { notes.Add(QuadsText.Of(result.Source)); }
                 if (result.Report.HardEdges == 0) { without++; continue; }
                 meshes++;
                 chamfered += result.Report.Chamfered;
@@ -30,6 +33,15 @@ namespace ChamferEditor
             already += count;
         }
 
+        /// <summary>A model that was imported again, or need not be.</summary>
+        internal void AddImported(ChamferRecord record, bool isAlready)
+        {
+            if (record == null) { return; }
+            if (isAlready) { already++; }
+            else { notes.Add(record.report); }
+            failures.AddRange(record.failures);
+        }
+
         /// <summary>What could not be done.</summary>
         internal void AddFailures(IEnumerable<string> sentences)
         {
@@ -42,7 +54,7 @@ namespace ChamferEditor
                 + " skipped";
             if (without > 0) { text += "; " + Meshes(without) + " without hard edges left alone"; }
             if (already > 0) { text += "; " + Meshes(already) + " chamfered already left alone"; }
-            return failures.Count == 0 ? text : text + "\n" + string.Join("\n", failures);
+            return string.Join("\n", new[] { text }.Concat(notes).Concat(failures));
         }
 
         private static string Meshes(int count)

@@ -17,6 +17,9 @@ namespace Chamfer
         /// <summary>How many triangles the result has.</summary>
         public int TrianglesAfter { get; internal set; }
 
+        /// <summary>How many faces of four corners there are, which stay as they are.</summary>
+        public int Quads { get; internal set; }
+
         /// <summary>Hard edges with two sides.</summary>
         public int HardEdges { get; internal set; }
 

@@ -122,7 +122,12 @@ namespace UnityEditor
         }
 
         public static void Refresh() { Project.Refresh(); }
-        public static Object LoadMainAssetAtPath(string path) { return LoadAllAssetsAtPath(path).FirstOrDefault(asset => asset is GameObject || asset is Mesh); }
+        public static Object LoadMainAssetAtPath(string path)
+        {
+            var all = LoadAllAssetsAtPath(path);
+            return all.FirstOrDefault(asset => asset is GameObject) ?? all.FirstOrDefault(asset => asset is Mesh) ?? all.FirstOrDefault();
+        }
+
         public static Type GetMainAssetTypeAtPath(string path) { var main = LoadMainAssetAtPath(path); return main != null ? main.GetType() : null; }
 
         /// The kinds that are used: t:Model, t:Prefab, t:Mesh, and l:Label.
@@ -202,6 +207,7 @@ namespace UnityEditor
             Tell(new string[0], new[] { to }, new[] { from });
         }
 
+        public static Object Loaded(string path) { return AssetDatabase.LoadMainAssetAtPath(path); }
         public static AssetImporter ImporterOf(string path) { return files.ContainsKey(path) ? files[path].Importer : null; }
 
         internal static IEnumerable<string> Models(string filter, string[] folders)

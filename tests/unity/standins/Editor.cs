@@ -16,6 +16,15 @@ namespace UnityEditor
         public static void SetMeshCompression(Mesh mesh, ModelImporterMeshCompression value) { mesh.compression = value; }
     }
 
+    public static class MeshLodUtility
+    {
+        public static void GenerateMeshLods(Mesh mesh, int meshLodLimit = -1)
+        {
+            mesh.lodCount = meshLodLimit + 1;
+            mesh.lodsOf = mesh.version;
+        }
+    }
+
     public static class EditorUtility
     {
         public static readonly HashSet<Object> persistent = new HashSet<Object>();

@@ -24,6 +24,9 @@ namespace UnityEngine
         public bool readable = true, canBeMadeReadable = true, keepVertices = true, keepIndices = true;
         public UnityEditor.ModelImporterMeshCompression compression;
 
+        /// Levels of detail, and of which version of the mesh they were made.
+        public int lodCount = 1, lodsOf;
+
         /// Counts what changed, for EditorUtility.GetDirtyCount.
         public int version;
 
@@ -95,6 +98,7 @@ namespace UnityEngine
         public void Clear()
         {
             if (!Writes("everything")) { return; }
+            lodCount = 1;
             positions = normalValues = new Vector3[0];
             tangentValues = new Vector4[0];
             colorValues = new Color[0];

@@ -42,6 +42,12 @@ namespace UnityEngine
     [AttributeUsage(AttributeTargets.Field)]
     public class SerializeField : Attribute { }
 
+    public static class Mathf
+    {
+        public static float Max(float a, float b) { return Math.Max(a, b); }
+        public static int Max(int a, int b) { return Math.Max(a, b); }
+    }
+
     public class DisallowMultipleComponent : Attribute { }
 
     public class AddComponentMenu : Attribute { public AddComponentMenu(string path) { } }
@@ -257,6 +263,12 @@ namespace UnityEngine
         public static void LogWarning(object message, Object context) { LogWarning(message); }
         public static void LogError(object message) { logged.Add("error: " + message); }
     }
+}
+
+namespace UnityEngine.Serialization
+{
+    [AttributeUsage(AttributeTargets.Field)]
+    public class FormerlySerializedAsAttribute : Attribute { public FormerlySerializedAsAttribute(string name) { } }
 }
 
 namespace UnityEngine.SceneManagement

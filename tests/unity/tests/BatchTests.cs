@@ -59,6 +59,31 @@ namespace Chamfer.Tests
             Check.Equal("Assets/Models/model.fbx", AssetDatabase.imported.Last());
         }
 
+        /// What was imported with a label is chamfered: trying it would chamfer it twice.
+        public static void A_second_run_leaves_models_alone()
+        {
+            Project.postprocessors.Add(typeof(ModelChamfer));
+            try
+            {
+                Project.AddModel("Assets/Again/a.fbx", () => Scene.Holding(Shapes.Cube(), "Model"));
+                Check.Equal(0, Run("Assets/Again"));
+                AssetDatabase.imported.Clear();
+                Check.Equal(0, Run("Assets/Again"));
+                Check.Equal(0, AssetDatabase.imported.Count);
+                Check.That(Debug.logged.Last().EndsWith("1 mesh chamfered already left alone"), Debug.logged.Last());
+                Check.Equal(0, Run("Assets/Again", "0.2"));
+                Check.Equal("Assets/Again/a.fbx", AssetDatabase.imported.Single());
+                Check.That(Debug.logged.Last().EndsWith("\nCube: 12 hard edges: 12 chamfered, 0 narrowed, 0 skipped; 12 -> 44 triangles"), Debug.logged.Last());
+            }
+            finally { Project.postprocessors.Clear(); }
+        }
+
+        public static void The_editor_ends_with_the_exit_code()
+        {
+            ChamferBatch.Run();
+            Check.Equal(2, EditorApplication.exitCode);
+        }
+
         public static void Failures_have_an_exit_code()
         {
             var broken = Shapes.Cube();

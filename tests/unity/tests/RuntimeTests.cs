@@ -155,6 +155,19 @@ namespace Chamfer.Tests
             Check.Equal(132, mesh.GetIndices(0).Length);
         }
 
+        public static void Points_and_strips_of_lines_pass()
+        {
+            var source = Shapes.FullCube();
+            source.subMeshCount = 3;
+            source.SetIndices(new[] { 5 }, MeshTopology.Points, 1, false);
+            source.SetIndices(new[] { 0, 1, 3 }, MeshTopology.LineStrip, 2, false);
+            var result = Run(source);
+            Check.Equal(MeshTopology.Points, result.Mesh.GetTopology(1));
+            Check.Equal(source.vertices[5], result.Mesh.vertices[result.Mesh.GetIndices(1)[0]]);
+            Check.Equal(3, result.Mesh.GetIndices(2).Length);
+            Check.Equal(0, result.Report.Quads);
+        }
+
         public static void Bounds_never_shrink()
         {
             var mesh = Shapes.Cube();

@@ -16,6 +16,7 @@ namespace Chamfer.Streams
         {
             var mesh = new Mesh { name = arrays.Name };
             Fill(mesh, arrays);
+            MeshLods.Make(mesh, MeshLods.Count(source));
             MeshFlags.Copy(source, mesh);
             return mesh;
         }
@@ -27,11 +28,13 @@ namespace Chamfer.Streams
         internal static void Overwrite(Mesh mesh, MeshArrays arrays, Mesh source)
         {
             bool isReadable = source.isReadable;
+            int levels = MeshLods.Count(source);
             // Unity refuses to write what it does not let anybody read.
             MeshFlags.SetReadable(mesh, true);
             mesh.Clear();
             mesh.ClearBlendShapes();
             Fill(mesh, arrays);
+            MeshLods.Make(mesh, levels);
             MeshFlags.Copy(source, mesh);
             MeshFlags.SetReadable(mesh, isReadable);
         }

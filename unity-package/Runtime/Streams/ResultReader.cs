@@ -47,6 +47,7 @@ namespace Chamfer.Streams
             {
                 VerticesBefore = source.Positions.Length,
                 VerticesAfter = output.Positions.Length,
+                Quads = Quads(source),
                 TrianglesBefore = Triangles(source),
                 TrianglesAfter = Triangles(output),
                 HardEdges = (int)totals.HardEdges,
@@ -102,6 +103,16 @@ namespace Chamfer.Streams
                 if (submesh.IsTriangles) { corners += submesh.Indices.Length; }
             }
             return corners / 3;
+        }
+
+        private static int Quads(MeshArrays mesh)
+        {
+            int corners = 0;
+            foreach (var submesh in mesh.Submeshes)
+            {
+                if (submesh.Topology == MeshTopology.Quads) { corners += submesh.Indices.Length; }
+            }
+            return corners / 4;
         }
 
         private static NativeEdgeVerdict[] Verdicts(ResultHandle result)

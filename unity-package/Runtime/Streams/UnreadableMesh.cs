@@ -19,8 +19,8 @@ namespace Chamfer.Streams
 #else
         internal static MeshArrays Read(Mesh mesh)
         {
-            // A snapshot lacks what deforms a mesh.
-            if (SkinReader.IsDeformed(mesh)) { return ReadCopy(mesh); }
+            // A snapshot lacks what deforms a mesh, and shows the triangles of all levels of detail as one.
+            if (SkinReader.IsDeformed(mesh) || MeshLods.Count(mesh) > 1) { return ReadCopy(mesh); }
             using (var snapshot = MeshUtility.AcquireReadOnlyMeshData(mesh))
             {
                 var arrays = Streams(snapshot[0]);
