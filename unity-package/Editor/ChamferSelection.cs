@@ -73,14 +73,14 @@ namespace ChamferEditor
             {
                 var run = new ModifierRun(modifier, modifier.settings);
                 if (!run.TryChamfer()) { return false; }
-                summary.AddFailures(run.Failures);
+                summary.Add(run);
             }
             return true;
         }
 
         private void AddHierarchy(GameObject root)
         {
-            foreach (var slot in MeshSlot.In(root, true))
+            foreach (var slot in MeshSlot.In(root, true).Where(slot => !ModifierLods.IsFar(slot.Holder)))
             {
                 string why = SlotEditing.WhyLocked(slot.Holder);
                 if (why != null) { reasons.Add(why); }

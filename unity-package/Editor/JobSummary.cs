@@ -27,6 +27,11 @@ namespace ChamferEditor
             }
         }
 
+        internal void Add(ModifierRun run)
+        {
+            Add(run.Job);
+        }
+
         /// <summary>Meshes that were chamfered before, and are left as they are.</summary>
         internal void AddAlready(int count)
         {
@@ -40,12 +45,6 @@ namespace ChamferEditor
             if (isAlready) { already++; }
             else { notes.Add(record.report); }
             failures.AddRange(record.failures);
-        }
-
-        /// <summary>What could not be done.</summary>
-        internal void AddFailures(IEnumerable<string> sentences)
-        {
-            failures.AddRange(sentences);
         }
 
         public override string ToString()

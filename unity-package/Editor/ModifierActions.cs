@@ -34,6 +34,7 @@ namespace ChamferEditor
         internal static void Revert(ChamferModifier modifier)
         {
             var former = modifier.meshes.ToArray();
+            ModifierLods.Drop(modifier);
             Restore(modifier, RevertName);
             SlotEditing.Changed(modifier);
             DropUnused(former);

@@ -60,6 +60,7 @@ namespace ChamferEditor
             {
                 if (GUILayout.Button(new GUIContent("Revert", why))) { action = Revert; }
                 if (GUILayout.Button(new GUIContent("Save as Asset", why))) { action = Save; }
+                if (GUILayout.Button(new GUIContent("Make LOD", why))) { action = MakeLods; }
             }
             EditorGUILayout.EndHorizontal();
             return action;
@@ -70,6 +71,7 @@ namespace ChamferEditor
             foreach (string failure in failures) { EditorGUILayout.HelpBox(failure, MessageType.Warning); }
             foreach (var modifier in Modifiers.Where(modifier => modifier.IsApplied))
             {
+                if (ModifierState.IsOutdated(modifier)) { EditorGUILayout.HelpBox(ReportText.OutOfDate, MessageType.Warning); }
                 EditorGUILayout.HelpBox(ReportText.Of(modifier), MessageType.None);
             }
         }
@@ -83,6 +85,11 @@ namespace ChamferEditor
         private void Revert()
         {
             foreach (var modifier in Modifiers) { ModifierActions.Revert(modifier); }
+        }
+
+        private void MakeLods()
+        {
+            failures.AddRange(Modifiers.Select(ModifierLods.Make).Where(why => why != null));
         }
 
         private void Save()

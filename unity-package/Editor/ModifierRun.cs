@@ -33,6 +33,9 @@ namespace ChamferEditor
         /// <summary>One sentence for each mesh that could not be chamfered.</summary>
         internal IReadOnlyList<string> Failures => job.Failures;
 
+        /// <summary>What came of each mesh that was not shared.</summary>
+        internal ChamferJob Job => job;
+
         /// <summary>False if the user cancelled; then nothing was changed.</summary>
         internal bool TryChamfer()
         {

@@ -12,6 +12,7 @@ namespace ChamferEditor
         {
             var slots = MeshSlot.In(modifier.gameObject, modifier.includeChildren);
             slots.RemoveAll(slot => Owner(slot.Holder) != modifier || SlotEditing.IsLocked(slot.Holder));
+            slots.RemoveAll(slot => ModifierLods.IsFar(slot.Holder));
             return slots;
         }
 

@@ -7,6 +7,9 @@ namespace ChamferEditor
     /// <summary>What the inspector says about the meshes of a modifier.</summary>
     internal static class ReportText
     {
+        internal const string OutOfDate = "Out of date: a source mesh has changed since. Press Chamfer, or choose Tools > "
+            + "Chamfer All Again in Open Scenes";
+
         internal static string Of(ChamferModifier modifier)
         {
             var text = new StringBuilder();

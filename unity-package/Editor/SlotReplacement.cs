@@ -64,6 +64,7 @@ namespace ChamferEditor
             var root = group.SelectedOf(slot);
             bool isTaken = root.GetComponent<ChamferModifier>() != null;
             var modifier = Undo.AddComponent<ChamferModifier>(isTaken ? slot.Holder.gameObject : root);
+            modifier.isFromMenu = true;
             modifier.settings = settings;
             modifier.includeChildren = !isTaken && group.Slots.Any(other => IsBelow(group, other, root));
             modifier.LeaveOutOfBuilds();

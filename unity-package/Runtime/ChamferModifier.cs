@@ -30,6 +30,15 @@ namespace Chamfer
         // The originals are for the editor only: a player would carry every mesh twice.
         [SerializeField] internal List<ChamferedMesh> meshes = new List<ChamferedMesh>();
 
+        /// <summary>Objects below that show the sources far away.</summary>
+        [SerializeField, HideInInspector] internal List<GameObject> farObjects = new List<GameObject>();
+
+        /// <summary>Whether the group that shows them was made for them.</summary>
+        [SerializeField, HideInInspector] internal bool madeGroup;
+
+        /// <summary>Whether the menu made it, so that it goes when its originals come back.</summary>
+        [SerializeField, HideInInspector] internal bool isFromMenu;
+
         /// <summary>Whether some mesh is chamfered now.</summary>
         public bool IsApplied => meshes.Count > 0;
 

@@ -30,10 +30,24 @@ namespace UnityEditor
         /// Fails when a file is made, as a full disk does.
         public static Func<string, bool> fails = path => false;
 
-        public static bool Contains(Object target) { return !ReferenceEquals(target, null) && paths.ContainsKey(target) && target != null; }
+        public static bool Contains(Object target) { return !ReferenceEquals(target, null) && target != null && (paths.ContainsKey(target) || IsInPrefab(target)); }
+
+        /// What is added to an object of a prefab is in the prefab's file.
+        private static bool IsInPrefab(Object target)
+        {
+            var component = target as Component;
+            return !ReferenceEquals(component, null) && paths.ContainsKey(component.transform.root.gameObject);
+        }
+
         public static bool IsSubAsset(Object target) { return Contains(target) && !ReferenceEquals(LoadMainAssetAtPath(paths[target]), target); }
         public static bool IsMainAsset(Object target) { return Contains(target) && !IsSubAsset(target); }
-        public static string GetAssetPath(Object target) { return Contains(target) ? paths[target] : ""; }
+        
+        public static string GetAssetPath(Object target)
+        {
+            if (!Contains(target)) { return ""; }
+            return paths.ContainsKey(target) ? paths[target] : paths[((Component)target).transform.root.gameObject];
+        }
+
 
         public static void AddObjectToAsset(Object target, string path)
         {
@@ -90,7 +104,7 @@ namespace UnityEditor
             asked |= stage != null && stage.assetPath == path;
         }
 
-        public static bool CanOpenForEdit(Object target) { return !paths[target].StartsWith("Packages/"); }
+        public static bool CanOpenForEdit(Object target) { return !GetAssetPath(target).StartsWith("Packages/"); }
         public static bool IsValidFolder(string path) { return path.StartsWith("Assets") && !System.IO.Path.HasExtension(path); }
         public static GUID GUIDFromAssetPath(string path) { return new GUID { path = path }; }
         public static string AssetPathToGUID(string path) { return path; }

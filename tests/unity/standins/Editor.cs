@@ -33,6 +33,14 @@ namespace UnityEditor
         public static bool barShown;
         public static bool IsPersistent(Object target) { return persistent.Contains(target) || AssetDatabase.Contains(target); }
         public static void SetDirty(Object target) { dirty.Add(target); }
+
+        /// Of renderers: what draws.
+        public static void CopySerialized(Object from, Object to)
+        {
+            ((Renderer)to).sharedMaterials = ((Renderer)from).sharedMaterials;
+            if (to is SkinnedMeshRenderer) { ((SkinnedMeshRenderer)to).bones = ((SkinnedMeshRenderer)from).bones; }
+        }
+
         public static int GetDirtyCount(Object target) { return target is Mesh ? ((Mesh)target).version : 0; }
         public static void ClearProgressBar() { barShown = false; }
         /// The folder that the user chooses; none if the dialogue is cancelled.

@@ -42,10 +42,14 @@ namespace UnityEngine
     [AttributeUsage(AttributeTargets.Field)]
     public class SerializeField : Attribute { }
 
+    [AttributeUsage(AttributeTargets.Field)]
+    public class HideInInspector : Attribute { }
+
     public static class Mathf
     {
         public static float Max(float a, float b) { return Math.Max(a, b); }
         public static int Max(int a, int b) { return Math.Max(a, b); }
+        public static float Clamp(float value, float least, float most) { return Math.Max(least, Math.Min(most, value)); }
     }
 
     public class DisallowMultipleComponent : Attribute { }
@@ -78,6 +82,12 @@ namespace UnityEngine
         public Quaternion localRotation { get; set; }
         public Transform parent { get; internal set; }
         public Matrix4x4 worldToLocalMatrix { get { return localToWorldMatrix.inverse; } }
+        public void SetParent(Transform other, bool worldPositionStays)
+        {
+            if (UnityEditor.EditorUtility.IsPersistent(other.gameObject)) { throw new InvalidOperationException("Setting the parent of a transform which resides in a Prefab Asset is disabled"); }
+            other.gameObject.children.Add(gameObject);
+        }
+
         public Transform root { get { return parent != null ? parent.root : this; } }
         public Transform() { localScale = new Vector3(1, 1, 1); }
 
@@ -130,6 +140,29 @@ namespace UnityEngine
         public void Merge() { if (!recorded) { set = false; } }
     }
 
+    public struct LOD
+    {
+        public float screenRelativeTransitionHeight;
+        public Renderer[] renderers;
+        public LOD(float height, Renderer[] renderers) { screenRelativeTransitionHeight = height; this.renderers = renderers; }
+    }
+
+    public class LODGroup : Component
+    {
+        private LOD[] levels = new LOD[0];
+        public LOD[] GetLODs() { return (LOD[])levels.Clone(); }
+        public void RecalculateBounds() { }
+
+        public void SetLODs(LOD[] lods)
+        {
+            for (int i = 1; i < lods.Length; i++)
+            {
+                if (lods[i].screenRelativeTransitionHeight >= lods[i - 1].screenRelativeTransitionHeight) { throw new ArgumentException("heights must fall"); }
+            }
+            levels = (LOD[])lods.Clone();
+        }
+    }
+
     public class MeshCollider : Component { public Mesh sharedMesh { get; set; } }
     public class MeshRenderer : Renderer { }
 
@@ -162,6 +195,7 @@ namespace UnityEngine
     {
         private readonly List<Component> components = new List<Component>();
         private Scene ownScene;
+        public int layer;
         /// What this is an instance of.
         public GameObject source;
         public readonly Children children;
@@ -211,7 +245,7 @@ namespace UnityEngine
         public T[] GetComponentsInChildren<T>(bool includeInactive)
         {
             var found = new List<T>(GetComponents<T>());
-            foreach (var child in children) { found.AddRange(child.GetComponentsInChildren<T>(includeInactive)); }
+            foreach (var child in children) { if (!child.destroyed) { found.AddRange(child.GetComponentsInChildren<T>(includeInactive)); } }
             return found.ToArray();
         }
 

@@ -77,16 +77,17 @@ namespace Chamfer.Tests
             var mesh = Cube("Assets/Full/Cube.asset");
             Mesh shared;
             var root = Scene.Hierarchy(out shared);
-            var prefab = Scene.Holding(Shapes.Cube(), "Prefab");
+            GameObject prefab = Scene.Holding(Shapes.Cube(), "Prefab"), full = Scene.Holding(Shapes.Cube(), "Full");
             Scene.MakeAsset(prefab, "Assets/Full/Prefab.prefab");
+            Scene.MakeAsset(full, "Assets/Full/Full.prefab");
             var original = Scene.MeshOf(prefab);
             string last = Undo.Last;
-            AssetDatabase.fails = path => path.EndsWith(".prefab");
-            try { Check.Throws<UnityException>(() => ChamferAll(mesh, root, prefab)); }
+            AssetDatabase.fails = path => path.EndsWith("Full.prefab");
+            try { Check.Throws<UnityException>(() => ChamferAll(mesh, root, prefab, full)); }
             finally { AssetDatabase.fails = path => false; }
             Check.That(Scene.MeshOf(root) == shared && Scene.MeshOf(prefab) == original, "objects");
-            Check.Equal(0, root.GetComponents<ChamferModifier>().Length);
-            Check.Equal(2, Scene.FilesIn("Assets/Full/").Count);
+            Check.Equal(0, root.GetComponents<ChamferModifier>().Length + prefab.GetComponents<ChamferModifier>().Length);
+            Check.Equal(3, Scene.FilesIn("Assets/Full/").Count);
             Check.Equal(last, Undo.Last);
         }
 
@@ -104,6 +105,20 @@ namespace Chamfer.Tests
             Undo.PerformUndo();
             Check.That(saved.vertices.Any(p => p.x == 0.98f), "as before");
             Check.Equal(0, root.GetComponents<ChamferModifier>().Length);
+        }
+
+        /// Whatever was done before in the same event.
+        public static void A_step_begins_anew()
+        {
+            var item = new GameObject("Item");
+            Mesh shared;
+            var root = Scene.Hierarchy(out shared);
+            Undo.RecordObject(item.transform, "Move");
+            item.transform.localPosition = new Vector3(1, 2, 3);
+            new ChamferSelection(new[] { root }).Chamfer(ChamferSettings.Default);
+            Undo.PerformUndo();
+            Check.That(Scene.MeshOf(root) == shared, "undone");
+            Check.Equal(2f, item.transform.localPosition.y);
         }
 
         public static void Only_what_was_changed_is_saved()
