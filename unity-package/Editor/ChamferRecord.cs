@@ -25,6 +25,10 @@ namespace ChamferEditor
         /// <summary>In a model: what came of it, in words.</summary>
         [SerializeField] internal string report;
 
+        /// <summary>In a model: how many triangles its file has, and the largest side of its largest mesh.</summary>
+        [SerializeField] internal int triangles;
+        [SerializeField] internal float size;
+
         /// <summary>In a model: what could not be chamfered.</summary>
         [SerializeField] internal string[] failures = new string[0];
 

@@ -22,8 +22,20 @@ namespace ChamferEditor
             EditorGUILayout.PropertyField(serialized.FindProperty("settings"), true);
             EditorGUILayout.PropertyField(serialized.FindProperty("rules"), true);
             if (serialized.ApplyModifiedProperties()) { settings.Write(); }
+            if (GUILayout.Button("Try Rules")) { Try(); }
             EditorGUILayout.HelpBox("Models that are imported already follow when you press this.", MessageType.Info);
-            if (GUILayout.Button("Import Models Again")) { ModelImports.All(); }
+            if (GUILayout.Button("Import Models Again"))
+            {
+                ModelImports.All();
+                GUIUtility.ExitGUI();
+            }
+        }
+
+        private static void Try()
+        {
+            var rows = DryRun.Run(ChamferProjectSettings.instance);
+            if (rows != null) { DryRunWindow.Open(rows); }
+            GUIUtility.ExitGUI();
         }
     }
 }

@@ -10,7 +10,6 @@ namespace ChamferEditor
         /// <summary>What the names of chamfered meshes end with.</summary>
         internal const string Suffix = " Chamfered";
 
-        private readonly MeshArrays arrays;
         private readonly ArrayResult output;
 
         /// <param name="result">What the library made of the source.</param>
@@ -18,21 +17,25 @@ namespace ChamferEditor
         /// <param name="key">Tells the source, the settings and what stood around.</param>
         internal JobResult(SceneResult result, ChamferSettings settings, string key)
         {
-            arrays = result.Source;
             output = result.Output;
             output.Mesh.Name = result.Mesh.name + Suffix;
             Source = result.Mesh;
             Settings = settings;
             Key = key;
+            Text = ReportText.Of(result.Output.Report);
+            // A preview keeps them only if somebody looks at them.
+            bool hasVerdicts = Report.Verdicts.Count == Report.HardEdges;
+            if (hasVerdicts) { VerdictCache.Remember(key, new MeshVerdicts(result.Source, Report, settings)); }
         }
 
         /// <summary>What somebody else made of the same source.</summary>
-        internal JobResult(Mesh source, Mesh shared, ChamferSettings settings, string key)
+        internal JobResult(ChamferedMesh shared)
         {
-            Source = source;
-            Mesh = shared;
-            Settings = settings;
-            Key = key;
+            Source = shared.original;
+            Mesh = shared.chamfered;
+            Settings = shared.settings;
+            Key = shared.key;
+            Text = shared.report;
         }
 
         /// <summary>Null for what somebody else made.</summary>
@@ -43,6 +46,9 @@ namespace ChamferEditor
         internal ChamferSettings Settings { get; }
 
         internal string Key { get; }
+
+        /// <summary>The report in words, counted once.</summary>
+        internal string Text { get; }
 
         /// <summary>The mesh, once it is written.</summary>
         internal Mesh Mesh { get; private set; }
@@ -59,7 +65,13 @@ namespace ChamferEditor
                 MeshWriter.Overwrite(overwritten, output.Mesh, Source);
                 Mesh = overwritten;
             }
-            VerdictCache.Remember(Mesh, new MeshVerdicts(arrays, Report, Settings));
+        }
+
+        /// <summary>Replaces what a mesh holds that was made of the same source a moment ago.</summary>
+        internal void Renew(Mesh mesh)
+        {
+            MeshWriter.Renew(mesh, output.Mesh, Source);
+            Mesh = mesh;
         }
     }
 }

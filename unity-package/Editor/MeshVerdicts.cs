@@ -6,12 +6,12 @@ using UnityEngine;
 
 namespace ChamferEditor
 {
-    /// <summary>What became of the hard edges of a mesh, and where they are.</summary>
+    /// <summary>What became of the hard edges of a mesh, and where they are: worked out when somebody looks.</summary>
     internal sealed class MeshVerdicts
     {
         private readonly Vector3[] positions;
-        private readonly int[][] ends;
-        private readonly Vector3[][] segments;
+        private readonly int[][] ends = new int[ChamferReport.OutcomeSlots][];
+        private readonly Vector3[][] segments = new Vector3[ChamferReport.OutcomeSlots][];
 
         /// <param name="source">What the edges are of; it need not be readable any more.</param>
         /// <param name="report">About the source's edges.</param>
@@ -23,14 +23,6 @@ namespace ChamferEditor
             bool hasBones = source.Skin != null && source.Skin.BonesPerVertex.Length > 0;
             Skin = hasBones ? source.Skin : null;
             positions = source.Positions;
-            int outcomes = Enum.GetValues(typeof(EdgeOutcome)).Length;
-            ends = new int[outcomes][];
-            segments = new Vector3[outcomes][];
-            for (int outcome = 0; outcome < outcomes; outcome++)
-            {
-                ends[outcome] = EndsOf(report.Verdicts, (EdgeOutcome)outcome);
-                segments[outcome] = Array.ConvertAll(ends[outcome], vertex => positions[vertex]);
-            }
         }
 
         internal ChamferReport Report { get; }
@@ -43,13 +35,14 @@ namespace ChamferEditor
         /// <summary>Two points for each edge with that outcome.</summary>
         internal Vector3[] Segments(EdgeOutcome outcome)
         {
-            return segments[(int)outcome];
+            int slot = (int)outcome;
+            return segments[slot] ?? (segments[slot] = Array.ConvertAll(Ends(outcome), vertex => positions[vertex]));
         }
 
         /// <summary>As <see cref="Segments"/>, as vertices of the source.</summary>
         internal int[] Ends(EdgeOutcome outcome)
         {
-            return ends[(int)outcome];
+            return ends[(int)outcome] ?? (ends[(int)outcome] = EndsOf(Report.Verdicts, outcome));
         }
 
         private static int[] EndsOf(IReadOnlyList<EdgeVerdict> verdicts, EdgeOutcome outcome)

@@ -28,11 +28,11 @@ namespace ChamferEditor
             try
             {
                 foreach (string name in ImportDependency.Of(assetPath)) { context.DependsOnCustomDependency(name); }
+                var facts = ModelFacts.At(assetPath).With(MeshSlot.In(root, true).Select(slot => slot.Mesh));
                 ChamferSettings settings;
-                if (!TryFindSettings(root, out settings)) { return; }
+                if (!TryFindSettings(facts, out settings)) { return; }
                 context.DependsOnCustomDependency(ImportDependency.Settings);
-                var results = Process(root, settings);
-                Record(results, settings);
+                Record(facts, settings, Process(root, settings));
             }
             // An import must never break because of a chamfer.
             catch (Exception exception) { Warn(exception.Message, root); }
@@ -56,10 +56,12 @@ namespace ChamferEditor
         }
 
         /// <summary>Writes down what was done: others must not chamfer it once more.</summary>
-        private void Record(List<SceneResult> results, ChamferSettings settings)
+        private void Record(ModelFacts facts, ChamferSettings settings, List<SceneResult> results)
         {
             foreach (var result in results.Where(result => result.Output.Report.Quads > 0)) { Warn(QuadsText.Of(result.Mesh), result.Mesh); }
             var record = ChamferRecord.Make(null, settings);
+            record.triangles = facts.Triangles;
+            record.size = facts.Size;
             record.report = string.Join("\n", results.Select(result => result.Mesh.name + ": " + result.Output.Report));
             record.failures = failures.ToArray();
             context.AddObjectToAsset("Chamfer Record", record);
@@ -72,14 +74,10 @@ namespace ChamferEditor
         }
 
         /// <summary>From the file: a process that helps with importing has started before the last change.</summary>
-        private bool TryFindSettings(GameObject root, out ChamferSettings settings)
+        private static bool TryFindSettings(ModelFacts facts, out ChamferSettings settings)
         {
             var project = ChamferProjectSettings.Load();
-            try
-            {
-                var meshes = MeshSlot.In(root, true).Select(slot => slot.Mesh);
-                return ImportRule.TryFind(ModelFacts.At(assetPath).With(meshes), project.settings, project.rules, out settings);
-            }
+            try { return ImportRule.TryFind(facts, project.settings, project.rules, out settings); }
             finally { Object.DestroyImmediate(project); }
         }
     }

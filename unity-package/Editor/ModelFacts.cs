@@ -43,6 +43,15 @@ namespace ChamferEditor
             return facts;
         }
 
+        /// <summary>The same model, as it was before it was chamfered.</summary>
+        internal ModelFacts With(ChamferRecord record)
+        {
+            var facts = this;
+            facts.Triangles = record.triangles;
+            facts.Size = record.size;
+            return facts;
+        }
+
         private static int TrianglesOf(Mesh mesh, int submesh)
         {
             return mesh.GetTopology(submesh) == MeshTopology.Triangles ? (int)mesh.GetIndexCount(submesh) / 3 : 0;

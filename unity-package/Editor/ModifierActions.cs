@@ -20,13 +20,12 @@ namespace ChamferEditor
             return run.Failures;
         }
 
-        /// <summary>As <see cref="Chamfer(ChamferModifier)"/>, but in time for a slider that is dragged.</summary>
+        /// <summary>As <see cref="Chamfer"/>, but in time for a slider that is dragged.</summary>
         internal static IReadOnlyList<string> Preview(ChamferModifier modifier)
         {
-            var settings = modifier.settings;
-            if (settings.verify == VerifyMode.Seen) { settings.verify = VerifyMode.Full; }
-            var run = new ModifierRun(modifier, settings);
-            run.TryChamfer();
+            var run = new PreviewRun(modifier);
+            run.Work();
+            run.Finish();
             return run.Failures;
         }
 
@@ -78,6 +77,7 @@ namespace ChamferEditor
                 settings = result.Settings,
                 key = result.Key,
                 sourceKey = MeshKeys.Of(result.Source),
+                report = result.Text,
                 placed = placed,
                 addedMaterials = MaterialSlots.Fill(slot, result.Source, result.Mesh, action)
             });

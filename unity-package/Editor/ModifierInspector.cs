@@ -22,9 +22,10 @@ namespace ChamferEditor
             DrawReport();
             // Settings that nobody has applied yet are no preview: the first click is the user's.
             var previewed = Modifiers.Where(modifier => modifier.livePreview && modifier.IsApplied).ToList();
-            if (changed && previewed.Count > 0) { action = () => ForEach(previewed, ModifierActions.Preview); }
+            if (changed) { previewed.ForEach(PreviewQueue.Request); }
             if (action == null) { return; }
             failures.Clear();
+            foreach (var modifier in Modifiers) { PreviewQueue.Failures.Remove(modifier); }
             action();
             // Dialogs and progress bars leave the layout of this event behind them.
             GUIUtility.ExitGUI();
@@ -68,11 +69,14 @@ namespace ChamferEditor
 
         private void DrawReport()
         {
-            foreach (string failure in failures) { EditorGUILayout.HelpBox(failure, MessageType.Warning); }
+            var previews = Modifiers.Where(PreviewQueue.Failures.ContainsKey).SelectMany(modifier => PreviewQueue.Failures[modifier]);
+            foreach (string failure in failures.Concat(previews)) { EditorGUILayout.HelpBox(failure, MessageType.Warning); }
             foreach (var modifier in Modifiers.Where(modifier => modifier.IsApplied))
             {
                 if (ModifierState.IsOutdated(modifier)) { EditorGUILayout.HelpBox(ReportText.OutOfDate, MessageType.Warning); }
                 EditorGUILayout.HelpBox(ReportText.Of(modifier), MessageType.None);
+                bool isUnknown = modifier.showEdges && modifier.meshes.Any(entry => VerdictCache.Of(entry) == null);
+                if (isUnknown) { EditorGUILayout.HelpBox("The edges are not known any more: press Chamfer to see them", MessageType.Info); }
             }
         }
 

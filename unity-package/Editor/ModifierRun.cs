@@ -20,6 +20,7 @@ namespace ChamferEditor
         private readonly List<MeshSlot> slots;
         private readonly List<Mesh> originals;
         private readonly MeshScene scene;
+        private readonly Dictionary<Mesh, JobResult> shared;
 
         internal ModifierRun(ChamferModifier modifier, ChamferSettings settings)
         {
@@ -28,6 +29,7 @@ namespace ChamferEditor
             slots = ModifierSlots.Of(modifier);
             originals = slots.ConvertAll(loaded.Original);
             scene = MeshScene.Of(modifier.transform, slots, loaded.Original);
+            shared = Shared();
         }
 
         /// <summary>One sentence for each mesh that could not be chamfered.</summary>
@@ -36,22 +38,38 @@ namespace ChamferEditor
         /// <summary>What came of each mesh that was not shared.</summary>
         internal ChamferJob Job => job;
 
+        /// <summary>The originals as they stand.</summary>
+        internal MeshScene Scene => scene;
+
+        /// <summary>Whether somebody else made all of it already, so that it takes no time.</summary>
+        internal bool IsShared => originals.All(shared.ContainsKey);
+
         /// <summary>False if the user cancelled; then nothing was changed.</summary>
         internal bool TryChamfer()
         {
-            var results = Shared();
-            // What somebody else made already takes no time.
-            if (originals.Any(mesh => !results.ContainsKey(mesh)) && !job.Run(new[] { scene }, settings)) { return false; }
-            foreach (var result in job.Results) { results[result.Key] = result.Value; }
+            if (!IsShared && !job.Run(new[] { scene }, settings)) { return false; }
+            Apply(job.Results.Values);
+            return true;
+        }
+
+        /// <summary>Puts in what was made elsewhere.</summary>
+        internal void Apply(IEnumerable<SceneResult> results)
+        {
+            Apply(results.Select(result => new JobResult(result, settings, scene.KeyOf(result.Mesh, settings))).ToList());
+        }
+
+        private void Apply(IEnumerable<JobResult> made)
+        {
+            var results = new Dictionary<Mesh, JobResult>(shared);
+            foreach (var result in made) { results[result.Source] = result; }
             var former = TakeOver();
             for (int i = 0; i < slots.Count; i++)
             {
                 JobResult result;
-                if (results.TryGetValue(originals[i], out result)) { Put(slots[i], result, former); }
+                if (slots[i].Holder != null && results.TryGetValue(originals[i], out result)) { Put(slots[i], result, former); }
             }
             SlotEditing.Changed(modifier);
             ModifierActions.DropUnused(former);
-            return true;
         }
 
         private Dictionary<Mesh, JobResult> Shared()
@@ -60,8 +78,8 @@ namespace ChamferEditor
             for (int i = 0; i < slots.Count; i++)
             {
                 string key = scene.KeyOf(originals[i], settings);
-                var mesh = SharedMeshes.Find(loaded, originals[i], key, slots[i].Holder, modifier);
-                if (mesh != null) { results[originals[i]] = new JobResult(originals[i], mesh, settings, key); }
+                var result = SharedMeshes.Find(loaded, originals[i], key, slots[i].Holder, modifier);
+                if (result != null) { results[originals[i]] = result; }
             }
             return results;
         }
@@ -73,11 +91,13 @@ namespace ChamferEditor
         private List<ChamferedMesh> TakeOver()
         {
             var former = modifier.meshes.ToList();
+            // Since the preview began, others may have changed.
+            var now = new LoadedModifiers();
             foreach (var slot in slots)
             {
                 LoadedModifiers.Place place;
-                if (!loaded.TryFind(slot, out place) || place.Modifier == modifier) { continue; }
-                former.Add(place.Modifier.meshes.Find(entry => entry.holder == slot.Holder));
+                if (slot.Holder == null || !now.TryFind(slot, out place) || place.Modifier == modifier) { continue; }
+                former.Add(place.Entry);
                 ModifierActions.Restore(place.Modifier, slot.Holder, Action);
             }
             ModifierActions.Restore(modifier, Action);

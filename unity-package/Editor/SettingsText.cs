@@ -12,6 +12,12 @@ namespace ChamferEditor
                 + settings.submesh;
         }
 
+        /// <summary>For users.</summary>
+        internal static string Words(ChamferSettings settings)
+        {
+            return Number(settings.width) + (settings.unit == WidthUnit.PercentOfExtent ? " percent" : " units") + ", " + settings.verify;
+        }
+
         /// <summary>As it is written on every machine, to the last bit.</summary>
         internal static string Number(float number)
         {

@@ -8,7 +8,7 @@ namespace ChamferEditor
     internal static class SharedMeshes
     {
         /// <summary>What somebody else made already of a source with a key, if a holder can have it too; or null.</summary>
-        internal static Mesh Find(LoadedModifiers loaded, Mesh source, string key, Component holder, ChamferModifier but)
+        internal static JobResult Find(LoadedModifiers loaded, Mesh source, string key, Component holder, ChamferModifier but)
         {
             if (key == MeshKeys.Unknown) { return null; }
             foreach (var place in loaded.Places)
@@ -16,7 +16,7 @@ namespace ChamferEditor
                 var entry = place.Entry;
                 bool isWanted = entry.key == key && entry.original == source && place.Modifier != but;
                 bool isThere = entry.chamfered != null && entry.holder != null;
-                if (isWanted && isThere && CanShare(entry, holder)) { return entry.chamfered; }
+                if (isWanted && isThere && CanShare(entry, holder)) { return new JobResult(entry); }
             }
             return null;
         }

@@ -37,7 +37,7 @@ namespace ChamferEditor
         /// <param name="action">The name of the undo step.</param>
         internal static void Write(JobResult result, Component holder, Mesh ours, string action)
         {
-            if (ours != null && FreshMeshes.Contains(ours)) { result.Write(ours); }
+            if (ours != null && FreshMeshes.Contains(ours)) { result.Renew(ours); }
             else if (ours != null && IsInFileOf(holder, ours)) { Rewrite(result, ours, action); }
             else { WriteNew(result, holder, action); }
             FreshMeshes.Add(result.Mesh);

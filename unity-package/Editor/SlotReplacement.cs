@@ -35,8 +35,7 @@ namespace ChamferEditor
         {
             JobResult result;
             if (!job.Results.TryGetValue(slot.Mesh, out result) || !result.HasChanged) { return; }
-            var shared = result.Mesh == null ? SharedMeshes.Find(plan.Loaded, result.Source, result.Key, slot.Holder, null) : null;
-            if (shared != null) { result = new JobResult(result.Source, shared, result.Settings, result.Key); }
+            if (result.Mesh == null) { result = SharedMeshes.Find(plan.Loaded, result.Source, result.Key, slot.Holder, null) ?? result; }
             if (result.Mesh == null) { Write(result, slot); }
             var modifier = ModifierFor(group, slot, result.Settings);
             var placed = MeshScene.Place(modifier.transform, slot.Holder);

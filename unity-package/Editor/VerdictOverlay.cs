@@ -18,14 +18,14 @@ namespace ChamferEditor
             var before = Handles.zTest;
             try
             {
-                foreach (var entry in modifier.meshes) { Draw(modifier, entry); }
+                foreach (var entry in modifier.meshes) { Draw(entry); }
             }
             finally { Handles.zTest = before; }
         }
 
-        private static void Draw(ChamferModifier modifier, ChamferedMesh entry)
+        private static void Draw(ChamferedMesh entry)
         {
-            var verdicts = VerdictCache.Of(modifier, entry);
+            var verdicts = VerdictCache.Of(entry);
             if (verdicts == null || entry.holder == null) { return; }
             foreach (var outcome in outcomes)
             {

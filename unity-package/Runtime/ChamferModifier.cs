@@ -88,6 +88,9 @@ namespace Chamfer
         /// <summary>Where the mesh stood then, from the modifier; zeros if that is not known.</summary>
         public Matrix4x4 placed;
 
+        /// <summary>What became of its edges, in words.</summary>
+        public string report;
+
         /// <summary>How many materials the renderer got because the chamfers have a submesh of their own.</summary>
         public int addedMaterials;
     }

@@ -44,15 +44,14 @@ namespace Chamfer
         /// <summary>What became of each hard edge.</summary>
         public IReadOnlyList<EdgeVerdict> Verdicts { get; internal set; }
 
+        internal const int OutcomeSlots = 3;
+
+        internal int[] Counts { get; set; }
+
         /// <summary>How many edges have this outcome for this reason.</summary>
         public int Count(EdgeOutcome outcome, EdgeReason reason)
         {
-            int count = 0;
-            foreach (var verdict in Verdicts)
-            {
-                if (verdict.Outcome == outcome && verdict.Reason == reason) { count++; }
-            }
-            return count;
+            return Counts[(int)outcome * (Counts.Length / OutcomeSlots) + (int)reason];
         }
 
         /// <summary>The counts in one line.</summary>

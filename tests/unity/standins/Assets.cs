@@ -92,9 +92,13 @@ namespace UnityEditor
             saved.Add(paths[target]);
         }
 
+        /// Prefabs that are not loaded, and the files that they use.
+        public static readonly Dictionary<string, string[]> unloaded = new Dictionary<string, string[]>();
+
         /// The files that a prefab's meshes are in.
         public static string[] GetDependencies(string path, bool recursive)
         {
+            if (unloaded.ContainsKey(path)) { return unloaded[path]; }
             return LoadAllAssetsAtPath(path).OfType<MeshFilter>().Select(filter => GetAssetPath(filter.sharedMesh)).Where(file => file.Length > 0).Distinct().ToArray();
         }
 
@@ -149,7 +153,7 @@ namespace UnityEditor
         {
             if (filter.StartsWith("l:")) { return labels.Where(entry => entry.Value.Any(label => label.ToLower().Contains(filter.Substring(2).ToLower()))).Select(entry => entry.Key).ToArray(); }
             return paths.Where(entry => entry.Key != null && IsOfKind(entry.Key, entry.Value, filter) && (folders == null || entry.Value.StartsWith(folders[0] + "/")))
-                .Select(entry => entry.Value).Concat(Project.Models(filter, folders)).Distinct().ToArray();
+                .Select(entry => entry.Value).Concat(Project.Models(filter, folders)).Concat(filter == "t:Prefab" && folders == null ? unloaded.Keys.ToArray() : new string[0]).Distinct().ToArray();
         }
 
         private static bool IsOfKind(Object asset, string path, string filter)

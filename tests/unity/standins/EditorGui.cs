@@ -6,6 +6,9 @@ using UnityEngine;
 namespace UnityEngine
 {
     public class GUILayoutOption { }
+    public class GUIStyle { }
+    public class Texture : Object { }
+    public class Texture2D : Texture { }
     public class ExitGUIException : Exception { }
 
     public class GUIContent
@@ -34,6 +37,10 @@ namespace UnityEngine
             return value;
         }
 
+        public static GUILayoutOption Width(float width) { return new GUILayoutOption(); }
+        public static GUILayoutOption Height(float height) { return new GUILayoutOption(); }
+        public static void Label(Texture picture, params GUILayoutOption[] options) { Lay(true); }
+
         public static bool Button(GUIContent content, params GUILayoutOption[] options)
         {
             tooltips[content.text] = UnityEditor.EditorGUI.disabled ? content.tooltip : "";
@@ -59,6 +66,17 @@ namespace UnityEditor
         public SerializedObject serializedObject { get; set; }
         public virtual void OnInspectorGUI() { }
     }
+
+    public class EditorWindow : ScriptableObject
+    {
+        public static EditorWindow opened;
+        public static T GetWindow<T>(string title) where T : EditorWindow, new() { var window = new T(); opened = window; return window; }
+        public void Show() { }
+    }
+
+    public static class EditorStyles { public static GUIStyle wordWrappedLabel { get { return new GUIStyle(); } } }
+    public static class AssetPreview { public static Texture2D GetAssetPreview(UnityEngine.Object asset) { return null; } }
+    public static class EditorGUIUtility { public static void PingObject(UnityEngine.Object target) { } }
 
     public class CustomEditor : Attribute { public CustomEditor(Type type) { } }
     public class CanEditMultipleObjects : Attribute { }
@@ -107,6 +125,8 @@ namespace UnityEditor
         public bool ApplyModifiedProperties() { return changed; }
     }
 
+    public static class SceneView { public static int repaints; public static void RepaintAll() { repaints++; } }
+
     public enum MessageType { None, Info, Warning, Error }
 
     public static class EditorGUILayout
@@ -115,6 +135,11 @@ namespace UnityEditor
         public static bool PropertyField(SerializedProperty property, bool children, params GUILayoutOption[] options) { return GUILayout.Lay(false); }
         public static readonly List<string> boxes = new List<string>();
         public static void HelpBox(string text, MessageType type) { GUILayout.Lay(true); boxes.Add(text); }
+        public static Vector2 BeginScrollView(Vector2 place, params GUILayoutOption[] options) { return GUILayout.Lay(place); }
+        public static void EndScrollView() { GUILayout.Lay(true); }
+        public static Rect BeginVertical(params GUILayoutOption[] options) { return GUILayout.Lay(new Rect()); }
+        public static void EndVertical() { GUILayout.Lay(true); }
+        public static void LabelField(string text, GUIStyle style, params GUILayoutOption[] options) { GUILayout.Lay(true); boxes.Add(text); }
         public static Rect BeginHorizontal(params GUILayoutOption[] options) { return GUILayout.Lay(new Rect()); }
         public static void EndHorizontal() { GUILayout.Lay(true); }
     }

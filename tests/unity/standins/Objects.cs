@@ -295,6 +295,7 @@ namespace UnityEngine
         public static void Log(object message, Object context) { Log(message); }
         public static void LogWarning(object message) { logged.Add("warning: " + message); }
         public static void LogWarning(object message, Object context) { LogWarning(message); }
+        public static void LogException(Exception exception) { logged.Add("error: " + exception); }
         public static void LogError(object message) { logged.Add("error: " + message); }
     }
 }

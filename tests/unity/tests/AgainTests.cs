@@ -79,6 +79,9 @@ namespace Chamfer.Tests
             AssetDatabase.paths[file] = "Assets/AllAgain/Cube.asset";
             ChamferAll(prefab, file);
             var saved = Scene.MeshesIn("Assets/AllAgain/Cube Chamfered.asset").Single();
+            var later = (GameObject)PrefabUtility.InstantiatePrefab(prefab);
+            foreach (var component in later.GetComponents<Component>()) { component.source = prefab.GetComponents<Component>().First(one => one.GetType() == component.GetType()); }
+            Scene.MakeAsset(later, "Assets/AllAgain/Later.prefab");
             Grow(source);
             Grow(file);
             AssetDatabase.saved.Clear();
@@ -89,6 +92,7 @@ namespace Chamfer.Tests
             Check.Equal(MeshKeys.Of(file), ChamferRecords.Of(saved).sourceKey);
             Check.That(AssetDatabase.saved.Contains("Assets/AllAgain/Prefab.prefab") && AssetDatabase.saved.Contains("Assets/AllAgain/Cube Chamfered.asset"), "saved");
             Check.Equal(1, Scene.MeshesIn("Assets/AllAgain/Prefab.prefab").Count);
+            Check.That(!AssetDatabase.saved.Contains("Assets/AllAgain/Later.prefab"), "a variant follows");
             Undo.PerformUndo();
             Check.Equal(1f, SizeOf(saved));
         }

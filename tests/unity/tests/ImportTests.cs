@@ -274,6 +274,39 @@ namespace Chamfer.Tests
             Check.That(Find(model, out settings, Rule("Assets/Props/Old", 3), excluded) && settings.width == 3, "of two for a folder the upper one");
         }
 
+        public static void Rules_can_be_tried()
+        {
+            Check.Equal("No model would change.", DryRun.Summary(new List<DryRunRow>()));
+            WithModel("Assets/Try/a.fbx", first => WithModel("Assets/Try/b.fbx", second =>
+            {
+                System.Func<List<DryRunRow>> run = () => DryRun.Run(ChamferProjectSettings.instance).Where(row => row.Path.StartsWith("Assets/Try/")).ToList();
+                Check.Equal(0, run().Count);
+                With(project => project.rules.Add(new ModelRule { folder = "Assets/Try", mostTriangles = 12, settings = ChamferSettings.Default }), () =>
+                {
+                    var rows = run();
+                    Check.Equal("2 models would be chamfered.", DryRun.Summary(rows));
+                    Check.Equal("Assets/Try/a.fbx", rows[0].Path);
+                    Check.That(rows[0].Text.StartsWith("1 percent, Full; 12 -> 44 triangles; 1 mesh: 12 edges chamfered"), rows[0].Text);
+                    Check.That(!first() && !second(), "nothing was imported");
+                    AssetDatabase.ImportAsset("Assets/Try/a.fbx", ImportAssetOptions.Default);
+                    Check.Equal("Assets/Try/b.fbx", run().Single().Path);
+                });
+                Check.Equal("1 model would be left alone again.", DryRun.Summary(run()));
+                AssetDatabase.labels["Assets/Try/a.fbx"] = new[] { "Chamfer=3%" };
+                Check.Equal("now: 1 percent, Full; then: 3 percent, Seen", run().Single().Text);
+                AssetDatabase.labels["Assets/Try/a.fbx"] = new[] { "Chamfer=x" };
+                Check.Equal(ImportOutcome.Failed, run().Single().Outcome);
+                AssetDatabase.labels.Remove("Assets/Try/a.fbx");
+                var create = typeof(ChamferSettingsPage).GetMethod("Create", BindingFlags.Static | BindingFlags.NonPublic);
+                GUILayout.broken = false;
+                GUILayout.clicked = "Try Rules";
+                Check.Throws<ExitGUIException>(() => ((SettingsProvider)create.Invoke(null, null)).guiHandler(""));
+                EditorGUILayout.boxes.Clear();
+                typeof(DryRunWindow).GetMethod("OnGUI", BindingFlags.Instance | BindingFlags.NonPublic).Invoke(EditorWindow.opened, null);
+                Check.That(EditorGUILayout.boxes.Contains("now: 1 percent, Full"), string.Join("/", EditorGUILayout.boxes.ToArray()));
+            }));
+        }
+
         public static void Models_record_what_was_done()
         {
             var record = (ChamferRecord)Import(Shapes.Cube(), "Chamfer=0.1").objects.Single();

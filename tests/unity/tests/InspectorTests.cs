@@ -33,11 +33,25 @@ namespace Chamfer.Tests
         }
 
         /// As Unity does: it ends where the inspector says so, and complains of what is laid out after a dialogue.
-        private static void Draw(ModifierInspector inspector)
+        private static bool Draw(ModifierInspector inspector)
         {
             GUILayout.broken = false;
             try { inspector.OnInspectorGUI(); }
-            catch (ExitGUIException) { }
+            catch (ExitGUIException) { return true; }
+            return false;
+        }
+
+        /// What Unity draws after an inspector would be an error.
+        public static void Clicks_end_what_is_drawn()
+        {
+            var inspector = Inspector(Modifier(Shapes.Cube()));
+            Check.That(!Draw(inspector), "nothing was clicked on");
+            foreach (string button in new[] { "Chamfer", "Save as Asset", "Revert" })
+            {
+                GUILayout.clicked = button;
+                try { Check.That(Draw(inspector), button); }
+                finally { GUILayout.clicked = null; }
+            }
         }
 
         private static void ChangeSetting(ModifierInspector inspector)
@@ -45,6 +59,7 @@ namespace Chamfer.Tests
             SerializedObject.changed = true;
             try { Draw(inspector); }
             finally { SerializedObject.changed = false; }
+            PreviewQueue.Flush();
         }
 
         public static void Buttons_act_on_all_selected()
@@ -84,17 +99,18 @@ namespace Chamfer.Tests
         public static void The_preview_follows_what_is_applied_only()
         {
             var modifier = Modifier(Shapes.Cube());
+            modifier.showEdges = true;
             var inspector = Inspector(modifier);
             ChangeSetting(inspector);
             Check.That(!modifier.IsApplied, "the first click is the user's");
             Click(inspector, "Chamfer");
             modifier.settings.width = 5;
             ChangeSetting(inspector);
-            Check.Near(0.1f, VerdictCache.Of(modifier, modifier.meshes[0]).Report.Width);
+            Check.Near(0.1f, VerdictCache.Of(modifier.meshes[0]).Report.Width);
             modifier.livePreview = false;
             modifier.settings.width = 2;
             ChangeSetting(inspector);
-            Check.Near(0.1f, VerdictCache.Of(modifier, modifier.meshes[0]).Report.Width);
+            Check.Near(0.1f, VerdictCache.Of(modifier.meshes[0]).Report.Width);
         }
 
         public static void Nothing_is_reverted_or_saved_before_it_is_chamfered()

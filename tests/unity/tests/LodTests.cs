@@ -41,6 +41,18 @@ namespace Chamfer.Tests
             Check.Equal(3, MeshSlot.In(root, true).Count);
         }
 
+        public static void Materials_of_chamfers_are_for_close_by()
+        {
+            var root = Scene.Holding(Shapes.Cube(), "Root");
+            var modifier = root.AddComponent<ChamferModifier>();
+            modifier.settings.submeshMode = ChamferSubmesh.Own;
+            ModifierActions.Chamfer(modifier);
+            ModifierLods.Make(modifier);
+            var levels = root.GetComponent<LODGroup>().GetLODs();
+            Check.Equal(2, levels[0].renderers[0].sharedMaterials.Length);
+            Check.Equal(1, levels[1].renderers[0].sharedMaterials.Length);
+        }
+
         public static void A_source_far_away_is_not_chamfered()
         {
             var root = Scene.Holding(Shapes.Cube(), "Root");

@@ -181,6 +181,9 @@ namespace Chamfer.Tests
             Check.Equal(72000, mesh.vertexCount);
             Check.That(mesh.indexFormat == IndexFormat.UInt32, "32 bits");
             Check.Equal(3000 * 132, mesh.GetIndices(0).Length);
+            var arrays = MeshReader.Read(mesh);
+            arrays.HasWideIndices = false;
+            Check.That(MeshWriter.Write(arrays, mesh).indexFormat == IndexFormat.UInt32, "though the source had 16");
         }
 
         public static void The_editor_reads_meshes_without_read_write()

@@ -22,6 +22,22 @@ namespace Chamfer.Streams
         }
 
         /// <summary>
+        /// As <see cref="Overwrite"/>, of a mesh that was written from the same source a moment ago: its flags are those
+        /// of the source already, and looking at them takes longer than writing.
+        /// </summary>
+        internal static void Renew(Mesh mesh, MeshArrays arrays, Mesh source)
+        {
+            if (!mesh.isReadable || MeshLods.Count(source) > 1)
+            {
+                Overwrite(mesh, arrays, source);
+                return;
+            }
+            mesh.Clear();
+            mesh.ClearBlendShapes();
+            Fill(mesh, arrays);
+        }
+
+        /// <summary>
         /// Replaces everything that a mesh holds: importers know their meshes by identity. The source may be the mesh
         /// itself.
         /// </summary>
