@@ -135,7 +135,9 @@ fn compile_all() -> Program {
     compile(&folder, "UnityStandIns.dll", "tests/unity/standins", EDITOR, &[]);
     compile(&folder, "Chamfer.Runtime.dll", "unity-package/Runtime", EDITOR, &unity);
     compile(&folder, "Chamfer.Editor.dll", "unity-package/Editor", EDITOR, &runtime);
-    compile(&folder, "Chamfer.Tests.exe", "tests/unity/tests", EDITOR, &all);
+    let with_own = [&all[..], &["Chamfer.Package.Tests.dll"]].concat();
+    compile(&folder, "Chamfer.Package.Tests.dll", "unity-package/Tests", EDITOR, &all);
+    compile(&folder, "Chamfer.Tests.exe", "tests/unity/tests", EDITOR, &with_own);
     compile_for_oldest(&folder);
     // Samples are copied into projects, where they see what is public only.
     compile(&folder, "Samples.dll", "unity-package/Samples~", EDITOR, &runtime);

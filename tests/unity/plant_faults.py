@@ -15,7 +15,7 @@ import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-SYMBOLS = ";".join(["UNITY_EDITOR"] + [f"UNITY_{v}_OR_NEWER" for v in ("2021_3", "2022_3", "6000_0", "6000_2")])
+SYMBOLS = ";".join(["UNITY_EDITOR"] + [f"UNITY_{v}_OR_NEWER" for v in ("2021_3", "2022_3", "2023_1", "6000_0", "6000_2")])
 LEAST_SHARE = 0.9
 # A fault may make a test run for ever.
 SECONDS = 120
@@ -65,14 +65,15 @@ def prepare(folder):
     for library in libraries:
         if library.suffix in (".so", ".dylib"):
             shutil.copy(library, folder)
-    all_references = ["UnityStandIns.dll", "Chamfer.Runtime.dll", "Chamfer.Editor.dll", "System.Core.dll"]
+    references = ["UnityStandIns.dll", "Chamfer.Runtime.dll", "Chamfer.Editor.dll", "System.Core.dll"]
     tests = ROOT / "tests/unity"
     # Whoever works on meanwhile does not get in the way.
     shutil.copytree(ROOT / "unity-package", folder / "original")
     steps = [
         lambda: compile_assembly(folder, "UnityStandIns.dll", tests / "standins", [], True),
         lambda: compile_package(folder, folder / "original"),
-        lambda: compile_assembly(folder, "Chamfer.Tests.exe", tests / "tests", all_references, True),
+        lambda: compile_assembly(folder, "Chamfer.Package.Tests.dll", ROOT / "unity-package/Tests", references, False),
+        lambda: compile_assembly(folder, "Chamfer.Tests.exe", tests / "tests", references + ["Chamfer.Package.Tests.dll"], True),
     ]
     for step in steps:
         result = step()

@@ -1,3 +1,4 @@
+using System.Collections.Generic;
 using System.Linq;
 using UnityEditor;
 using UnityEngine;
@@ -45,14 +46,22 @@ namespace ChamferEditor
         internal static bool CanRun()
         {
             var selection = new ChamferSelection(Selection.objects);
-            return !selection.IsEmpty || selection.Reasons.Any();
+            return !selection.IsEmpty || selection.Reasons.Any() || Folders().Any();
         }
 
         internal static void Run()
         {
             var selection = new ChamferSelection(Selection.objects);
-            if (selection.IsEmpty) { Explain(selection); }
-            else { Tell(selection.Chamfer(ChamferProjectSettings.instance.settings), selection); }
+            var settings = ChamferProjectSettings.instance.settings;
+            var folders = Folders().ToList();
+            if (selection.IsEmpty && folders.Count == 0) { Explain(selection); }
+            if (!selection.IsEmpty) { Tell(selection.Chamfer(settings), selection); }
+            foreach (string folder in folders) { Debug.Log("Chamfer: " + folder + ": " + ChamferTools.ChamferFolder(folder, settings)); }
+        }
+
+        private static IEnumerable<string> Folders()
+        {
+            return Selection.objects.Select(item => AssetDatabase.GetAssetPath(item)).Where(AssetDatabase.IsValidFolder);
         }
 
         private static void Explain(ChamferSelection selection)

@@ -21,7 +21,7 @@ namespace ChamferEditor
             var serialized = new SerializedObject(settings);
             EditorGUILayout.PropertyField(serialized.FindProperty("settings"), true);
             EditorGUILayout.PropertyField(serialized.FindProperty("rules"), true);
-            if (serialized.ApplyModifiedProperties()) { settings.Write(); }
+            if (serialized.ApplyModifiedProperties() | FolderDrop.Draw(settings)) { settings.Write(); }
             if (GUILayout.Button("Try Rules")) { Try(); }
             EditorGUILayout.HelpBox("Models that are imported already follow when you press this.", MessageType.Info);
             if (GUILayout.Button("Import Models Again"))

@@ -13,6 +13,9 @@ namespace ChamferEditor
         /// <summary>Whether some mesh could not be chamfered.</summary>
         internal bool HasFailed => failures.Count > 0;
 
+        /// <summary>One sentence for each mesh that could not be chamfered.</summary>
+        internal IReadOnlyList<string> Failures => failures;
+
         internal void Add(ChamferJob job)
         {
             failures.AddRange(job.Failures);

@@ -13,14 +13,17 @@ namespace ChamferEditor
         private const int Most = 16;
 
         private static readonly Dictionary<string, MeshVerdicts> known = new Dictionary<string, MeshVerdicts>();
-        private static readonly Queue<string> order = new Queue<string>();
+        private static readonly List<string> order = new List<string>();
 
         internal static void Remember(string key, MeshVerdicts verdicts)
         {
             if (key == MeshKeys.Unknown) { return; }
-            if (!known.ContainsKey(key)) { order.Enqueue(key); }
+            order.Remove(key);
+            order.Add(key);
             known[key] = verdicts;
-            if (order.Count > Most) { known.Remove(order.Dequeue()); }
+            if (order.Count <= Most) { return; }
+            known.Remove(order[0]);
+            order.RemoveAt(0);
         }
 
         /// <summary>Null where they are not known any more: chamfer again to see them.</summary>

@@ -10,6 +10,8 @@ namespace Chamfer
     /// </summary>
     [DisallowMultipleComponent]
     [AddComponentMenu("Mesh/Chamfer Modifier")]
+    [HelpURL(PackageLinks.Documentation)]
+    [Icon("Packages/com.chamfer.unity/Editor/Icons/ChamferModifier.png")]
     public sealed class ChamferModifier : MonoBehaviour
     {
         [SerializeField] internal ChamferSettings settings = ChamferSettings.Default;
@@ -23,8 +25,33 @@ namespace Chamfer
         [SerializeField, Tooltip("Draw each hard edge in the colour of what became of it.")]
         internal bool showEdges;
 
-        /// <summary>How the meshes are chamfered.</summary>
-        public ChamferSettings Settings => settings;
+        /// <summary>How the meshes are chamfered, the next time that they are.</summary>
+        public ChamferSettings Settings
+        {
+            get { return settings; }
+            set { settings = value; }
+        }
+
+        /// <summary>Whether the meshes of children are chamfered, too, but for those of modifiers below.</summary>
+        public bool IncludeChildren
+        {
+            get { return includeChildren; }
+            set { includeChildren = value; }
+        }
+
+        /// <summary>Whether the inspector chamfers anew whenever a setting changes.</summary>
+        public bool LivePreview
+        {
+            get { return livePreview; }
+            set { livePreview = value; }
+        }
+
+        /// <summary>Whether the scene view shows what became of each hard edge.</summary>
+        public bool ShowEdges
+        {
+            get { return showEdges; }
+            set { showEdges = value; }
+        }
 
 #if UNITY_EDITOR
         // The originals are for the editor only: a player would carry every mesh twice.

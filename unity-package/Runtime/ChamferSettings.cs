@@ -41,7 +41,7 @@ namespace Chamfer
     [Serializable]
     public struct ChamferSettings
     {
-        [Tooltip("The distance between an old edge and the pulled one.")]
+        [Tooltip("The distance between an old edge and the pulled one."), Min(0)]
         public float width;
 
         [Tooltip("What the width is measured in.")]
@@ -53,7 +53,7 @@ namespace Chamfer
         [Tooltip("Which submesh, and so which material, the chamfers have.")]
         public ChamferSubmesh submeshMode;
 
-        [Tooltip("With Given: the submesh that chamfers go to.")]
+        [Tooltip("With Given: the submesh that chamfers go to."), Min(0)]
         public int submesh;
 
         /// <summary>One percent of the extent, fully verified, in the submesh of the face beside it.</summary>

@@ -75,6 +75,27 @@ namespace Chamfer
                 () => SceneChamfer.Run(scene.Arrays, scene.Placed, settings, progress, cancellation)));
         }
 
+#if UNITY_2023_1_OR_NEWER
+        /// <summary>As <see cref="RunAsync"/>, for code that awaits Unity's own kind of task.</summary>
+        public static Awaitable<ChamferResult> RunAwaitable(
+            Mesh source,
+            ChamferSettings settings,
+            IProgress<float> progress = null,
+            CancellationToken cancellation = default(CancellationToken))
+        {
+            var completion = new AwaitableCompletionSource<ChamferResult>();
+            Complete(completion, RunAsync(source, settings, progress, cancellation));
+            return completion.Awaitable;
+        }
+
+        private static async void Complete(AwaitableCompletionSource<ChamferResult> completion, Task<ChamferResult> task)
+        {
+            try { completion.SetResult(await task); }
+            catch (OperationCanceledException) { completion.SetCanceled(); }
+            catch (Exception exception) { completion.SetException(exception); }
+        }
+
+#endif
         private static Dictionary<Mesh, ChamferResult> Finish(SceneArrays scene, ArrayResult[] results)
         {
             var finished = new Dictionary<Mesh, ChamferResult>();

@@ -68,9 +68,12 @@ namespace UnityEditor
             saved.Add(path);
         }
 
+        public static string CreateFolder(string parent, string name) { return parent + "/" + name; }
+
+        /// A file, or all of a folder.
         public static bool DeleteAsset(string path)
         {
-            var all = LoadAllAssetsAtPath(path);
+            var all = paths.Where(entry => entry.Value == path || entry.Value.StartsWith(path + "/")).Select(entry => entry.Key).ToArray();
             foreach (var asset in all) { asset.destroyed = true; paths.Remove(asset); }
             return all.Length > 0;
         }

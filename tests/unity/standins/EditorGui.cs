@@ -17,6 +17,18 @@ namespace UnityEngine
         public GUIContent(string text, string tooltip) { this.text = text; this.tooltip = tooltip; }
     }
 
+    public enum EventType { Repaint, DragUpdated, DragPerform }
+
+    public class Event
+    {
+        public static Event current = new Event();
+        public EventType type;
+        public Vector2 mousePosition;
+    }
+
+    public static class GUI { public static void Box(Rect place, string text) { GUILayout.Lay(true); } }
+    public static class GUILayoutUtility { public static Rect GetRect(float width, float height, params GUILayoutOption[] options) { return GUILayout.Lay(new Rect()); } }
+
     public static class GUIUtility
     {
         /// Ends what is drawn at once, which is what Unity wants after a dialogue.
@@ -38,6 +50,7 @@ namespace UnityEngine
         }
 
         public static GUILayoutOption Width(float width) { return new GUILayoutOption(); }
+        public static GUILayoutOption ExpandWidth(bool expand) { return new GUILayoutOption(); }
         public static GUILayoutOption Height(float height) { return new GUILayoutOption(); }
         public static void Label(Texture picture, params GUILayoutOption[] options) { Lay(true); }
 
@@ -65,6 +78,15 @@ namespace UnityEditor
         public UnityEngine.Object[] targets { get; set; }
         public SerializedObject serializedObject { get; set; }
         public virtual void OnInspectorGUI() { }
+    }
+
+    public enum DragAndDropVisualMode { None, Link }
+
+    public static class DragAndDrop
+    {
+        public static string[] paths = new string[0];
+        public static DragAndDropVisualMode visualMode;
+        public static void AcceptDrag() { }
     }
 
     public class EditorWindow : ScriptableObject

@@ -132,6 +132,7 @@ namespace UnityEngine
 
         public VertexAttributeFormat GetVertexAttributeFormat(VertexAttribute attribute) { return colorFormat; }
 
+        public int[] triangles { get { return GetIndices(0); } }
         public int subMeshCount { get { return submeshes.Length; } set { Array.Resize(ref submeshes, value); } }
         public MeshTopology GetTopology(int submesh) { return submeshes[submesh].Topology; }
         public int[] GetIndices(int submesh) { return ReadArray(submeshes[submesh].Indices, "indices"); }

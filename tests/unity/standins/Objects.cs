@@ -42,6 +42,28 @@ namespace UnityEngine
     [AttributeUsage(AttributeTargets.Field)]
     public class SerializeField : Attribute { }
 
+    public class IconAttribute : Attribute { public IconAttribute(string path) { } }
+    public class HelpURLAttribute : Attribute { public readonly string url; public HelpURLAttribute(string url) { this.url = url; } }
+
+    [AttributeUsage(AttributeTargets.Field)]
+    public class MinAttribute : Attribute { public MinAttribute(float min) { } }
+
+    /// Unity's kind of task: it can be awaited once.
+    public sealed class Awaitable<T>
+    {
+        internal readonly System.Threading.Tasks.TaskCompletionSource<T> source = new System.Threading.Tasks.TaskCompletionSource<T>();
+        public System.Runtime.CompilerServices.TaskAwaiter<T> GetAwaiter() { return source.Task.GetAwaiter(); }
+    }
+
+    public sealed class AwaitableCompletionSource<T>
+    {
+        private readonly Awaitable<T> awaitable = new Awaitable<T>();
+        public Awaitable<T> Awaitable { get { return awaitable; } }
+        public void SetResult(T value) { awaitable.source.SetResult(value); }
+        public void SetCanceled() { awaitable.source.SetCanceled(); }
+        public void SetException(Exception exception) { awaitable.source.SetException(exception); }
+    }
+
     [AttributeUsage(AttributeTargets.Field)]
     public class HideInInspector : Attribute { }
 
@@ -140,6 +162,8 @@ namespace UnityEngine
         public void Merge() { if (!recorded) { set = false; } }
     }
 
+    public enum PrimitiveType { Sphere, Capsule, Cylinder, Cube, Plane, Quad }
+
     public struct LOD
     {
         public float screenRelativeTransitionHeight;
@@ -208,6 +232,18 @@ namespace UnityEngine
             children = new Children(transform);
             ownScene = SceneManager.active;
         }
+
+        /// With a mesh that has neither UVs nor tangents here.
+        public static GameObject CreatePrimitive(PrimitiveType type)
+        {
+            var made = new GameObject(type.ToString());
+            made.AddComponent<MeshFilter>().sharedMesh = Primitive(type);
+            made.AddComponent<MeshRenderer>().sharedMaterials = new[] { new Material() };
+            return made;
+        }
+
+        /// That of the package's tests; set by them.
+        public static Func<PrimitiveType, Mesh> Primitive = type => null;
 
         /// That of the root.
         public Scene scene

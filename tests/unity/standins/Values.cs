@@ -111,7 +111,7 @@ namespace UnityEngine
         }
     }
 
-    public struct Rect { }
+    public struct Rect { public bool Contains(Vector2 place) { return true; } }
 
     public struct Bounds
     {
