@@ -36,7 +36,7 @@ namespace ChamferEditor
             {
                 foreach (var modifier in modifiers.Where(IsDue).ToList())
                 {
-                    var run = new ModifierRun(modifier, modifier.settings);
+                    var run = new ModifierRun(modifier, modifier.Effective);
                     if (!run.TryChamfer()) { return false; }
                     summary.Add(run);
                     step.Touch(AssetDatabase.GetAssetPath(modifier));

@@ -17,6 +17,9 @@ namespace ChamferEditor
 
         private static ChamferProjectSettings made;
 
+        [Tooltip("Settings that others share; they go before those below.")]
+        [SerializeField] internal ChamferPreset preset;
+
         [Tooltip("For the menu entry, and for models with the label Chamfer.")]
         [SerializeField] internal ChamferSettings settings = Usual();
 
@@ -59,6 +62,7 @@ namespace ChamferEditor
 
         internal void Write()
         {
+            PresetSync.Copy(this);
             InternalEditorUtility.SaveToSerializedFileAndForget(new Object[] { this }, File, true);
             written = ImportDependency.Text(this);
         }

@@ -71,7 +71,7 @@ namespace ChamferEditor
         {
             foreach (var modifier in plan.Outdated)
             {
-                var run = new ModifierRun(modifier, modifier.settings);
+                var run = new ModifierRun(modifier, modifier.Effective);
                 if (!run.TryChamfer()) { return false; }
                 summary.Add(run);
             }

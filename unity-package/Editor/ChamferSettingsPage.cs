@@ -19,6 +19,7 @@ namespace ChamferEditor
         {
             var settings = ChamferProjectSettings.instance;
             var serialized = new SerializedObject(settings);
+            EditorGUILayout.PropertyField(serialized.FindProperty("preset"));
             EditorGUILayout.PropertyField(serialized.FindProperty("settings"), true);
             EditorGUILayout.PropertyField(serialized.FindProperty("rules"), true);
             if (serialized.ApplyModifiedProperties() | FolderDrop.Draw(settings)) { settings.Write(); }

@@ -34,6 +34,9 @@ namespace ChamferEditor
         [Tooltip("Leave these models as they are.")]
         public bool exclude;
 
+        [Tooltip("Settings that others share; they go before those below.")]
+        public ChamferPreset preset;
+
         [Tooltip("At width 0, the settings for all models count.")]
         public ChamferSettings settings;
 

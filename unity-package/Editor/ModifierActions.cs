@@ -15,7 +15,7 @@ namespace ChamferEditor
         /// <summary>Chamfers the originals with the modifier's settings; returns what went wrong.</summary>
         internal static IReadOnlyList<string> Chamfer(ChamferModifier modifier)
         {
-            var run = new ModifierRun(modifier, modifier.settings);
+            var run = new ModifierRun(modifier, modifier.Effective);
             run.TryChamfer();
             return run.Failures;
         }

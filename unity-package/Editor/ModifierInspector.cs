@@ -34,11 +34,17 @@ namespace ChamferEditor
         private bool DrawSettings()
         {
             serializedObject.Update();
-            Draw("settings.width", "settings.unit", "settings.verify", "settings.submeshMode");
-            var mode = serializedObject.FindProperty("settings.submeshMode");
-            if (mode.intValue == (int)ChamferSubmesh.Given) { Draw("settings.submesh"); }
+            Draw("preset");
+            using (new EditorGUI.DisabledScope(Modifiers.Any(modifier => modifier.preset != null))) { DrawOwnSettings(); }
             Draw("includeChildren", "livePreview", "showEdges");
             return serializedObject.ApplyModifiedProperties();
+        }
+
+        private void DrawOwnSettings()
+        {
+            Draw("settings.width", "settings.unit", "settings.verify", "settings.leastBreadth", "settings.submeshMode");
+            var mode = serializedObject.FindProperty("settings.submeshMode");
+            if (mode.intValue == (int)ChamferSubmesh.Given) { Draw("settings.submesh"); }
         }
 
         private void Draw(params string[] properties)

@@ -22,7 +22,7 @@ namespace ChamferEditor
         internal PreviewRun(ChamferModifier modifier)
         {
             Modifier = modifier;
-            var settings = modifier.settings;
+            var settings = modifier.Effective;
             if (settings.verify == VerifyMode.Seen) { settings.verify = VerifyMode.Full; }
             run = new ModifierRun(modifier, settings);
             work = run.IsShared ? () => new List<SceneResult>() : WorkFor(settings, modifier.showEdges);

@@ -7,7 +7,7 @@ namespace ChamferEditor
     /// <summary>What the inspector says about the meshes of a modifier.</summary>
     internal static class ReportText
     {
-        internal const string OutOfDate = "Out of date: a source mesh has changed since. Press Chamfer, or choose Tools > "
+        internal const string OutOfDate = "Out of date: a source mesh or the preset has changed since. Press Chamfer, or choose Tools > "
             + "Chamfer All Again in Open Scenes";
 
         /// <summary>Of all meshes of a modifier, as it was written when they were chamfered.</summary>
@@ -15,7 +15,7 @@ namespace ChamferEditor
         {
             var known = modifier.meshes.Where(entry => entry.original != null);
             string text = string.Join("\n", known.Select(entry => entry.original.name + ": " + entry.report));
-            bool isPreview = modifier.meshes.Any(entry => entry.settings.verify != modifier.settings.verify);
+            bool isPreview = modifier.meshes.Any(entry => entry.settings.verify != modifier.Effective.verify);
             return isPreview ? text + "\nThis is a preview that nobody has looked through: press Chamfer" : text;
         }
 

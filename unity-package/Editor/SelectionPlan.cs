@@ -49,7 +49,7 @@ namespace ChamferEditor
             LoadedModifiers.Place place;
             if (loaded.TryFind(slot, out place))
             {
-                if (ModifierState.IsOutdated(place.Entry)) { AddOutdated(place.Modifier); }
+                if (ModifierState.IsOutdated(place.Modifier, place.Entry)) { AddOutdated(place.Modifier); }
                 else { already.Add(slot.Mesh); }
                 return false;
             }

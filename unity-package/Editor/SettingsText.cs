@@ -9,7 +9,7 @@ namespace ChamferEditor
         internal static string Of(ChamferSettings settings)
         {
             return Number(settings.width) + " " + settings.unit + " " + settings.verify + " " + settings.submeshMode + " "
-                + settings.submesh;
+                + settings.submesh + " " + Number(settings.leastBreadth);
         }
 
         /// <summary>For users.</summary>

@@ -54,6 +54,19 @@ namespace Chamfer
         }
 
 #if UNITY_EDITOR
+        [SerializeField, Tooltip("Settings that others share; they go before those below.")]
+        internal ChamferPreset preset;
+
+        /// <summary>Settings that others share, instead of <see cref="Settings"/>; null for none. Editor only.</summary>
+        public ChamferPreset Preset
+        {
+            get { return preset; }
+            set { preset = value; }
+        }
+
+        /// <summary>Those of the preset, if there is one.</summary>
+        internal ChamferSettings Effective => preset != null ? preset.settings : settings;
+
         // The originals are for the editor only: a player would carry every mesh twice.
         [SerializeField] internal List<ChamferedMesh> meshes = new List<ChamferedMesh>();
 

@@ -56,6 +56,9 @@ namespace Chamfer
         [Tooltip("With Given: the submesh that chamfers go to."), Min(0)]
         public int submesh;
 
+        [Tooltip("How much of the breadth of each face stays between its chamfers, as a share; 0 for the usual fifth.")]
+        [Range(0, 1)] public float leastBreadth;
+
         /// <summary>One percent of the extent, fully verified, in the submesh of the face beside it.</summary>
         public static ChamferSettings Default => new ChamferSettings
         {

@@ -228,6 +228,8 @@ namespace UnityEditor
             Tell(new string[0], new[] { to }, new[] { from });
         }
 
+        /// As if it was imported that moment.
+        public static void TellImported(string path) { Tell(new[] { path }, new string[0], new string[0]); }
         public static Object Loaded(string path) { return AssetDatabase.LoadMainAssetAtPath(path); }
         public static AssetImporter ImporterOf(string path) { return files.ContainsKey(path) ? files[path].Importer : null; }
 

@@ -42,6 +42,15 @@ namespace UnityEngine
     [AttributeUsage(AttributeTargets.Field)]
     public class SerializeField : Attribute { }
 
+    [AttributeUsage(AttributeTargets.Field)]
+    public class RangeAttribute : Attribute { public RangeAttribute(float min, float max) { } }
+
+    public class CreateAssetMenuAttribute : Attribute
+    {
+        public string fileName { get; set; }
+        public string menuName { get; set; }
+    }
+
     public class IconAttribute : Attribute { public IconAttribute(string path) { } }
     public class HelpURLAttribute : Attribute { public readonly string url; public HelpURLAttribute(string url) { this.url = url; } }
 

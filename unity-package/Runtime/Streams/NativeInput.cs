@@ -17,7 +17,8 @@ namespace Chamfer.Streams
                 Verify = (uint)settings.verify,
                 SubmeshMode = (uint)settings.submeshMode,
                 Submesh = (uint)settings.submesh,
-                Threads = 1
+                Threads = 1,
+                LeastBreadth = settings.leastBreadth
             };
         }
 
