@@ -21,6 +21,7 @@ namespace ChamferEditor
             {
                 if (IsModel(moved[i]) && HasChanged(moved[i], movedFrom[i])) { waiting.Add(moved[i]); }
             }
+            foreach (string path in imported.Where(IsModel)) { ImportDependency.Note(path); }
             foreach (string path in imported.Where(IsDeaf)) { Tell(path); }
             if (PresetSync.Follow(imported)) { EditorApplication.delayCall += ModelImports.All; }
             Look();

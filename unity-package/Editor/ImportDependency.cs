@@ -26,6 +26,9 @@ namespace ChamferEditor
 
         private static readonly Dictionary<string, string> labels = new Dictionary<string, string>();
 
+        /// <summary>The GUIDs of all models: looking for them takes long in a large project. Null until then.</summary>
+        private static HashSet<string> models;
+
         /// <summary>What a model depends on before it is known whether it is chamfered.</summary>
         internal static IEnumerable<string> Of(string path)
         {
@@ -52,13 +55,21 @@ namespace ChamferEditor
             RegisterLabels();
         }
 
+        /// <summary>A model that was imported.</summary>
+        internal static void Note(string path)
+        {
+            if (models != null) { models.Add(AssetDatabase.AssetPathToGUID(path)); }
+        }
+
         /// <summary>Tells Unity of the labels of models as they are now; returns those that have others than before.</summary>
         internal static List<string> RegisterLabels()
         {
+            if (models == null) { models = new HashSet<string>(AssetDatabase.FindAssets("t:Model")); }
             var changed = new List<string>();
-            foreach (string guid in AssetDatabase.FindAssets("t:Model"))
+            foreach (string guid in models)
             {
                 string path = AssetDatabase.GUIDToAssetPath(guid), before;
+                if (string.IsNullOrEmpty(path)) { continue; }
                 string now = string.Join("\n", ModelFacts.At(path).Labels.Where(IsOfInterest).OrderBy(label => label, StringComparer.Ordinal));
                 if (now == (labels.TryGetValue(guid, out before) ? before : "")) { continue; }
                 labels[guid] = now;

@@ -60,7 +60,8 @@ namespace ChamferEditor
 
         private void Apply(IEnumerable<JobResult> made)
         {
-            var results = new Dictionary<Mesh, JobResult>(shared);
+            // It may be gone since the preview began.
+            var results = shared.Values.Where(result => result.Mesh != null).ToDictionary(result => result.Source);
             foreach (var result in made) { results[result.Source] = result; }
             var former = TakeOver();
             for (int i = 0; i < slots.Count; i++)

@@ -44,6 +44,7 @@ namespace ChamferEditor
         private static void Update()
         {
             if (running == null || !task.IsCompleted) { return; }
+            if (task.IsFaulted) { UnityEngine.Debug.LogException(task.Exception); }
             Finish();
             Start();
             if (running == null) { EditorApplication.update -= Update; }
@@ -52,10 +53,14 @@ namespace ChamferEditor
         private static void Start()
         {
             waiting.RemoveAll(modifier => modifier == null);
-            if (waiting.Count == 0) { return; }
-            running = new PreviewRun(waiting[0]);
-            waiting.RemoveAt(0);
-            task = Task.Run((System.Action)running.Work);
+            while (running == null && waiting.Count > 0)
+            {
+                running = new PreviewRun(waiting[0]);
+                waiting.RemoveAt(0);
+                // What the last preview made for one object, a hundred others take at once.
+                if (running.IsDone) { Finish(); }
+                else { task = Task.Run((System.Action)running.Work); }
+            }
         }
 
         private static void Finish()
@@ -67,7 +72,6 @@ namespace ChamferEditor
             if (Undo.GetCurrentGroup() == group + 1) { Undo.CollapseUndoOperations(group); }
             foreach (var gone in Failures.Keys.Where(modifier => modifier == null).ToList()) { Failures.Remove(gone); }
             Failures[done.Modifier] = done.Failures;
-            if (task.IsFaulted) { UnityEngine.Debug.LogException(task.Exception); }
             SceneView.RepaintAll();
         }
     }

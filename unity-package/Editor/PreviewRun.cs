@@ -40,10 +40,16 @@ namespace ChamferEditor
             catch (ChamferException exception) { failures.Add(exception.Message); }
         }
 
-        /// <summary>Puts into the scene what came of it; what is gone meanwhile is left out.</summary>
+        /// <summary>Whether there is nothing to work on: somebody else made all of it already.</summary>
+        internal bool IsDone => run.IsShared;
+
+        /// <summary>
+        /// Puts into the scene what came of it; what is gone meanwhile is left out. Where nothing came of it, such as
+        /// of a width that makes no sense, all stays as it was.
+        /// </summary>
         internal void Finish()
         {
-            if (Modifier != null) { run.Apply(results); }
+            if (Modifier != null && (results.Count > 0 || IsDone)) { run.Apply(results); }
         }
 
         private Func<List<SceneResult>> WorkFor(ChamferSettings settings, bool keepsVerdicts)

@@ -75,7 +75,7 @@ namespace Chamfer
                 () => SceneChamfer.Run(scene.Arrays, scene.Placed, settings, progress, cancellation)));
         }
 
-#if UNITY_2023_1_OR_NEWER
+#if UNITY_6000_0_OR_NEWER
         /// <summary>As <see cref="RunAsync"/>, for code that awaits Unity's own kind of task.</summary>
         public static Awaitable<ChamferResult> RunAwaitable(
             Mesh source,

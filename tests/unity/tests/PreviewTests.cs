@@ -97,6 +97,20 @@ namespace Chamfer.Tests
             Check.That(EditorApplication.update == null, "at rest");
         }
 
+        public static void Objects_that_share_a_mesh_follow_at_once()
+        {
+            var cube = Shapes.Cube();
+            var modifiers = Enumerable.Range(0, 20).Select(i => Chamfered(cube)).ToList();
+            foreach (var modifier in modifiers)
+            {
+                modifier.settings.width = 5;
+                PreviewQueue.Request(modifier);
+            }
+            while (WidthOf(modifiers[0]) < 0.05f) { EditorApplication.Idle(); }
+            Check.That(modifiers.All(modifier => Scene.MeshOf(modifier.gameObject) == Scene.MeshOf(modifiers[0].gameObject)), "all of them");
+            EditorApplication.Idle();
+        }
+
         /// Letting go of the slider begins a new step.
         public static void The_last_preview_belongs_to_the_drag()
         {
@@ -135,6 +149,8 @@ namespace Chamfer.Tests
             EditorGUILayout.boxes.Clear();
             inspector.OnInspectorGUI();
             Check.That(EditorGUILayout.boxes.Any(box => box.Contains("width")), string.Join("\n", EditorGUILayout.boxes));
+            Check.That(modifier.IsApplied, "all is as it was");
+            Check.Near(0.02f, WidthOf(modifier));
         }
 
         public static void A_source_is_read_again_where_it_has_changed()
