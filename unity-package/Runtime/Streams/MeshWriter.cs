@@ -32,9 +32,7 @@ namespace Chamfer.Streams
                 Overwrite(mesh, arrays, source);
                 return;
             }
-            mesh.Clear();
-            mesh.ClearBlendShapes();
-            Fill(mesh, arrays);
+            Replace(mesh, arrays);
         }
 
         /// <summary>
@@ -47,12 +45,18 @@ namespace Chamfer.Streams
             int levels = MeshLods.Count(source);
             // Unity refuses to write what it does not let anybody read.
             MeshFlags.SetReadable(mesh, true);
-            mesh.Clear();
-            mesh.ClearBlendShapes();
-            Fill(mesh, arrays);
+            Replace(mesh, arrays);
             MeshLods.Make(mesh, levels);
             MeshFlags.Copy(source, mesh);
             MeshFlags.SetReadable(mesh, isReadable);
+        }
+
+        /// <summary>What the mesh held must not stay where the arrays hold nothing.</summary>
+        private static void Replace(Mesh mesh, MeshArrays arrays)
+        {
+            mesh.Clear();
+            mesh.ClearBlendShapes();
+            Fill(mesh, arrays);
         }
 
         private static void Fill(Mesh mesh, MeshArrays arrays)
