@@ -4,7 +4,9 @@ using UnityEngine;
 namespace ChamferEditor
 {
     /// <summary>
-    /// Lies hidden in a file beside meshes that were chamfered: what they were made of. Players do not get it.
+    /// Lies in a file beside meshes that were chamfered: what they were made of. Its class is the editor's, so players do
+    /// not get it. It has no flags: Unity does not find what is hidden by its type, and bundles that hold what is marked
+    /// as not to be built fail.
     /// </summary>
     internal sealed class ChamferRecord : ScriptableObject
     {
@@ -36,7 +38,6 @@ namespace ChamferEditor
         {
             var record = CreateInstance<ChamferRecord>();
             record.name = "Chamfer Record";
-            record.hideFlags = HideFlags.HideInHierarchy | HideFlags.DontSaveInBuild;
             record.settings = settings;
             record.source = source;
             record.sourceKey = source != null ? MeshKeys.Of(source) : MeshKeys.Unknown;

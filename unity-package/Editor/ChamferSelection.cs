@@ -57,7 +57,8 @@ namespace ChamferEditor
             using (var step = new SelectionStep(Action))
             {
                 if (!Redo(plan, summary)) { return false; }
-                foreach (var mesh in plan.Assets) { SaveBeside(mesh, job, step); }
+                var earlier = new EarlierResults();
+                foreach (var mesh in plan.Assets) { SaveBeside(mesh, earlier.Of(mesh), job, step); }
                 new SlotReplacement(plan, job, step).Run();
                 step.Finish();
             }
@@ -112,16 +113,14 @@ namespace ChamferEditor
         /// Meshes selected by themselves are not replaced: the new ones are saved beside them. The file of an earlier
         /// time is written anew, so that what uses it follows.
         /// </summary>
-        private static void SaveBeside(Mesh mesh, ChamferJob job, SelectionStep step)
+        private static void SaveBeside(Mesh mesh, Mesh earlier, ChamferJob job, SelectionStep step)
         {
             JobResult result;
             string path = AssetDatabase.GetAssetPath(mesh);
             bool isNew = job.Results.TryGetValue(mesh, out result) && result.HasChanged && result.Mesh == null;
             if (!isNew || path.Length == 0) { return; }
-            var earlier = EarlierResults.Of(mesh);
             if (earlier == null) { step.Create(result, AssetNames.Free(AssetNames.Folder(path), mesh)); }
-            else if (EarlierResults.IsCurrent(earlier, result)) { return; }
-            else { step.Rewrite(result, earlier); }
+            else if (!EarlierResults.IsCurrent(earlier, result)) { step.Rewrite(result, earlier); }
         }
     }
 }

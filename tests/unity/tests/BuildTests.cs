@@ -48,13 +48,15 @@ namespace Chamfer.Tests
             }
         }
 
-        public static void Records_are_hidden_and_marked()
+        /// Bundles may hold whole files, and fail where something in them is marked as not to be built.
+        public static void Records_are_the_editors()
         {
             var mesh = Shapes.Cube();
             UnityEditor.AssetDatabase.paths[mesh] = "Assets/Marked/Cube.asset";
             new ChamferSelection(new[] { mesh }).Chamfer(ChamferSettings.Default);
             var record = UnityEditor.AssetDatabase.LoadAssetAtPath<ChamferRecord>("Assets/Marked/Cube Chamfered.asset");
-            Check.Equal(HideFlags.HideInHierarchy | HideFlags.DontSaveInBuild, record.hideFlags);
+            Check.Equal(HideFlags.None, record.hideFlags);
+            Check.Equal("Chamfer.Editor", typeof(ChamferRecord).Assembly.GetName().Name);
         }
     }
 }
