@@ -15,6 +15,8 @@ namespace ChamferEditor
         /// <summary>Chamfers the originals with the modifier's settings; returns what went wrong.</summary>
         internal static IReadOnlyList<string> Chamfer(ChamferModifier modifier)
         {
+            string why = SlotEditing.WhyLocked(modifier);
+            if (why != null) { return new[] { why }; }
             var run = new ModifierRun(modifier, modifier.Effective);
             run.TryChamfer();
             return run.Failures;
@@ -23,6 +25,8 @@ namespace ChamferEditor
         /// <summary>As <see cref="Chamfer"/>, but in time for a slider that is dragged.</summary>
         internal static IReadOnlyList<string> Preview(ChamferModifier modifier)
         {
+            string why = SlotEditing.WhyLocked(modifier);
+            if (why != null) { return new[] { why }; }
             var run = new PreviewRun(modifier);
             run.Work();
             run.Finish();
@@ -32,6 +36,7 @@ namespace ChamferEditor
         /// <summary>Puts the original meshes back.</summary>
         internal static void Revert(ChamferModifier modifier)
         {
+            if (SlotEditing.IsLocked(modifier)) { return; }
             var former = modifier.meshes.ToArray();
             ModifierLods.Drop(modifier);
             Restore(modifier, RevertName);

@@ -21,8 +21,8 @@ namespace ChamferEditor
             var action = DrawButtons();
             DrawReport();
             // Settings that nobody has applied yet are no preview: the first click is the user's.
-            var previewed = Modifiers.Where(modifier => modifier.livePreview && modifier.IsApplied).ToList();
-            if (changed) { previewed.ForEach(PreviewQueue.Request); }
+            var previewed = Modifiers.Where(modifier => modifier.livePreview && modifier.IsApplied);
+            if (changed) { previewed.Where(modifier => !SlotEditing.IsLocked(modifier)).ToList().ForEach(PreviewQueue.Request); }
             if (action == null) { return; }
             failures.Clear();
             foreach (var modifier in Modifiers) { PreviewQueue.Failures.Remove(modifier); }
@@ -59,11 +59,15 @@ namespace ChamferEditor
         private Action DrawButtons()
         {
             Action action = null;
+            string locked = Modifiers.Select(SlotEditing.WhyLocked).FirstOrDefault(reason => reason != null);
             bool isApplied = Modifiers.Any(modifier => modifier.IsApplied);
-            string why = isApplied ? "" : "Nothing is chamfered yet: press Chamfer";
+            string why = locked ?? (isApplied ? "" : "Nothing is chamfered yet: press Chamfer");
             EditorGUILayout.BeginHorizontal();
-            if (GUILayout.Button("Chamfer")) { action = () => ForEach(Modifiers, ModifierActions.Chamfer); }
-            using (new EditorGUI.DisabledScope(!isApplied))
+            using (new EditorGUI.DisabledScope(locked != null))
+            {
+                if (GUILayout.Button(new GUIContent("Chamfer", locked))) { action = () => ForEach(Modifiers, ModifierActions.Chamfer); }
+            }
+            using (new EditorGUI.DisabledScope(locked != null || !isApplied))
             {
                 if (GUILayout.Button(new GUIContent("Revert", why))) { action = Revert; }
                 if (GUILayout.Button(new GUIContent("Save as Asset", why))) { action = Save; }

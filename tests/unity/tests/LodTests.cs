@@ -99,6 +99,17 @@ namespace Chamfer.Tests
             Check.Equal("0.80 0.60 0.02", Heights(root));
         }
 
+        public static void The_inspector_has_a_button()
+        {
+            var modifier = Chamfered(Scene.Holding(Shapes.Cube(), "Root"));
+            var inspector = new ModifierInspector { target = modifier, targets = new Object[] { modifier }, serializedObject = new SerializedObject(modifier) };
+            GUILayout.broken = false;
+            GUILayout.clicked = "Make LOD";
+            try { Check.Throws<ExitGUIException>(inspector.OnInspectorGUI); }
+            finally { GUILayout.clicked = null; }
+            Check.Equal(1, modifier.farObjects.Count);
+        }
+
         public static void Narrow_chamfers_are_for_close_by()
         {
             var root = Scene.Holding(Shapes.Cube(), "Root");

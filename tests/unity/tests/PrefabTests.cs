@@ -99,6 +99,25 @@ namespace Chamfer.Tests
             });
         }
 
+        public static void A_modifier_in_the_file_of_an_open_prefab_waits()
+        {
+            var prefab = Prefab(Shapes.Cube(), "Assets/Waits/Crate.prefab");
+            var modifier = prefab.AddComponent<ChamferModifier>();
+            ModifierActions.Chamfer(modifier);
+            var mesh = Scene.MeshOf(prefab);
+            InStage(prefab, stage =>
+            {
+                Check.That(ModifierActions.Chamfer(modifier).Single().Contains("is open"), "and says why");
+                Check.That(ModifierActions.Preview(modifier).Single().Contains("is open"), "previews, too");
+                ModifierActions.Revert(modifier);
+                Check.That(Scene.MeshOf(prefab) == mesh && modifier.IsApplied, "as it was");
+                var inspector = new ModifierInspector { target = modifier, targets = new Object[] { modifier }, serializedObject = new SerializedObject(modifier) };
+                GUILayout.broken = false;
+                inspector.OnInspectorGUI();
+                Check.That(GUILayout.tooltips["Chamfer"].Contains("is open") && GUILayout.tooltips["Revert"].Contains("is open"), "buttons");
+            });
+        }
+
         public static void A_mesh_of_several_prefabs_gets_a_file_of_its_own()
         {
             var mesh = Shapes.Cube();
