@@ -17,7 +17,9 @@ namespace ChamferEditor
         internal static string Of(Mesh source)
         {
             string mesh = Clean(source.name);
-            string file = Clean(Path.GetFileNameWithoutExtension(AssetDatabase.GetAssetPath(source)));
+            string path = AssetDatabase.GetAssetPath(source);
+            // Unity's own meshes have a file that says nothing.
+            string file = IsOfProject(path) || IsOfPackage(path) ? Clean(Path.GetFileNameWithoutExtension(path)) : "";
             if (file.Length == 0 || file == mesh) { return OrMesh(mesh) + JobResult.Suffix; }
             return (mesh.Length == 0 ? file : file + " " + mesh) + JobResult.Suffix;
         }
@@ -28,10 +30,27 @@ namespace ChamferEditor
             return AssetDatabase.GenerateUniqueAssetPath(folder + "/" + Of(source) + ".asset");
         }
 
+        /// <summary>Where a file can lie beside a mesh: packages cannot be written to.</summary>
+        internal static string FolderBeside(Mesh source)
+        {
+            string path = AssetDatabase.GetAssetPath(source);
+            return IsOfProject(path) ? Folder(path) : "Assets";
+        }
+
         /// <summary>The folder of a file, without a slash at its end.</summary>
         internal static string Folder(string path)
         {
             return path.Substring(0, System.Math.Max(0, path.LastIndexOf('/')));
+        }
+
+        private static bool IsOfProject(string path)
+        {
+            return path.StartsWith("Assets/", System.StringComparison.Ordinal);
+        }
+
+        private static bool IsOfPackage(string path)
+        {
+            return path.StartsWith("Packages/", System.StringComparison.Ordinal);
         }
 
         private static string OrMesh(string name)

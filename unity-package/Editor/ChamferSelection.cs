@@ -119,7 +119,7 @@ namespace ChamferEditor
             string path = AssetDatabase.GetAssetPath(mesh);
             bool isNew = job.Results.TryGetValue(mesh, out result) && result.HasChanged && result.Mesh == null;
             if (!isNew || path.Length == 0) { return; }
-            if (earlier == null) { step.Create(result, AssetNames.Free(AssetNames.Folder(path), mesh)); }
+            if (earlier == null) { step.Create(result, AssetNames.Free(AssetNames.FolderBeside(mesh), mesh)); }
             else if (!EarlierResults.IsCurrent(earlier, result)) { step.Rewrite(result, earlier); }
         }
     }

@@ -11,10 +11,10 @@ namespace ChamferEditor
     {
         private readonly Dictionary<string, Dictionary<Mesh, Mesh>> folders = new Dictionary<string, Dictionary<Mesh, Mesh>>();
 
-        /// <summary>The mesh that was made of a source and lies in its folder, whatever it is called now; or null.</summary>
+        /// <summary>The mesh that was made of a source and lies beside it, whatever it is called now; or null.</summary>
         internal Mesh Of(Mesh source)
         {
-            string folder = AssetNames.Folder(AssetDatabase.GetAssetPath(source));
+            string folder = AssetNames.FolderBeside(source);
             Dictionary<Mesh, Mesh> results;
             if (!folders.TryGetValue(folder, out results)) { folders[folder] = results = ResultsIn(folder); }
             Mesh earlier;

@@ -55,6 +55,15 @@ namespace Chamfer.Tests
             Check.Equal("Assets/Odd/Kept/odd x_y Chamfered.asset", ModifierActions.Save(modifier, "Assets/Odd/Kept").Single());
         }
 
+        public static void Meshes_of_packages_are_saved_in_the_project()
+        {
+            var mesh = Cube("Packages/com.other/Parts/part.fbx", "Bolt");
+            for (int time = 0; time < 2; time++) { ChamferAll(mesh); }
+            Check.Equal(1, Scene.MeshesIn("Assets/part Bolt Chamfered.asset").Count);
+            Check.Equal(0, Scene.MeshesIn("Assets/part Bolt Chamfered 1.asset").Count);
+            Check.Equal("Cube Chamfered", AssetNames.Of(Cube("Library/unity default resources")));
+        }
+
         public static void A_file_that_was_renamed_is_found_again()
         {
             var mesh = Cube("Assets/Renamed/Cube.asset");
