@@ -17,7 +17,8 @@ namespace ChamferEditor
             if (Application.isPlaying) { return; }
             foreach (var root in scene.GetRootGameObjects())
             {
-                foreach (var modifier in root.GetComponentsInChildren<ChamferModifier>(true)) { Object.DestroyImmediate(modifier); }
+                var modifiers = root.GetComponentsInChildren<ChamferModifier>(true);
+                foreach (var modifier in modifiers) { Object.DestroyImmediate(modifier); }
             }
         }
     }

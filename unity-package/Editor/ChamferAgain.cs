@@ -23,8 +23,9 @@ namespace ChamferEditor
         internal static bool InProject(JobSummary summary)
         {
             ModelImports.All();
-            var prefabs = Paths("t:Prefab").Select(path => AssetDatabase.LoadAssetAtPath<GameObject>(path)).Where(prefab => prefab != null);
-            var modifiers = prefabs.SelectMany(prefab => prefab.GetComponentsInChildren<ChamferModifier>(true));
+            var prefabs = Paths("t:Prefab").Select(path => AssetDatabase.LoadAssetAtPath<GameObject>(path));
+            var modifiers = prefabs.Where(prefab => prefab != null)
+                .SelectMany(prefab => prefab.GetComponentsInChildren<ChamferModifier>(true));
             var files = Paths("t:Mesh").Where(path => path.EndsWith(".asset", StringComparison.Ordinal));
             return Run(modifiers, files.Select(path => AssetDatabase.LoadAssetAtPath<Mesh>(path)), summary);
         }
@@ -55,7 +56,8 @@ namespace ChamferEditor
         {
             if (!modifier.IsApplied || SlotEditing.IsLocked(modifier)) { return false; }
             var source = PrefabUtility.GetCorrespondingObjectFromSource(modifier);
-            return source == null || !source.meshes.Select(entry => entry.chamfered).SequenceEqual(modifier.meshes.Select(entry => entry.chamfered));
+            return source == null || !source.meshes.Select(entry => entry.chamfered)
+                .SequenceEqual(modifier.meshes.Select(entry => entry.chamfered));
         }
 
         /// <summary>Writes a file anew whose source has changed.</summary>

@@ -56,7 +56,10 @@ namespace ChamferEditor
             var folders = Folders().ToList();
             if (selection.IsEmpty && folders.Count == 0) { Explain(selection); }
             if (!selection.IsEmpty) { Tell(selection.Chamfer(settings), selection); }
-            foreach (string folder in folders) { Debug.Log("Chamfer: " + folder + ": " + ChamferTools.ChamferFolder(folder, settings)); }
+            foreach (string folder in folders)
+            {
+                Debug.Log("Chamfer: " + folder + ": " + ChamferTools.ChamferFolder(folder, settings));
+            }
         }
 
         private static IEnumerable<string> Folders()

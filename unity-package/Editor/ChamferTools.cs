@@ -33,7 +33,10 @@ namespace ChamferEditor
         /// <exception cref="ArgumentException">It is no model.</exception>
         public static ChamferOutcome ChamferModelCopy(GameObject model, ChamferSettings settings)
         {
-            if (!ModelCopy.IsModel(model)) { throw new ArgumentException("Hand over the main object of a model file", nameof(model)); }
+            if (!ModelCopy.IsModel(model))
+            {
+                throw new ArgumentException("Hand over the main object of a model file", nameof(model));
+            }
             var summary = new JobSummary();
             return new ChamferOutcome(ModelCopy.Make(model, settings, summary), summary);
         }

@@ -33,13 +33,15 @@ namespace ChamferEditor
         private static Dictionary<Mesh, Mesh> ResultsIn(string folder)
         {
             var results = new Dictionary<Mesh, Mesh>();
-            var paths = AssetDatabase.FindAssets("t:Mesh", new[] { folder }).Select(guid => AssetDatabase.GUIDToAssetPath(guid));
+            var guids = AssetDatabase.FindAssets("t:Mesh", new[] { folder });
+            var paths = guids.Select(guid => AssetDatabase.GUIDToAssetPath(guid));
             foreach (string path in paths.Distinct().OrderBy(path => path, StringComparer.Ordinal))
             {
                 bool isBeside = AssetNames.Folder(path) == folder && path.EndsWith(".asset", StringComparison.Ordinal);
                 var record = isBeside ? AssetDatabase.LoadAssetAtPath<ChamferRecord>(path) : null;
                 bool isResult = record != null && record.source != null && !record.isManaged;
-                if (isResult && !results.ContainsKey(record.source)) { results.Add(record.source, AssetDatabase.LoadAssetAtPath<Mesh>(path)); }
+                if (!isResult || results.ContainsKey(record.source)) { continue; }
+                results.Add(record.source, AssetDatabase.LoadAssetAtPath<Mesh>(path));
             }
             return results;
         }

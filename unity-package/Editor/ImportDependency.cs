@@ -70,7 +70,8 @@ namespace ChamferEditor
             {
                 string path = AssetDatabase.GUIDToAssetPath(guid), before;
                 if (string.IsNullOrEmpty(path)) { continue; }
-                string now = string.Join("\n", ModelFacts.At(path).Labels.Where(IsOfInterest).OrderBy(label => label, StringComparer.Ordinal));
+                var ofInterest = ModelFacts.At(path).Labels.Where(IsOfInterest);
+                string now = string.Join("\n", ofInterest.OrderBy(label => label, StringComparer.Ordinal));
                 if (now == (labels.TryGetValue(guid, out before) ? before : "")) { continue; }
                 labels[guid] = now;
                 Register(LabelPrefix + guid, now);
@@ -94,8 +95,9 @@ namespace ChamferEditor
 
         private static bool IsOfInterest(string label)
         {
+            var rules = ChamferProjectSettings.instance.rules;
             return ImportRule.IsLabel(label)
-                || ChamferProjectSettings.instance.rules.Any(rule => string.Equals(rule.label, label, StringComparison.OrdinalIgnoreCase));
+                || rules.Any(rule => string.Equals(rule.label, label, StringComparison.OrdinalIgnoreCase));
         }
 
         private static string TextOf(IEnumerable<ModelRule> rules)

@@ -27,7 +27,8 @@ namespace ChamferEditor
                 if (TryParse(label, common, out settings)) { return true; }
             }
             // Sorting keeps the order of equals.
-            var nearest = rules.Where(rule => rule.Concerns(model)).OrderByDescending(rule => rule.Folder.Length).Take(1).ToList();
+            var concerned = rules.Where(rule => rule.Concerns(model));
+            var nearest = concerned.OrderByDescending(rule => rule.Folder.Length).Take(1).ToList();
             settings = common;
             if (nearest.Count == 0 || nearest[0].exclude) { return false; }
             // A rule that was just added to the list holds zeros.

@@ -58,7 +58,10 @@ namespace ChamferEditor
         /// <summary>Writes down what was done: others must not chamfer it once more.</summary>
         private void Record(ModelFacts facts, ChamferSettings settings, List<SceneResult> results)
         {
-            foreach (var result in results.Where(result => result.Output.Report.Quads > 0)) { Warn(QuadsText.Of(result.Mesh), result.Mesh); }
+            foreach (var result in results)
+            {
+                if (result.Output.Report.Quads > 0) { Warn(QuadsText.Of(result.Mesh), result.Mesh); }
+            }
             var record = ChamferRecord.Make(null, settings);
             record.triangles = facts.Triangles;
             record.size = facts.Size;

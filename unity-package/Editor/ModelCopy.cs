@@ -46,7 +46,8 @@ namespace ChamferEditor
         private static string PathOf(GameObject model)
         {
             string path = AssetDatabase.GetAssetPath(model);
-            return AssetNames.Folder(path) + "/" + System.IO.Path.GetFileNameWithoutExtension(path) + JobResult.Suffix + ".prefab";
+            string name = System.IO.Path.GetFileNameWithoutExtension(path);
+            return AssetNames.Folder(path) + "/" + name + JobResult.Suffix + ".prefab";
         }
     }
 }

@@ -65,7 +65,8 @@ namespace ChamferEditor
             return string.Join("|", new[]
             {
                 Folder, label ?? "", pattern ?? "", fewestTriangles.ToString(), mostTriangles.ToString(),
-                SettingsText.Number(smallestSize), SettingsText.Number(largestSize), exclude.ToString(), SettingsText.Of(settings)
+                SettingsText.Number(smallestSize), SettingsText.Number(largestSize), exclude.ToString(),
+                SettingsText.Of(settings)
             });
         }
 

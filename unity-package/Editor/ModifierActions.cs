@@ -110,7 +110,8 @@ namespace ChamferEditor
         /// <summary>Takes away the meshes of former entries that nobody uses any more.</summary>
         internal static void DropUnused(IEnumerable<ChamferedMesh> former)
         {
-            foreach (var same in former.Where(entry => entry.chamfered != null && entry.holder != null).GroupBy(entry => entry.chamfered))
+            var known = former.Where(entry => entry.chamfered != null && entry.holder != null);
+            foreach (var same in known.GroupBy(entry => entry.chamfered))
             {
                 var holders = new HashSet<Component>(same.Select(entry => entry.holder));
                 bool isHeld = holders.Any(holder => MeshSlot.Of(holder).Mesh == same.Key);

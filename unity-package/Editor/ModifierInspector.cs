@@ -22,7 +22,7 @@ namespace ChamferEditor
             DrawReport();
             // Settings that nobody has applied yet are no preview: the first click is the user's.
             var previewed = Modifiers.Where(modifier => modifier.livePreview && modifier.IsApplied);
-            if (changed) { previewed.Where(modifier => !SlotEditing.IsLocked(modifier)).ToList().ForEach(PreviewQueue.Request); }
+            if (changed) { previewed.Where(one => !SlotEditing.IsLocked(one)).ToList().ForEach(PreviewQueue.Request); }
             if (action == null) { return; }
             failures.Clear();
             foreach (var modifier in Modifiers) { PreviewQueue.Failures.Remove(modifier); }
@@ -65,7 +65,7 @@ namespace ChamferEditor
             EditorGUILayout.BeginHorizontal();
             using (new EditorGUI.DisabledScope(locked != null))
             {
-                if (GUILayout.Button(new GUIContent("Chamfer", locked))) { action = () => ForEach(Modifiers, ModifierActions.Chamfer); }
+                if (GUILayout.Button(new GUIContent("Chamfer", locked))) { action = ChamferAll; }
             }
             using (new EditorGUI.DisabledScope(locked != null || !isApplied))
             {
@@ -79,14 +79,14 @@ namespace ChamferEditor
 
         private void DrawReport()
         {
-            var previews = Modifiers.Where(PreviewQueue.Failures.ContainsKey).SelectMany(modifier => PreviewQueue.Failures[modifier]);
+            var previews = Modifiers.Where(PreviewQueue.Failures.ContainsKey).SelectMany(one => PreviewQueue.Failures[one]);
             foreach (string failure in failures.Concat(previews)) { EditorGUILayout.HelpBox(failure, MessageType.Warning); }
             foreach (var modifier in Modifiers.Where(modifier => modifier.IsApplied))
             {
                 if (ModifierState.IsOutdated(modifier)) { EditorGUILayout.HelpBox(ReportText.OutOfDate, MessageType.Warning); }
                 EditorGUILayout.HelpBox(ReportText.Of(modifier), MessageType.None);
                 bool isUnknown = modifier.showEdges && modifier.meshes.Any(entry => VerdictCache.Of(entry) == null);
-                if (isUnknown) { EditorGUILayout.HelpBox("The edges are not known any more: press Chamfer to see them", MessageType.Info); }
+                if (isUnknown) { EditorGUILayout.HelpBox(ReportText.EdgesUnknown, MessageType.Info); }
             }
         }
 
@@ -94,6 +94,11 @@ namespace ChamferEditor
         {
             var modifier = (ChamferModifier)target;
             if (modifier.showEdges) { VerdictOverlay.Draw(modifier); }
+        }
+
+        private void ChamferAll()
+        {
+            foreach (var modifier in Modifiers) { failures.AddRange(ModifierActions.Chamfer(modifier)); }
         }
 
         private void Revert()
@@ -113,11 +118,6 @@ namespace ChamferEditor
             string folder = ModifierActions.ProjectFolder(chosen, Application.dataPath);
             if (folder == null) { failures.Add("Choose a folder inside the project's Assets to save meshes in"); }
             else { foreach (var modifier in Modifiers) { ModifierActions.Save(modifier, folder); } }
-        }
-
-        private void ForEach(IEnumerable<ChamferModifier> modifiers, Func<ChamferModifier, IEnumerable<string>> action)
-        {
-            foreach (var modifier in modifiers) { failures.AddRange(action(modifier)); }
         }
     }
 }

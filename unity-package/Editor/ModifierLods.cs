@@ -52,7 +52,8 @@ namespace ChamferEditor
         /// <summary>Whether an object only shows a source far away, and is not to be chamfered.</summary>
         internal static bool IsFar(Component holder)
         {
-            return holder.GetComponentsInParent<ChamferModifier>(true).Any(modifier => modifier.farObjects.Contains(holder.gameObject));
+            var modifiers = holder.GetComponentsInParent<ChamferModifier>(true);
+            return modifiers.Any(modifier => modifier.farObjects.Contains(holder.gameObject));
         }
 
         private static bool IsThere(ChamferedMesh entry)

@@ -38,7 +38,10 @@ namespace ChamferEditor
         private static int[] FirstWeights(Skin skin)
         {
             var first = new int[skin.BonesPerVertex.Length];
-            for (int vertex = 1; vertex < first.Length; vertex++) { first[vertex] = first[vertex - 1] + skin.BonesPerVertex[vertex - 1]; }
+            for (int vertex = 1; vertex < first.Length; vertex++)
+            {
+                first[vertex] = first[vertex - 1] + skin.BonesPerVertex[vertex - 1];
+            }
             return first;
         }
 
@@ -48,7 +51,8 @@ namespace ChamferEditor
             for (int i = first[vertex]; i < first[vertex] + skin.BonesPerVertex[vertex]; i++)
             {
                 var weight = skin.Weights[i];
-                if (weight.boneIndex < matrices.Length) { posed += matrices[weight.boneIndex].MultiplyPoint3x4(rest) * weight.weight; }
+                if (weight.boneIndex >= matrices.Length) { continue; }
+                posed += matrices[weight.boneIndex].MultiplyPoint3x4(rest) * weight.weight;
             }
             return posed;
         }

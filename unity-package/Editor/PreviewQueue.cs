@@ -18,7 +18,8 @@ namespace ChamferEditor
         private static int group;
 
         /// <summary>What could not be chamfered, by modifier, until its next preview.</summary>
-        internal static readonly Dictionary<ChamferModifier, IReadOnlyList<string>> Failures = new Dictionary<ChamferModifier, IReadOnlyList<string>>();
+        internal static readonly Dictionary<ChamferModifier, IReadOnlyList<string>> Failures =
+            new Dictionary<ChamferModifier, IReadOnlyList<string>>();
 
         /// <summary>Asks for a preview with the settings that the modifier has when its turn comes.</summary>
         internal static void Request(ChamferModifier modifier)

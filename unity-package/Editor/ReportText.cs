@@ -7,8 +7,10 @@ namespace ChamferEditor
     /// <summary>What the inspector says about the meshes of a modifier.</summary>
     internal static class ReportText
     {
-        internal const string OutOfDate = "Out of date: a source mesh or the preset has changed since. Press Chamfer, or choose Tools > "
-            + "Chamfer All Again in Open Scenes";
+        internal const string OutOfDate = "Out of date: a source mesh or the preset has changed since. Press Chamfer, or "
+            + "choose Tools > Chamfer All Again in Open Scenes";
+
+        internal const string EdgesUnknown = "The edges are not known any more: press Chamfer to see them";
 
         /// <summary>Of all meshes of a modifier, as it was written when they were chamfered.</summary>
         internal static string Of(ChamferModifier modifier)

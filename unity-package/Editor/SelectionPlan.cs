@@ -12,22 +12,21 @@ namespace ChamferEditor
     internal sealed class SelectionPlan
     {
         private readonly LoadedModifiers loaded = new LoadedModifiers();
-        private readonly List<KeyValuePair<SlotGroup, List<MeshSlot>>> fresh = new List<KeyValuePair<SlotGroup, List<MeshSlot>>>();
+        private readonly List<SlotGroup> fresh;
         private readonly HashSet<Mesh> already = new HashSet<Mesh>();
         private readonly List<ChamferModifier> outdated = new List<ChamferModifier>();
 
         internal SelectionPlan(IEnumerable<SlotGroup> groups, IEnumerable<Mesh> assets)
         {
-            foreach (var group in groups)
-            {
-                fresh.Add(new KeyValuePair<SlotGroup, List<MeshSlot>>(group, group.Slots.FindAll(IsFresh)));
-            }
+            fresh = groups.ToList();
+            foreach (var group in fresh) { group.Fresh = group.Slots.FindAll(IsFresh); }
+            fresh.RemoveAll(group => group.Fresh.Count == 0);
             Assets = assets.Where(mesh => !IsResult(mesh)).ToList();
-            Scenes = Fresh.Select(one => SceneOf(one.Key, one.Value)).Concat(Assets.Select(mesh => MeshScene.Of(mesh))).ToList();
+            Scenes = fresh.Select(SceneOf).Concat(Assets.Select(mesh => MeshScene.Of(mesh))).ToList();
         }
 
         /// <summary>What nobody has chamfered yet, group by group.</summary>
-        internal IEnumerable<KeyValuePair<SlotGroup, List<MeshSlot>>> Fresh => fresh.Where(one => one.Value.Count > 0);
+        internal IReadOnlyList<SlotGroup> Fresh => fresh;
 
         /// <summary>Meshes that are no results themselves.</summary>
         internal IReadOnlyList<Mesh> Assets { get; }
@@ -72,9 +71,9 @@ namespace ChamferEditor
         }
 
         /// <summary>With all that stands around, also what is chamfered already.</summary>
-        private static MeshScene SceneOf(SlotGroup group, List<MeshSlot> slots)
+        private static MeshScene SceneOf(SlotGroup group)
         {
-            return MeshScene.Of(group.Root, group.Slots).Wanting(slots.ConvertAll(slot => slot.Mesh));
+            return MeshScene.Of(group.Root, group.Slots).Wanting(group.Fresh.ConvertAll(slot => slot.Mesh));
         }
     }
 }

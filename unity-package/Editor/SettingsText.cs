@@ -15,7 +15,8 @@ namespace ChamferEditor
         /// <summary>For users.</summary>
         internal static string Words(ChamferSettings settings)
         {
-            return Number(settings.width) + (settings.unit == WidthUnit.PercentOfExtent ? " percent" : " units") + ", " + settings.verify;
+            string unit = settings.unit == WidthUnit.PercentOfExtent ? " percent, " : " units, ";
+            return Number(settings.width) + unit + settings.verify;
         }
 
         /// <summary>As it is written on every machine, to the last bit.</summary>

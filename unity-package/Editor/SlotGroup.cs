@@ -22,6 +22,9 @@ namespace ChamferEditor
 
         internal List<MeshSlot> Slots { get; } = new List<MeshSlot>();
 
+        /// <summary>Those of the places that nobody has chamfered yet; a plan finds them.</summary>
+        internal List<MeshSlot> Fresh { get; set; }
+
         /// <summary>Adds what was found below a selected object.</summary>
         internal void Add(MeshSlot slot, GameObject item)
         {

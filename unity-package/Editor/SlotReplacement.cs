@@ -23,11 +23,16 @@ namespace ChamferEditor
         internal void Run()
         {
             // What is in a file can be used by all others; what is in a scene, by that scene only.
-            foreach (var one in plan.Fresh.OrderBy(one => one.Value.All(slot => SlotEditing.IsInPrefab(slot.Holder)) ? 0 : 1))
+            foreach (var group in plan.Fresh.OrderBy(IsOfScene))
             {
-                foreach (var slot in one.Value) { Replace(one.Key, slot); }
-                step.Touch(one.Key.File);
+                foreach (var slot in group.Fresh) { Replace(group, slot); }
+                step.Touch(group.File);
             }
+        }
+
+        private static bool IsOfScene(SlotGroup group)
+        {
+            return group.Fresh.Any(slot => !SlotEditing.IsInPrefab(slot.Holder));
         }
 
         /// <summary>Meshes of which no edge can be chamfered are left alone.</summary>
@@ -35,11 +40,16 @@ namespace ChamferEditor
         {
             JobResult result;
             if (!job.Results.TryGetValue(slot.Mesh, out result) || !result.HasChanged) { return; }
-            if (result.Mesh == null) { result = SharedMeshes.Find(plan.Loaded, result.Source, result.Key, slot.Holder, null) ?? result; }
+            if (result.Mesh == null) { result = Shared(result, slot) ?? result; }
             if (result.Mesh == null) { Write(result, slot); }
             var modifier = ModifierFor(group, slot, result.Settings);
             var placed = MeshScene.Place(modifier.transform, slot.Holder);
             ModifierActions.Put(modifier, slot, result, placed, step.Action);
+        }
+
+        private JobResult Shared(JobResult result, MeshSlot slot)
+        {
+            return SharedMeshes.Find(plan.Loaded, result.Source, result.Key, slot.Holder, null);
         }
 
         private void Write(JobResult result, MeshSlot slot)
@@ -52,7 +62,7 @@ namespace ChamferEditor
 
         private IEnumerable<MeshSlot> Users(Mesh mesh)
         {
-            return plan.Fresh.SelectMany(one => one.Value).Where(slot => slot.Mesh == mesh);
+            return plan.Fresh.SelectMany(group => group.Fresh).Where(slot => slot.Mesh == mesh);
         }
 
         /// <summary>The modifier that remembers a slot: one on the selected object, unless that has one of its own.</summary>

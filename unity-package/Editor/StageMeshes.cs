@@ -37,7 +37,8 @@ namespace ChamferEditor
         {
             if (!AssetDatabase.Contains(entry.chamfered))
             {
-                ManagedFiles.Make(entry.chamfered, entry.original, entry.settings, prefab, AssetDatabase.AssetPathToGUID(prefab));
+                string owner = AssetDatabase.AssetPathToGUID(prefab);
+                ManagedFiles.Make(entry.chamfered, entry.original, entry.settings, prefab, owner);
             }
             else if (AssetDatabase.GetAssetPath(entry.chamfered) != prefab) { AssetDatabase.SaveAssetIfDirty(entry.chamfered); }
         }

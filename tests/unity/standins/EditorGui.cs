@@ -41,6 +41,8 @@ namespace UnityEngine
         public static string clicked;
         /// Whether a dialogue was shown since: what is laid out after one is an error in Unity.
         public static bool broken;
+        /// How many groups are open.
+        public static int depth;
         public static readonly Dictionary<string, string> tooltips = new Dictionary<string, string>();
 
         internal static T Lay<T>(T value)
@@ -157,13 +159,13 @@ namespace UnityEditor
         public static bool PropertyField(SerializedProperty property, bool children, params GUILayoutOption[] options) { return GUILayout.Lay(false); }
         public static readonly List<string> boxes = new List<string>();
         public static void HelpBox(string text, MessageType type) { GUILayout.Lay(true); boxes.Add(text); }
-        public static Vector2 BeginScrollView(Vector2 place, params GUILayoutOption[] options) { return GUILayout.Lay(place); }
-        public static void EndScrollView() { GUILayout.Lay(true); }
-        public static Rect BeginVertical(params GUILayoutOption[] options) { return GUILayout.Lay(new Rect()); }
-        public static void EndVertical() { GUILayout.Lay(true); }
+        public static Vector2 BeginScrollView(Vector2 place, params GUILayoutOption[] options) { GUILayout.depth++; return GUILayout.Lay(place); }
+        public static void EndScrollView() { GUILayout.depth--; GUILayout.Lay(true); }
+        public static Rect BeginVertical(params GUILayoutOption[] options) { GUILayout.depth++; return GUILayout.Lay(new Rect()); }
+        public static void EndVertical() { GUILayout.depth--; GUILayout.Lay(true); }
         public static void LabelField(string text, GUIStyle style, params GUILayoutOption[] options) { GUILayout.Lay(true); boxes.Add(text); }
-        public static Rect BeginHorizontal(params GUILayoutOption[] options) { return GUILayout.Lay(new Rect()); }
-        public static void EndHorizontal() { GUILayout.Lay(true); }
+        public static Rect BeginHorizontal(params GUILayoutOption[] options) { GUILayout.depth++; return GUILayout.Lay(new Rect()); }
+        public static void EndHorizontal() { GUILayout.depth--; GUILayout.Lay(true); }
     }
 
     public static class EditorGUI

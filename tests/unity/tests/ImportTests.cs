@@ -302,8 +302,10 @@ namespace Chamfer.Tests
                 GUILayout.clicked = "Try Rules";
                 Check.Throws<ExitGUIException>(() => ((SettingsProvider)create.Invoke(null, null)).guiHandler(""));
                 EditorGUILayout.boxes.Clear();
+                GUILayout.depth = 0;
                 typeof(DryRunWindow).GetMethod("OnGUI", BindingFlags.Instance | BindingFlags.NonPublic).Invoke(EditorWindow.opened, null);
                 Check.That(EditorGUILayout.boxes.Contains("now: 1 percent, Full"), string.Join("/", EditorGUILayout.boxes.ToArray()));
+                Check.Equal(0, GUILayout.depth);
             }));
         }
 

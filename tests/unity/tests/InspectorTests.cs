@@ -36,8 +36,10 @@ namespace Chamfer.Tests
         private static bool Draw(ModifierInspector inspector)
         {
             GUILayout.broken = false;
+            GUILayout.depth = 0;
             try { inspector.OnInspectorGUI(); }
             catch (ExitGUIException) { return true; }
+            Check.Equal(0, GUILayout.depth);
             return false;
         }
 
