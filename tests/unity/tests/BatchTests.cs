@@ -62,11 +62,15 @@ namespace Chamfer.Tests
         /// What was imported with a label is chamfered: trying it would chamfer it twice.
         public static void A_second_run_leaves_models_alone()
         {
-            Project.postprocessors.Add(typeof(ModelChamfer));
+            Project.postprocessors.AddRange(new[] { typeof(ModelChamfer), typeof(ImportChanges) });
             try
             {
                 Project.AddModel("Assets/Again/a.fbx", () => Scene.Holding(Shapes.Cube(), "Model"));
+                EditorApplication.Idle();
+                AssetDatabase.imported.Clear();
                 Check.Equal(0, Run("Assets/Again"));
+                EditorApplication.Idle();
+                Check.Equal("Assets/Again/a.fbx", AssetDatabase.imported.Single());
                 AssetDatabase.imported.Clear();
                 Check.Equal(0, Run("Assets/Again"));
                 Check.Equal(0, AssetDatabase.imported.Count);

@@ -365,6 +365,7 @@ namespace Chamfer.Tests
                 AssetDatabase.labels["Assets/Deaf/b.glb"] = new[] { "Chamfer" };
                 int logged = Debug.logged.Count;
                 Project.AddModel("Assets/Deaf/b.glb", () => Scene.Holding(Shapes.Cube(), "Model"), new ScriptedImporter());
+                Check.Equal(1, Debug.logged.Count - logged);
                 AssetDatabase.ImportAsset("Assets/Deaf/b.glb", ImportAssetOptions.Default);
                 Check.Equal(1, Debug.logged.Count - logged);
                 Check.That(Debug.logged.Last().Contains("b.glb") && Debug.logged.Last().Contains("Chamfer Model Asset"), Debug.logged.Last());

@@ -148,7 +148,9 @@ namespace Chamfer.Tests
             PreviewQueue.Flush();
             EditorGUILayout.boxes.Clear();
             inspector.OnInspectorGUI();
-            Check.That(EditorGUILayout.boxes.Any(box => box.Contains("width")), string.Join("\n", EditorGUILayout.boxes));
+            Check.That(PreviewQueue.Failures.ContainsKey(modifier), "told");
+            Check.That(PreviewQueue.Failures[modifier].Single().Contains("width"), "why");
+            Check.That(EditorGUILayout.boxes.Contains(PreviewQueue.Failures[modifier][0]), string.Join("\n", EditorGUILayout.boxes));
             Check.That(modifier.IsApplied, "all is as it was");
             Check.Near(0.02f, WidthOf(modifier));
         }

@@ -196,6 +196,23 @@ namespace Chamfer.Tests
             Check.Equal(3, result.GetVertexAttributeDimension(VertexAttribute.TexCoord1));
         }
 
+        public static void All_streams_are_read_without_read_write()
+        {
+            var mesh = Shapes.Cube();
+            mesh.tangents = Array.ConvertAll(mesh.normals, n => new Vector4(n.y, n.z, n.x, -1));
+            mesh.colors32 = Array.ConvertAll(mesh.vertices, p => (Color32)new Color(p.x, p.y, p.z, 1));
+            mesh.SetUVs(0, Array.ConvertAll(mesh.vertices, p => new Vector2(p.x, p.y)));
+            mesh.SetUVs(1, mesh.vertices);
+            mesh.SetUVs(2, Array.ConvertAll(mesh.vertices, p => new Vector4(p.x, p.y, p.z, 1)));
+            mesh.indexFormat = IndexFormat.UInt32;
+            var expected = MeshReader.Read(mesh);
+            mesh.readable = false;
+            var found = MeshReader.Read(mesh);
+            Check.Equal(ContentHash.Of(expected), ContentHash.Of(found));
+            Check.That(found.HasByteColors && found.HasWideIndices, "flags");
+            Check.Equal("Cube", found.Name);
+        }
+
         public static void The_editor_reads_skins_and_blend_shapes_without_read_write()
         {
             var mesh = Shapes.FullCube();
