@@ -31,6 +31,14 @@ namespace ChamferEditor
             if (running == null) { Start(); }
         }
 
+        /// <summary>Before scripts are loaded anew no thread may be at work.</summary>
+        [InitializeOnLoadMethod]
+        internal static void Listen()
+        {
+            AssemblyReloadEvents.beforeAssemblyReload -= Flush;
+            AssemblyReloadEvents.beforeAssemblyReload += Flush;
+        }
+
         /// <summary>Waits for all that was asked for.</summary>
         internal static void Flush()
         {

@@ -90,6 +90,13 @@ namespace UnityEditor
         }
     }
 
+    public static class AssemblyReloadEvents
+    {
+        public delegate void AssemblyReloadCallback();
+        public static event AssemblyReloadCallback beforeAssemblyReload;
+        public static void Reload() { if (beforeAssemblyReload != null) { beforeAssemblyReload(); } }
+    }
+
     public class MenuCommand { public Object context; }
 
     [AttributeUsage(AttributeTargets.Method, AllowMultiple = true)]

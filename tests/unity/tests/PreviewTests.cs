@@ -126,6 +126,16 @@ namespace Chamfer.Tests
             Check.Near(0.02f, WidthOf(modifier));
         }
 
+        public static void No_thread_is_at_work_when_scripts_are_loaded_anew()
+        {
+            var modifier = Chamfered(Shapes.Cube());
+            modifier.settings.width = 5;
+            PreviewQueue.Listen();
+            PreviewQueue.Request(modifier);
+            AssemblyReloadEvents.Reload();
+            Check.Near(0.1f, WidthOf(modifier));
+        }
+
         public static void What_is_gone_meanwhile_is_left_out()
         {
             var modifier = Chamfered(Shapes.Cube());
