@@ -52,6 +52,9 @@ namespace ChamferEditor
             {
                 Register(FolderPrefix + rules.Key, TextOf(rules));
             }
+            // Unity remembers them longer than this process.
+            AssetDatabase.UnregisterCustomDependencyPrefixFilter(LabelPrefix);
+            labels.Clear();
             RegisterLabels();
         }
 

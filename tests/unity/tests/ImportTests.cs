@@ -156,6 +156,24 @@ namespace Chamfer.Tests
             With(project => project.rules.Add(new ModelRule { pattern = "*_low" }), () => Check.That(!rules.Equals(HashOf("Rules")), "rules"));
         }
 
+        /// Unity keeps what it was told, also while the editor is closed.
+        public static void Labels_that_went_while_nobody_looked_are_forgotten()
+        {
+            WithModel("Assets/Reach/d.fbx", isChamfered =>
+            {
+                AssetDatabase.labels["Assets/Reach/d.fbx"] = new[] { "Chamfer" };
+                ImportDependency.Register();
+                AssetDatabase.Refresh();
+                Check.That(isChamfered(), "chamfered");
+                AssetDatabase.labels.Remove("Assets/Reach/d.fbx");
+                var known = typeof(ImportDependency).GetField("labels", BindingFlags.Static | BindingFlags.NonPublic).GetValue(null);
+                ((System.Collections.IDictionary)known).Clear();
+                ImportDependency.Register();
+                AssetDatabase.Refresh();
+                Check.That(!isChamfered(), "and back");
+            });
+        }
+
         private static void WithModel(string path, System.Action<System.Func<bool>> action)
         {
             Project.postprocessors.Clear();
