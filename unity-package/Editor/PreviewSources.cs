@@ -36,6 +36,19 @@ namespace ChamferEditor
             return source.Prepared;
         }
 
+        /// <summary>Whoever selects something else has ended the drag.</summary>
+        [InitializeOnLoadMethod]
+        internal static void Listen()
+        {
+            Selection.selectionChanged -= Clear;
+            Selection.selectionChanged += Clear;
+        }
+
+        private static void Clear()
+        {
+            while (sources.Count > 0) { Drop(sources[0]); }
+        }
+
         private static Source Find(Mesh mesh)
         {
             int dirtyCount = EditorUtility.GetDirtyCount(mesh);

@@ -71,7 +71,7 @@ namespace UnityEditor
     public static class Selection
     {
         public static Object[] objects = new Object[0];
-        public static Object activeObject;
+        public static System.Action selectionChanged;
     }
 
     public static class EditorApplication

@@ -179,6 +179,11 @@ namespace Chamfer.Tests
             for (int i = 0; i < 20; i++) { PreviewSources.Prepare(Shapes.Cube()); }
             var kept = typeof(PreviewSources).GetField("sources", BindingFlags.Static | BindingFlags.NonPublic).GetValue(null);
             Check.Equal(8, ((ICollection)kept).Count);
+            PreviewSources.Listen();
+            Selection.selectionChanged();
+            Check.Equal(0, ((ICollection)kept).Count);
+            modifier.settings.width = 4;
+            ModifierActions.Preview(modifier);
         }
 
         /// Selecting, unfolding, and loading scripts anew only look.
