@@ -41,11 +41,12 @@ def compile_assembly(folder, assembly, sources, references, unsafe):
     return done.returncode == 0 or done.stdout + done.stderr
 
 
-def compile_package(folder, package):
+def compile_package(folder, package, runtime=True):
     unity = ["UnityStandIns.dll"]
-    runtime = compile_assembly(folder, "Chamfer.Runtime.dll", package / "Runtime", unity, True)
-    if runtime is not True:
-        return runtime
+    if runtime:
+        compiled = compile_assembly(folder, "Chamfer.Runtime.dll", package / "Runtime", unity, True)
+        if compiled is not True:
+            return compiled
     references = unity + ["Chamfer.Runtime.dll", "System.Core.dll"]
     return compile_assembly(folder, "Chamfer.Editor.dll", package / "Editor", references, False)
 
@@ -79,6 +80,7 @@ def prepare(folder):
         result = step()
         if result is not True:
             sys.exit(f"the package as it is does not compile:\n{result}")
+    shutil.copy(folder / "Chamfer.Runtime.dll", folder / "Original.Runtime.dll")
     failure = run_tests(folder)
     if failure:
         sys.exit(f"the package as it is fails its tests: {failure}")
@@ -94,10 +96,15 @@ def plant(folder, fault):
     if text.count(old) != 1:
         return f"stands {text.count(old)} times in the file", None
     (package / file).write_text(text.replace(old, new))
-    compiled = compile_package(folder, package)
+    # The runtime is compiled for faults in it, and is as it was for the others.
+    is_in_runtime = file.startswith("Runtime/")
+    compiled = compile_package(folder, package, is_in_runtime)
     if compiled is not True:
+        shutil.copy(folder / "Original.Runtime.dll", folder / "Chamfer.Runtime.dll")
         return "does not compile: " + compiled.split("\n")[0], None
     failure = run_tests(folder)
+    if is_in_runtime:
+        shutil.copy(folder / "Original.Runtime.dll", folder / "Chamfer.Runtime.dll")
     return failure or "NOT NOTICED", failure is not None
 
 
