@@ -3,9 +3,8 @@
 use std::path::PathBuf;
 
 use chamfer::{ChamferSubmesh, Options, Verify, Width};
+use chamfer_formats::ReadOptions;
 use clap::{Parser, Subcommand, ValueEnum};
-
-use crate::document::ReadOptions;
 
 const ABOUT: &str = "\
 Chamfers the hard edges of game models.

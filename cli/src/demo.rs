@@ -6,11 +6,10 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result};
 use chamfer::{Chamfered, MeshBuffers, Options, chamfer, shapes};
+use chamfer_formats::{IDENTITY, OutputFile, glb};
 
 use crate::args::DemoArgs;
 use crate::console::{say, warn};
-use crate::document::{IDENTITY, OutputFile};
-use crate::glb;
 use crate::pictures::write_png;
 use crate::preview::{Panel, Placed, contact_sheet};
 use crate::write;

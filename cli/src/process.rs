@@ -12,10 +12,11 @@ use chamfer::see_through::Eyes;
 use chamfer::{
     Chamfered, ChamferedScene, Mesh, Options, Verify, chamfer_scene, chamfer_with_progress,
 };
+use chamfer_formats as formats;
+use chamfer_formats::paths::identity;
+use chamfer_formats::{Document, OutputFile, ReadOptions, SourceMesh};
 
-use crate::document::{Document, OutputFile, ReadOptions, SourceMesh};
-use crate::format;
-use crate::jobs::{Job, identity};
+use crate::jobs::Job;
 use crate::report::MeshReport;
 use crate::write;
 
@@ -48,13 +49,13 @@ pub struct Processed {
 /// # Errors
 /// Whatever is wrong with the file, the options or the place of the result.
 pub fn process(job: &Job, settings: &Settings, progress: &dyn Fn(f32)) -> Result<Processed> {
-    let document = format::read(&job.input, &settings.read)?;
+    let document = formats::read(&job.input, &settings.read)?;
     let mut notes = document.notes();
     if document.meshes().iter().all(|mesh| mesh.mesh.indices.is_empty()) {
         notes.push("there are no triangles in it: nothing was chamfered".into());
     }
     let (chamfered, reports) = chamfer_all(&*document, settings, progress, &mut notes)?;
-    let files = document.encode(&job.output, &chamfered)?;
+    let files = formats::encode(&*document, &job.output, &chamfered)?;
     settings.taken.claim(job, &files)?;
     write::together(&files)?;
     Ok(Processed { document, chamfered, reports, notes })

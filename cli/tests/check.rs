@@ -9,7 +9,7 @@ use std::process::Command;
 
 use chamfer::shapes;
 use chamfer::{Chamfered, MeshBuffers, Options, TriangleKind, Width, chamfer};
-use chamfer_cli::glb;
+use chamfer_formats::glb;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 

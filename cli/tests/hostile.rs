@@ -5,9 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use chamfer::shapes;
-use chamfer_cli::document::ReadOptions;
-use chamfer_cli::format::decode;
-use chamfer_cli::glb;
+use chamfer_formats::{ReadOptions, decode, glb};
 use tempfile::TempDir;
 
 const KILOBYTE: usize = 1024;

@@ -11,13 +11,13 @@ use std::process::ExitCode;
 use anyhow::{Result, anyhow, ensure};
 use chamfer::check::{Findings, Rule, compare};
 use chamfer::{Chamfered, EdgeVerdict, MeshBuffers, Options, Outcome, Verify};
+use chamfer_formats as formats;
+use chamfer_formats::paths::identity;
+use chamfer_formats::{Document, NormalsRead, ReadOptions};
 
 use crate::args::{CheckArgs, CheckDepth};
 use crate::batch::{USAGE, name_of, one_line};
 use crate::console::{say, warn};
-use crate::document::{Document, NormalsRead, ReadOptions};
-use crate::format;
-use crate::jobs::identity;
 use crate::process::chamfer_document;
 use crate::scene::largest_length;
 use crate::write;
@@ -91,7 +91,7 @@ fn see_through(
 }
 
 fn read(path: &Path, options: &ReadOptions) -> Result<Box<dyn Document + Send>> {
-    format::read(path, options).map_err(|error| anyhow!("{}: {error:#}", path.display()))
+    formats::read(path, options).map_err(|error| anyhow!("{}: {error:#}", path.display()))
 }
 
 /// A mesh of one of the two files.

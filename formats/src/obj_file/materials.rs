@@ -7,8 +7,7 @@ use anyhow::{Context, Result};
 
 use super::parse::{Item, Obj};
 use crate::document::OutputFile;
-use crate::format::read_beside;
-use crate::jobs::identity;
+use crate::paths::{identity, read_beside};
 
 /// Copies for the folder of the result, so that it has its materials there; none where that is
 /// the folder of the input. Files that are missing, or not below that folder, are left out.

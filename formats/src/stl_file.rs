@@ -9,8 +9,7 @@ use std::path::Path;
 use anyhow::{Context, Result, bail};
 use chamfer::{Chamfered, MeshBuffers, split_by_angle};
 
-use crate::document::{Document, NormalsRead, OutputFile, ReadOptions, SourceMesh};
-use crate::format::Format;
+use crate::document::{Document, Format, NormalsRead, OutputFile, ReadOptions, SourceMesh};
 use crate::glb;
 
 const HEADER_LENGTH: usize = 80;
@@ -49,10 +48,15 @@ impl Document for StlDocument {
         std::slice::from_ref(&self.normals)
     }
 
-    fn encode(&self, output: &Path, chamfered: &[Chamfered]) -> Result<Vec<OutputFile>> {
+    fn encode(
+        &self,
+        format: Format,
+        output: &Path,
+        chamfered: &[Chamfered],
+    ) -> Result<Vec<OutputFile>> {
         let mesh = &chamfered.first().context("the mesh is missing")?.mesh;
-        let bytes = match Format::of(output) {
-            Some(Format::Stl) => binary(mesh)?,
+        let bytes = match format {
+            Format::Stl => binary(mesh)?,
             _ => glb::encode(&self.mesh.name, mesh, &[])?,
         };
         Ok(vec![OutputFile { path: output.to_path_buf(), bytes }])

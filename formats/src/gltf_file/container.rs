@@ -1,35 +1,14 @@
 //! The two wrappers of a glTF: plain JSON, and the chunks of a .glb.
 
-use std::path::Path;
-
 use anyhow::{Context, Result, bail};
+
+use crate::document::Format;
 
 const MAGIC: &[u8] = b"glTF";
 const JSON_CHUNK: &[u8] = b"JSON";
 const BINARY_CHUNK: &[u8] = b"BIN\0";
 const HEADER_SIZE: usize = 12;
 const CHUNK_HEADER_SIZE: usize = 8;
-
-/// How a glTF is wrapped.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
-    /// JSON with its buffers beside it or inside it.
-    Gltf,
-    /// Chunks: JSON, then one buffer.
-    Glb,
-}
-
-impl Format {
-    /// The format that a file name asks for.
-    pub fn of_name(path: &Path) -> Result<Format> {
-        let extension = path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
-        match extension.as_deref() {
-            Some("glb") => Ok(Format::Glb),
-            Some("gltf") => Ok(Format::Gltf),
-            _ => bail!("{}: name the output .glb or .gltf", path.display()),
-        }
-    }
-}
 
 /// A file taken apart.
 pub struct Container<'a> {

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use chamfer::{Options, Width, chamfer};
-use chamfer_cli::document::Document;
+use chamfer_formats::{Document, encode};
 use glam::DVec3;
 use serde_json::Value;
 
@@ -184,7 +184,7 @@ fn before_and_after(name: &str, percent: f32) -> Option<[Glb; 2]> {
     let chamfered: Vec<_> =
         meshes.map(|mesh| chamfer(&mesh.mesh.as_mesh(), &options).unwrap()).collect();
     let output = path_in("played").join(name);
-    let files = document.encode(&output, &chamfered).unwrap();
+    let files = encode(&document, &output, &chamfered).unwrap();
     Some([Glb::new(&before), Glb::new(&files[0].bytes)])
 }
 

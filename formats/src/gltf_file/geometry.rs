@@ -13,8 +13,8 @@ use serde_json::Value;
 use super::accessor::Accessors;
 use super::budget::Budget;
 use super::element::{ElementType, Shape, Stream};
-use super::follow::is_carried_by_core;
 use super::json;
+use super::names::is_carried_by_core;
 use super::triangles::Mode;
 
 /// How a core mesh lies in the primitives of a glTF mesh.

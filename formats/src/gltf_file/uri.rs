@@ -8,7 +8,7 @@ use base64::alphabet::STANDARD;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 use percent_encoding::percent_decode_str;
 
-use crate::format::read_beside;
+use crate::paths::read_beside;
 
 /// Exporters differ in whether they pad.
 const BASE64: GeneralPurpose = GeneralPurpose::new(

@@ -13,7 +13,7 @@ use serde_json::Value;
 use super::json;
 use super::uri::{self, Target};
 use crate::document::OutputFile;
-use crate::format::read_beside;
+use crate::paths::read_beside;
 
 /// The folder that a file lies in.
 pub fn folder(file: &Path) -> PathBuf {

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use chamfer_cli::document::Document;
+use chamfer_formats::{Document, encode};
 use serde_json::{Value, json};
 
 use crate::support::{Model, SQUARE_INDICES, all_grown, folder, json_of, read, unchanged, write};
@@ -30,7 +30,7 @@ fn write_gltf(folder: &Path, uri: &str) -> std::path::PathBuf {
     path
 }
 
-fn names(files: &[chamfer_cli::document::OutputFile], folder: &Path) -> Vec<String> {
+fn names(files: &[chamfer_formats::OutputFile], folder: &Path) -> Vec<String> {
     let name = |path: &Path| path.strip_prefix(folder).unwrap().to_string_lossy().into_owned();
     files.iter().map(|file| name(&file.path)).collect()
 }
@@ -40,10 +40,10 @@ fn a_gltf_to_another_folder_takes_its_files_along() {
     let (from, to) = (folder("along_from"), folder("along_to"));
     let document = read(&write_gltf(&from, "shape.bin")).unwrap();
     let output = to.join("out.gltf");
-    let same = document.encode(&output, &unchanged(&document)).unwrap();
+    let same = encode(&document, &output, &unchanged(&document)).unwrap();
     assert_eq!(names(&same, &to), ["out.gltf", "shape.bin", "Textures/color map.png"]);
     assert_eq!(same[0].bytes, fs::read(from.join("model.gltf")).unwrap());
-    let changed = document.encode(&output, &all_grown(&document)).unwrap();
+    let changed = encode(&document, &output, &all_grown(&document)).unwrap();
     assert_eq!(names(&changed, &to), ["out.gltf", "out.bin", "Textures/color map.png"]);
     write(&changed);
     assert_eq!(read(&output).unwrap().meshes()[0].mesh.indices.len(), 9);
@@ -54,9 +54,9 @@ fn beside_the_input_only_new_files_are_written() {
     let folder = folder("beside");
     let document = read(&write_gltf(&folder, "shape.bin")).unwrap();
     let output = folder.join("out.gltf");
-    let same = document.encode(&output, &unchanged(&document)).unwrap();
+    let same = encode(&document, &output, &unchanged(&document)).unwrap();
     assert_eq!(names(&same, &folder), ["out.gltf"]);
-    let changed = document.encode(&output, &all_grown(&document)).unwrap();
+    let changed = encode(&document, &output, &all_grown(&document)).unwrap();
     assert_eq!(names(&changed, &folder), ["out.gltf", "out.bin"]);
 }
 
@@ -64,7 +64,7 @@ fn beside_the_input_only_new_files_are_written() {
 fn a_buffer_of_the_input_is_not_overwritten() {
     let folder = folder("protected");
     let document = read(&write_gltf(&folder, "shape.bin")).unwrap();
-    let error = document.encode(&folder.join("shape.gltf"), &all_grown(&document)).err().unwrap();
+    let error = encode(&document, &folder.join("shape.gltf"), &all_grown(&document)).err().unwrap();
     assert!(error.to_string().contains("belongs to the input"));
 }
 
@@ -74,7 +74,7 @@ fn another_image_of_the_same_name_is_not_overwritten() {
     let document = read(&write_gltf(&from, "shape.bin")).unwrap();
     fs::create_dir_all(to.join("Textures")).unwrap();
     fs::write(to.join("Textures/color map.png"), b"another").unwrap();
-    let error = document.encode(&to.join("out.glb"), &all_grown(&document)).err().unwrap();
+    let error = encode(&document, &to.join("out.glb"), &all_grown(&document)).err().unwrap();
     assert!(error.to_string().contains("another content"));
 }
 
@@ -84,7 +84,7 @@ fn data_uris_stay_data_uris() {
     let uri = format!("data:application/octet-stream;base64,{}", base64(&square().bytes));
     let document = read(&write_gltf(&folder, &uri)).unwrap();
     let output = folder.join("out.gltf");
-    let files = document.encode(&output, &all_grown(&document)).unwrap();
+    let files = encode(&document, &output, &all_grown(&document)).unwrap();
     assert_eq!(names(&files, &folder), ["out.gltf"]);
     write(&files);
     assert_eq!(read(&output).unwrap().meshes()[0].mesh.indices.len(), 9);
@@ -101,11 +101,11 @@ fn formats_convert_into_each_other_and_back() {
     let path = folder.join("model.glb");
     fs::write(&path, square().glb()).unwrap();
     let document = read(&path).unwrap();
-    write(&document.encode(&folder.join("other.gltf"), &unchanged(&document)).unwrap());
+    write(&encode(&document, &folder.join("other.gltf"), &unchanged(&document)).unwrap());
     assert!(folder.join("other.bin").exists());
     let other = read(&folder.join("other.gltf")).unwrap();
     assert_eq!(other.meshes()[0].mesh, document.meshes()[0].mesh);
-    let back = other.encode(&folder.join("back.glb"), &unchanged(&other)).unwrap();
+    let back = encode(&other, &folder.join("back.glb"), &unchanged(&other)).unwrap();
     assert_eq!(back.len(), 1);
     assert_eq!(json_of(&back[0].bytes), json_of(&square().glb()));
 }
@@ -123,7 +123,7 @@ fn several_buffers_are_folded_into_one() {
     fs::write(folder.join("all.bin"), &model.bytes).unwrap();
     fs::write(folder.join("model.gltf"), json.to_string()).unwrap();
     let document = read(&folder.join("model.gltf")).unwrap();
-    write(&document.encode(&folder.join("out.glb"), &unchanged(&document)).unwrap());
+    write(&encode(&document, &folder.join("out.glb"), &unchanged(&document)).unwrap());
     let out = read(&folder.join("out.glb")).unwrap();
     assert_eq!(out.meshes()[0].mesh, document.meshes()[0].mesh);
 }

@@ -1,20 +1,10 @@
 //! Attributes that the core does not carry follow its provenance: each output vertex blends those
 //! of up to three source vertices.
 
-use chamfer::{Blend, UV_CHANNELS, VertexSource, VertexSources};
+use chamfer::{Blend, VertexSource, VertexSources};
 
 use super::element::{ElementType, Stream};
 use super::geometry::{MeshGeometry, SourceStreams};
-
-/// Whether the core carries the attribute itself.
-pub fn is_carried_by_core(name: &str) -> bool {
-    matches!(name, "POSITION" | "NORMAL" | "TANGENT" | "COLOR_0") || uv_channel(name).is_some()
-}
-
-/// The UV channel of the core that an attribute is.
-pub fn uv_channel(name: &str) -> Option<usize> {
-    (0..UV_CHANNELS).find(|channel| name == format!("TEXCOORD_{channel}"))
-}
 
 /// Blends the attributes of one mesh.
 pub struct Follower<'a> {

@@ -15,8 +15,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result};
 use chamfer::Chamfered;
 
-use crate::document::{Document, NormalsRead, OutputFile, ReadOptions, SourceMesh};
-use crate::format::Format;
+use crate::document::{Document, Format, NormalsRead, OutputFile, ReadOptions, SourceMesh};
 use crate::glb;
 
 use build::Origin;
@@ -72,9 +71,14 @@ impl Document for ObjDocument {
         vec![format!("statements left out because nothing is known of them: {}", names.join(", "))]
     }
 
-    fn encode(&self, output: &Path, chamfered: &[Chamfered]) -> Result<Vec<OutputFile>> {
+    fn encode(
+        &self,
+        format: Format,
+        output: &Path,
+        chamfered: &[Chamfered],
+    ) -> Result<Vec<OutputFile>> {
         let result = chamfered.first().context("the mesh is missing")?;
-        if Format::of(output) == Some(Format::Glb) {
+        if format == Format::Glb {
             let bytes = self.to_glb(result)?;
             return Ok(vec![OutputFile { path: output.to_path_buf(), bytes }]);
         }

@@ -1,9 +1,23 @@
-//! A model file as the command line sees it: meshes to chamfer, and all the rest to keep.
+//! A model file as all readers hand it over: meshes to chamfer, and all the rest to keep.
 
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
 use chamfer::{Chamfered, MeshBuffers};
+
+/// The formats of model files. What there is to know of each stands in
+/// [`FORMATS`](crate::FORMATS).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// glTF in one binary file.
+    Glb,
+    /// glTF as JSON, with its buffers beside it or inside.
+    Gltf,
+    /// Wavefront OBJ.
+    Obj,
+    /// Stereolithography triangles, ASCII or binary.
+    Stl,
+}
 
 /// One mesh of a file, in the layout of the core.
 pub struct SourceMesh {
@@ -61,10 +75,15 @@ pub trait Document {
         Vec::new()
     }
 
-    /// The file with `chamfered[i]` in the place of mesh `i`, in the format that `output` names: the
-    /// file of that path first, then those that belong to it.
+    /// The file with `chamfered[i]` in the place of mesh `i`, in one of the formats that it can have:
+    /// the file of the path `output` first, then those that belong to it.
     ///
     /// # Errors
     /// Where the result does not fit the format.
-    fn encode(&self, output: &Path, chamfered: &[Chamfered]) -> Result<Vec<OutputFile>>;
+    fn encode(
+        &self,
+        format: Format,
+        output: &Path,
+        chamfered: &[Chamfered],
+    ) -> Result<Vec<OutputFile>>;
 }

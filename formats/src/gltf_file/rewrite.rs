@@ -6,8 +6,9 @@ use serde_json::{Map, Value};
 
 use super::accessor_writer::{AccessorWriter, Role, Usage};
 use super::element::{ElementType, Shape, Stream};
-use super::follow::{Follower, is_carried_by_core, uv_channel};
+use super::follow::Follower;
 use super::geometry::{Attribute, Block, MeshGeometry, Submesh};
+use super::names::{is_carried_by_core, uv_channel};
 use super::skin;
 
 /// Accessor numbers by attribute name.

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use chamfer::{
     Blend, Chamfered, MeshBuffers, TriangleKind, TriangleSource, UV_CHANNELS, VertexSource,
 };
-use chamfer_cli::document::{Document, OutputFile, ReadOptions};
-use chamfer_cli::gltf_file::GltfDocument;
+use chamfer_formats::gltf_file::GltfDocument;
+use chamfer_formats::{Document, OutputFile, ReadOptions, encode};
 use serde_json::{Value, json};
 
 pub fn read(path: &Path) -> anyhow::Result<GltfDocument> {
@@ -235,7 +235,7 @@ impl Model {
     pub fn grown(&self, name: &str) -> Written {
         let document = self.read(name).unwrap();
         let output = path_in(name).join("grown.glb");
-        let files = document.encode(&output, &all_grown(&document)).unwrap();
+        let files = encode(&document, &output, &all_grown(&document)).unwrap();
         write(&files);
         Written { json: json_of(&files[0].bytes), bytes: buffer_of(&files[0].bytes) }
     }

@@ -22,6 +22,7 @@ mod fold;
 mod follow;
 mod geometry;
 mod json;
+mod names;
 mod references;
 mod resources;
 mod rewrite;
@@ -38,10 +39,12 @@ use anyhow::{Context, Result, bail, ensure};
 use chamfer::Chamfered;
 use serde_json::Value;
 
-use crate::document::{Document, Instance, NormalsRead, OutputFile, ReadOptions, SourceMesh};
+use crate::document::{
+    Document, Format, Instance, NormalsRead, OutputFile, ReadOptions, SourceMesh,
+};
 use accessor_writer::AccessorWriter;
 use budget::Budget;
-use container::{Container, Format};
+use container::Container;
 use extensions::Mentions;
 use geometry::{GeometryReader, MeshGeometry};
 use references::Replaced;
@@ -184,7 +187,7 @@ impl GltfDocument {
     fn encode_glb(&self, output: &Path, json: &Value, buffer: &[u8]) -> Result<Vec<OutputFile>> {
         let further = match self.format {
             Format::Glb => container::parse(&self.bytes)?.further_chunks,
-            Format::Gltf => &[],
+            _ => &[],
         };
         let bytes = container::write_glb(&serde_json::to_vec(json)?, buffer, further)?;
         Ok(vec![OutputFile { path: output.to_owned(), bytes }])
@@ -257,14 +260,18 @@ impl Document for GltfDocument {
         self.instances.iter().map(copy).collect()
     }
 
-    fn encode(&self, output: &Path, chamfered: &[Chamfered]) -> Result<Vec<OutputFile>> {
+    fn encode(
+        &self,
+        format: Format,
+        output: &Path,
+        chamfered: &[Chamfered],
+    ) -> Result<Vec<OutputFile>> {
         ensure!(
             chamfered.len() == self.meshes.len(),
             "{} meshes were read, but {} chamfered",
             self.meshes.len(),
             chamfered.len()
         );
-        let format = Format::of_name(output)?;
         let changed = chamfered.iter().enumerate().any(|(i, result)| self.is_changed(i, result));
         if !changed && format == self.format {
             return self.encode_unchanged(output);
@@ -273,7 +280,7 @@ impl Document for GltfDocument {
         let (json, buffer) = self.rewritten(chamfered)?;
         let mut files = match format {
             Format::Glb => self.encode_glb(output, &json, &buffer)?,
-            Format::Gltf => self.encode_gltf(output, json, buffer)?,
+            _ => self.encode_gltf(output, json, buffer)?,
         };
         files.extend(images);
         Ok(files)
