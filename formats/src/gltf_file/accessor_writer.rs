@@ -33,7 +33,7 @@ pub enum Usage {
 
 impl Usage {
     /// What a buffer view says that it is for.
-    fn target(self) -> u32 {
+    pub fn target(self) -> u32 {
         match self {
             Usage::Indices => 34963,
             Usage::Vertices | Usage::Positions => 34962,
@@ -228,7 +228,7 @@ impl AccessorWriter {
 }
 
 /// Keeps the order of the fields that stay, so that files compare well.
-fn merge(old: &Value, new: Value) -> Value {
+pub fn merge(old: &Value, new: Value) -> Value {
     const REPLACED: [&str; 9] = [
         "bufferView",
         "byteOffset",
@@ -263,7 +263,11 @@ fn stride(usage: Usage, element: ElementType) -> usize {
     }
 }
 
-fn description(usage: Usage, stream: &Stream) -> Result<Value> {
+/// What an accessor says of a stream.
+///
+/// # Errors
+/// Where there is nothing in it.
+pub fn description(usage: Usage, stream: &Stream) -> Result<Value> {
     if stream.values.is_empty() {
         bail!("a primitive would be left without vertices or triangles, which glTF cannot say");
     }

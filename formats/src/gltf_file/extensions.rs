@@ -8,10 +8,6 @@ use serde_json::Value;
 use super::element::{Component, ElementType};
 use super::json;
 
-/// Extensions that store geometry in another encoding.
-const ENCODINGS: [&str; 3] =
-    ["KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression"];
-
 /// Required extensions that may sit on geometry without changing how it is read.
 const HARMLESS_ON_GEOMETRY: [&str; 4] = [
     "KHR_materials_variants",
@@ -33,17 +29,10 @@ const WITHOUT_DATA_REFERENCES: [&str; 6] = [
 
 const QUANTIZATION: &str = "KHR_mesh_quantization";
 
-/// Refuses files whose geometry cannot be read without an extension.
+/// Refuses files whose geometry cannot be read without an extension that is not known here.
 pub fn refuse_unreadable(json: &Value) -> Result<()> {
     let required: Vec<&str> =
         json::list(json, "extensionsRequired").iter().filter_map(Value::as_str).collect();
-    for encoding in ENCODINGS {
-        ensure!(
-            !required.contains(&encoding) && !on_geometry(json, encoding),
-            "the geometry is compressed with {encoding}, which cannot be read: \
-             export the model without compression"
-        );
-    }
     for extension in required {
         ensure!(
             HARMLESS_ON_GEOMETRY.contains(&extension) || !on_geometry(json, extension),
@@ -118,15 +107,20 @@ pub fn drop_unneeded_quantization(json: &mut Value) -> Result<()> {
     if needs_quantization(json)? {
         return Ok(());
     }
+    drop_names(json, &[QUANTIZATION]);
+    Ok(())
+}
+
+/// Takes extensions off the lists of those that the file uses.
+pub fn drop_names(json: &mut Value, dropped: &[&str]) {
     for key in ["extensionsUsed", "extensionsRequired"] {
         let Some(names) = json.get_mut(key).and_then(Value::as_array_mut) else { continue };
-        names.retain(|name| name != QUANTIZATION);
+        names.retain(|name| !name.as_str().is_some_and(|name| dropped.contains(&name)));
         // glTF allows no empty arrays.
         if names.is_empty() {
             json.as_object_mut().and_then(|fields| fields.shift_remove(key));
         }
     }
-    Ok(())
 }
 
 /// Whether a primitive has an attribute in a type that only `KHR_mesh_quantization` allows.
@@ -174,16 +168,6 @@ pub fn refuse_other_versions(json: &Value) -> Result<()> {
 mod tests {
     use super::*;
     use serde_json::json;
-
-    #[test]
-    fn compressed_geometry_is_refused_by_name() {
-        let required = json!({"extensionsRequired": ["KHR_draco_mesh_compression"]});
-        let optional =
-            json!({"bufferViews": [{"extensions": {"EXT_meshopt_compression": {"buffer": 0}}}]});
-        for (json, name) in [(required, "KHR_draco"), (optional, "EXT_meshopt")] {
-            assert!(refuse_unreadable(&json).unwrap_err().to_string().contains(name));
-        }
-    }
 
     #[test]
     fn an_unknown_required_extension_is_refused_on_geometry_only() {

@@ -14,14 +14,17 @@
 mod accessor;
 mod accessor_writer;
 mod budget;
+mod compressed;
 mod container;
 mod core_mesh;
+mod draco_mesh;
 mod element;
 mod extensions;
 mod fold;
 mod follow;
 mod geometry;
 mod json;
+mod meshopt_views;
 mod names;
 mod references;
 mod resources;
@@ -29,6 +32,7 @@ mod rewrite;
 mod scene;
 mod skin;
 mod triangles;
+mod unpacked;
 mod uri;
 
 use std::collections::BTreeSet;
@@ -44,6 +48,7 @@ use crate::document::{
 };
 use accessor_writer::AccessorWriter;
 use budget::Budget;
+use compressed::Plain;
 use container::Container;
 use extensions::Mentions;
 use geometry::{GeometryReader, MeshGeometry};
@@ -68,6 +73,10 @@ pub struct GltfDocument {
     /// `#meshes`
     normals: Vec<NormalsRead>,
     instances: Vec<Instance>,
+    /// The URIs of the buffers of the file, before any was unpacked.
+    buffer_uris: Vec<Option<String>>,
+    /// The compressions that the file had.
+    decompressed: Vec<&'static str>,
 }
 
 impl GltfDocument {
@@ -75,7 +84,7 @@ impl GltfDocument {
     ///
     /// # Errors
     /// Where the file, or one that it refers to, cannot be read; where it breaks a rule of glTF
-    /// that its geometry or its nodes depend on; where its geometry is compressed.
+    /// that its geometry or its nodes depend on.
     pub fn read(path: &Path, options: &ReadOptions) -> Result<GltfDocument> {
         Self::decode(path, fs::read(path)?, options)
     }
@@ -89,8 +98,10 @@ impl GltfDocument {
         let json: Value = serde_json::from_slice(json).context("the JSON cannot be read")?;
         ensure!(json.is_object(), "the JSON is not an object");
         extensions::refuse_other_versions(&json)?;
-        extensions::refuse_unreadable(&json)?;
+        let buffer_uris = buffer_uris(&json);
         let buffers = read_buffers(&json, binary, &resources::folder(path))?;
+        let Plain { json, buffers, dropped } = compressed::plain(json, buffers)?;
+        extensions::refuse_unreadable(&json)?;
         let instances = scene::instances(&json)?;
         let size = bytes.len() + buffers.iter().map(Vec::len).sum::<usize>();
         let budget = Budget::of_file(size);
@@ -115,6 +126,8 @@ impl GltfDocument {
             geometries,
             normals,
             instances,
+            buffer_uris,
+            decompressed: dropped,
             bytes,
         })
     }
@@ -227,8 +240,7 @@ impl GltfDocument {
             return Ok(());
         }
         let folder = resources::folder(&self.path);
-        for buffer in json::list(&self.json, "buffers") {
-            let Some(uri) = buffer.get("uri").and_then(Value::as_str) else { continue };
+        for uri in self.buffer_uris.iter().flatten() {
             let Target::Inside(old) = uri::target(uri)? else { continue };
             ensure!(
                 !is_same(&folder.join(old), new),
@@ -240,9 +252,8 @@ impl GltfDocument {
     }
 
     fn has_only_data_uris(&self) -> bool {
-        let mut uris = json::list(&self.json, "buffers").iter().map(|buffer| buffer.get("uri"));
-        self.format == Format::Gltf
-            && uris.all(|uri| uri.and_then(Value::as_str).is_some_and(|u| u.starts_with("data:")))
+        let is_data = |uri: &Option<String>| uri.as_ref().is_some_and(|u| u.starts_with("data:"));
+        self.format == Format::Gltf && self.buffer_uris.iter().all(is_data)
     }
 }
 
@@ -260,6 +271,11 @@ impl Document for GltfDocument {
         self.instances.iter().map(copy).collect()
     }
 
+    fn notes(&self) -> Vec<String> {
+        let note = |name: &&str| format!("it was compressed ({name}), and is written without");
+        self.decompressed.iter().map(note).collect()
+    }
+
     fn encode(
         &self,
         format: Format,
@@ -273,7 +289,7 @@ impl Document for GltfDocument {
             chamfered.len()
         );
         let changed = chamfered.iter().enumerate().any(|(i, result)| self.is_changed(i, result));
-        if !changed && format == self.format {
+        if !changed && format == self.format && self.decompressed.is_empty() {
             return self.encode_unchanged(output);
         }
         let images = resources::without_existing(self.copies("images", output)?)?;
@@ -287,24 +303,43 @@ impl Document for GltfDocument {
     }
 }
 
-/// The content of all buffers.
+fn buffer_uris(json: &Value) -> Vec<Option<String>> {
+    let uri = |buffer: &Value| buffer.get("uri").and_then(Value::as_str).map(str::to_owned);
+    json::list(json, "buffers").iter().map(uri).collect()
+}
+
+/// The content of all buffers; nothing for one that only stands in for compressed ones and is not
+/// there.
 fn read_buffers(json: &Value, binary: Option<&[u8]>, folder: &Path) -> Result<Vec<Vec<u8>>> {
     let mut buffers = Vec::new();
     for (index, buffer) in json::list(json, "buffers").iter().enumerate() {
-        let path = format!("buffers[{index}]");
-        let length = json::required(buffer, "byteLength", &path)?;
-        let mut bytes = match (buffer.get("uri").and_then(Value::as_str), binary) {
-            (Some(uri), _) => uri::read(uri, folder).with_context(|| path.clone())?,
-            (None, Some(binary)) if index == 0 => binary.to_vec(),
-            _ => bail!("{path} has neither a URI nor a chunk of a .glb"),
-        };
-        ensure!(
-            bytes.len() >= length,
-            "{path} should have {length} bytes, but has {}: it is cut off",
-            bytes.len()
-        );
-        bytes.truncate(length);
-        buffers.push(bytes);
+        let read = read_buffer(buffer, index, binary, folder);
+        buffers.push(match read {
+            Err(_) if meshopt_views::is_fallback(buffer) => Vec::new(),
+            read => read?,
+        });
     }
     Ok(buffers)
+}
+
+fn read_buffer(
+    buffer: &Value,
+    index: usize,
+    binary: Option<&[u8]>,
+    folder: &Path,
+) -> Result<Vec<u8>> {
+    let path = format!("buffers[{index}]");
+    let length = json::required(buffer, "byteLength", &path)?;
+    let mut bytes = match (buffer.get("uri").and_then(Value::as_str), binary) {
+        (Some(uri), _) => uri::read(uri, folder).with_context(|| path.clone())?,
+        (None, Some(binary)) if index == 0 => binary.to_vec(),
+        _ => bail!("{path} has neither a URI nor a chunk of a .glb"),
+    };
+    ensure!(
+        bytes.len() >= length,
+        "{path} should have {length} bytes, but has {}: it is cut off",
+        bytes.len()
+    );
+    bytes.truncate(length);
+    Ok(bytes)
 }

@@ -1,5 +1,6 @@
 //! glTF files in and out, as a program that reads the files sees them.
 
+mod compressed;
 mod corpus;
 mod damage;
 mod features;

@@ -203,7 +203,9 @@ impl Model {
 
     pub fn glb(&self) -> Vec<u8> {
         let mut json = self.json.clone();
-        json["buffers"] = json!([{"byteLength": self.bytes.len()}]);
+        if json.get("buffers").is_none() {
+            json["buffers"] = json!([{"byteLength": self.bytes.len()}]);
+        }
         let mut text = json.to_string().into_bytes();
         text.resize(text.len().next_multiple_of(4), b' ');
         let mut binary = self.bytes.clone();
