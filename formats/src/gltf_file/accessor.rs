@@ -2,10 +2,10 @@
 //! allocated.
 
 use std::cell::RefCell;
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Context, Result, ensure};
 use serde_json::Value;
 
 use super::budget::Budget;
@@ -18,6 +18,8 @@ pub struct Accessors<'a> {
     buffers: &'a [Vec<u8>],
     budget: &'a Budget,
     decoded: RefCell<HashMap<usize, Arc<Stream>>>,
+    /// By accessor: the elements with a number that is none, for which zeros were read.
+    not_finite: RefCell<BTreeMap<usize, Vec<usize>>>,
 }
 
 /// The bytes of a buffer view.
@@ -28,7 +30,13 @@ struct View<'a> {
 
 impl<'a> Accessors<'a> {
     pub fn new(json: &'a Value, buffers: &'a [Vec<u8>], budget: &'a Budget) -> Accessors<'a> {
-        Accessors { json, buffers, budget, decoded: RefCell::default() }
+        Accessors {
+            json,
+            buffers,
+            budget,
+            decoded: RefCell::default(),
+            not_finite: RefCell::default(),
+        }
     }
 
     /// How many elements an accessor states to have, unchecked.
@@ -41,23 +49,44 @@ impl<'a> Accessors<'a> {
         json::list(self.json, "accessors").get(index).is_some_and(|a| a.get("sparse").is_some())
     }
 
-    /// The values of an accessor, all finite.
+    /// The elements of an accessor, which was read, that are not finite.
+    pub fn not_finite(&self, index: usize) -> Vec<usize> {
+        self.not_finite.borrow().get(&index).cloned().unwrap_or_default()
+    }
+
+    /// A sentence for each accessor that was read and is not finite throughout.
+    pub fn notes(&self) -> Vec<String> {
+        let note = |(index, bad): (&usize, &Vec<usize>)| {
+            let (path, first, count) = (path(*index), bad[0], bad.len());
+            format!(
+                "{path} has an infinite value or a NaN in {count} of its elements, first in \
+                 element {first}: 0 was read in its place"
+            )
+        };
+        self.not_finite.borrow().iter().map(note).collect()
+    }
+
+    /// The values of an accessor, all finite: zero in the place of those that are not.
     pub fn read(&self, index: usize) -> Result<Arc<Stream>> {
         if let Some(stream) = self.decoded.borrow().get(&index) {
             return Ok(stream.clone());
         }
         let accessor = json::item(self.json, "accessors", index)?;
         let path = path(index);
-        let stream = Arc::new(self.decode(accessor, &path)?);
-        if let Some(bad) = stream.elements().position(|e| e.iter().any(|n| !n.is_finite())) {
-            bail!("{path} has an infinite value or a NaN at element {bad}: repair the model");
+        let mut stream = self.decode(accessor, &path)?;
+        let bad = |element: &[f64]| element.iter().any(|number| !number.is_finite());
+        let bad: Vec<usize> = (0..stream.count()).filter(|&at| bad(stream.at(at))).collect();
+        if !bad.is_empty() {
+            stream.values.iter_mut().filter(|n| !n.is_finite()).for_each(|n| *n = 0.0);
+            self.not_finite.borrow_mut().insert(index, bad);
         }
+        let stream = Arc::new(stream);
         self.decoded.borrow_mut().insert(index, stream.clone());
         Ok(stream)
     }
 
-    /// The values of an index accessor.
-    pub fn read_indices(&self, index: usize) -> Result<Vec<u32>> {
+    /// The values of an index accessor, and the one that restarts a strip.
+    pub fn read_indices(&self, index: usize) -> Result<(Vec<u32>, u32)> {
         let stream = self.read(index)?;
         let ElementType { component, shape, normalized } = stream.element;
         let unsigned = matches!(component, Component::U8 | Component::U16 | Component::U32);
@@ -66,7 +95,8 @@ impl<'a> Accessors<'a> {
             "{} is used for indices, but is not made of plain unsigned integers",
             path(index)
         );
-        Ok(stream.values.iter().map(|value| *value as u32).collect())
+        let indices = stream.values.iter().map(|value| *value as u32).collect();
+        Ok((indices, component.one() as u32))
     }
 
     fn decode(&self, accessor: &Value, path: &str) -> Result<Stream> {
@@ -251,12 +281,16 @@ mod tests {
     }
 
     #[test]
-    fn a_nan_is_named() {
+    fn zero_is_read_in_the_place_of_a_nan() {
         let json = json!({
             "accessors": [{"bufferView": 0, "componentType": 5126, "count": 2, "type": "SCALAR"}],
             "bufferViews": [{"buffer": 0, "byteLength": 8}],
         });
         let bytes: Vec<u8> = [1.0f32, f32::NAN].iter().flat_map(|f| f.to_le_bytes()).collect();
-        assert!(message(json, &bytes).contains("element 1"));
+        let (buffers, budget) = ([bytes], Budget::of_file(8));
+        let accessors = Accessors::new(&json, &buffers, &budget);
+        assert_eq!(accessors.read(0).unwrap().values, [1.0, 0.0]);
+        assert_eq!(accessors.not_finite(0), [1]);
+        assert!(accessors.notes()[0].contains("first in element 1"));
     }
 }

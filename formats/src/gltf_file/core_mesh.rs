@@ -5,24 +5,26 @@ use glam::Vec3;
 
 use crate::document::NormalsRead;
 
-use super::geometry::{Block, MeshGeometry, Origin};
+use super::geometry::{Block, MeshGeometry, Origin, has_no_direction};
 
 /// Normals within this of unit length are kept bit for bit; it covers the rounding of bytes, the
 /// coarsest type that floats are likely to have been made from.
 const UNIT_TOLERANCE: f32 = 1e-2;
 
-/// Builds the mesh for the core. Where normals are missing, faces that meet at up to
+/// Builds the mesh for the core. Where normals are missing, or none of a block has a direction, faces that meet at up to
 /// `smoothing_angle` degrees share them, and vertices are split: the geometry learns of the copies.
 pub fn build(geometry: &mut MeshGeometry, smoothing_angle: f32) -> MeshBuffers {
     let mut indices = geometry.indices().to_vec();
     let smooth_normals = smooth(geometry, smoothing_angle, &mut indices);
+    let mut normals = normals(geometry, &smooth_normals);
+    fill_in(&mut normals, geometry, &indices);
     let mut uvs: [UvBuffer; UV_CHANNELS] = Default::default();
     for (channel, uv) in uvs.iter_mut().enumerate() {
         *uv = uv_channel(geometry, channel);
     }
     MeshBuffers {
         positions: stream(geometry, "POSITION", |_, value| array(value, 0.0)),
-        normals: normals(geometry, &smooth_normals),
+        normals,
         tangents: tangents(geometry, &smooth_normals),
         colors: stream_if_any(geometry, "COLOR_0", |_, value| array(value, 1.0)),
         uvs,
@@ -57,11 +59,37 @@ fn smooth(geometry: &mut MeshGeometry, angle: f32, indices: &mut [u32]) -> Vec<[
 }
 
 fn normals(geometry: &MeshGeometry, smooth: &[[f32; 3]]) -> Vec<[f32; 3]> {
+    let is_smoothed =
+        |vertex: usize| geometry.blocks[geometry.origins[vertex].block as usize].smoothed;
     stream(geometry, "NORMAL", |vertex, value| match value {
-        Some(_) => unit(array(value, 0.0)),
-        None => unit(smooth.get(vertex).copied().unwrap_or_default()),
+        Some(_) if !is_smoothed(vertex) => unit(array(value, 0.0)),
+        _ => unit(smooth.get(vertex).copied().unwrap_or_default()),
     })
 }
+
+/// Gives vertices whose normals have no direction that of their faces, where others of their block
+/// have one.
+fn fill_in(normals: &mut [[f32; 3]], geometry: &MeshGeometry, indices: &[u32]) {
+    let stored = geometry.streams(None, "NORMAL");
+    let is_zero = |index: &u32| {
+        let block = geometry.origins[*index as usize].block as usize;
+        let value = stored.at(*index as usize).filter(|_| !geometry.blocks[block].smoothed);
+        value.is_some_and(has_no_direction)
+    };
+    let places: Vec<usize> = (0..indices.len()).filter(|&at| is_zero(&indices[at])).collect();
+    if places.is_empty() {
+        return;
+    }
+    let positions = stream(geometry, "POSITION", |_, value| array(value, 0.0));
+    let smoothed = split_by_angle(&positions, indices, ALL_FACES);
+    for place in places {
+        let normal = smoothed.normals[smoothed.indices[place] as usize];
+        normals[indices[place] as usize] = normal;
+    }
+}
+
+/// The angle at which all faces around a place shade as one.
+const ALL_FACES: f32 = 180.0;
 
 /// Quantized normals are a little off unit length; what has no direction gets one.
 fn unit(normal: [f32; 3]) -> [f32; 3] {
@@ -80,7 +108,9 @@ pub fn normals_read(geometry: &MeshGeometry, mesh: &MeshBuffers) -> NormalsRead 
         ..NormalsRead::default()
     };
     for (vertex, &used) in (0..).zip(&mesh.normals) {
-        let value = stored.at(vertex as usize).map(|value| array(Some(value), 0.0));
+        let block = geometry.origins[vertex as usize].block as usize;
+        let value = stored.at(vertex as usize).filter(|_| !geometry.blocks[block].smoothed);
+        let value = value.map(|value| array(Some(value), 0.0));
         read.repaired.extend(value.filter(|&value| value != used).map(|value| (vertex, value)));
     }
     read

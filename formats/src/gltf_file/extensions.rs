@@ -27,6 +27,7 @@ const WITHOUT_DATA_REFERENCES: [&str; 6] = [
     "KHR_node_visibility",
 ];
 
+const RESTART: &str = "KHR_mesh_primitive_restart";
 const QUANTIZATION: &str = "KHR_mesh_quantization";
 
 /// Refuses files whose geometry cannot be read without an extension that is not known here.
@@ -109,6 +110,16 @@ pub fn drop_unneeded_quantization(json: &mut Value) -> Result<()> {
     }
     drop_names(json, &[QUANTIZATION]);
     Ok(())
+}
+
+/// Takes `KHR_mesh_primitive_restart` off the lists where all primitives are points or whole
+/// triangles, which is what chamfered ones become.
+pub fn drop_unneeded_restart(json: &mut Value) {
+    let primitives = json::list(json, "meshes").iter().flat_map(|m| json::list(m, "primitives"));
+    let mode = |primitive: &Value| primitive.get("mode").map_or(Some(4), json::integer);
+    if primitives.map(mode).all(|mode| matches!(mode, Some(0 | 4))) {
+        drop_names(json, &[RESTART]);
+    }
 }
 
 /// Takes extensions off the lists of those that the file uses.

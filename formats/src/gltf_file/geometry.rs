@@ -36,7 +36,7 @@ pub struct Block {
     pub attributes: Vec<Attribute>,
     /// For each morph target its attributes.
     pub targets: Vec<Vec<Attribute>>,
-    /// Whether the normals are not from the file.
+    /// Whether the normals are not from the file, which has none or none with a direction.
     pub smoothed: bool,
 }
 
@@ -165,6 +165,11 @@ impl<'a> GeometryReader<'a> {
         GeometryReader { json, accessors, shared: shared_positions(json), budget }
     }
 
+    /// What was read otherwise than it stands in the file.
+    pub fn notes(&self) -> Vec<String> {
+        self.accessors.notes()
+    }
+
     /// Reads the triangles of one mesh.
     pub fn read(&self, mesh: usize) -> Result<MeshGeometry> {
         let mut geometry = MeshGeometry::default();
@@ -187,6 +192,15 @@ impl<'a> GeometryReader<'a> {
             let index_count = triangles.len();
             geometry.submeshes.push(Submesh { primitive, block, indices, index_count });
             corners.push(triangles);
+        }
+        for (number, block) in geometry.blocks.iter_mut().enumerate() {
+            let used = geometry.submeshes.iter().zip(&corners);
+            let used = used.filter(|(submesh, _)| submesh.block == number);
+            let mut elements = used.flat_map(|(_, corners)| corners);
+            let stored = block.attribute("NORMAL").map(|normals| normals.stream.clone());
+            let is_zero =
+                |normals: &Stream, element: &u32| has_no_direction(normals.at(*element as usize));
+            block.smoothed |= stored.is_some_and(|n| elements.all(|element| is_zero(&n, element)));
         }
         self.place_vertices(&mut geometry, corners)?;
         Ok(geometry)
@@ -233,15 +247,33 @@ impl<'a> GeometryReader<'a> {
             None => vertices as usize,
         };
         self.budget.spend(count)?;
-        let indices = match plan.indices {
+        let (indices, restart) = match plan.indices {
             Some(indices) => self.accessors.read_indices(indices)?,
-            None => (0..vertices).collect(),
+            None => ((0..vertices).collect(), u32::MAX),
         };
-        if let Some(place) = indices.iter().position(|index| *index >= vertices) {
+        let is_wrong = |index: &u32| *index >= vertices && *index != restart;
+        if let Some(place) = indices.iter().position(is_wrong) {
             let index = indices[place];
             bail!("index {place} of {} is {index}, but it has {vertices} vertices", plan.path);
         }
-        Ok(plan.mode.to_list(indices))
+        // A vertex of that number is none that restarts.
+        let triangles = plan.mode.to_list(indices, restart.max(vertices));
+        self.check_positions(plan, &triangles)?;
+        Ok(triangles)
+    }
+
+    /// Geometry needs its places, all else can do without a value here and there.
+    fn check_positions(&self, plan: &PrimitivePlan, triangles: &[u32]) -> Result<()> {
+        let bad = self.accessors.not_finite(plan.positions);
+        let is_bad = |element: &&u32| bad.binary_search(&(**element as usize)).is_ok();
+        if let Some(element) = triangles.iter().find(is_bad) {
+            bail!(
+                "{} stands at an infinite place or a NaN with its vertex {element}: repair the \
+                 model",
+                plan.path
+            );
+        }
+        Ok(())
     }
 
     /// Gives each block's elements their places among the vertices of the core mesh.
@@ -323,6 +355,11 @@ fn plan(value: &Value, primitive: usize, path: String) -> Result<Option<Primitiv
         .collect::<Result<_>>()?;
     let indices = json::optional(value, "indices", &path)?;
     Ok(Some(PrimitivePlan { primitive, path, mode, indices, positions, attributes, targets }))
+}
+
+/// Whether a normal is none.
+pub fn has_no_direction(normal: &[f64]) -> bool {
+    normal.iter().all(|number| *number == 0.0)
 }
 
 /// Equal for primitives that can share their vertices, however their attributes are ordered.

@@ -75,8 +75,9 @@ pub struct GltfDocument {
     instances: Vec<Instance>,
     /// The URIs of the buffers of the file, before any was unpacked.
     buffer_uris: Vec<Option<String>>,
-    /// The compressions that the file had.
-    decompressed: Vec<&'static str>,
+    was_compressed: bool,
+    /// What the user should know.
+    notes: Vec<String>,
 }
 
 impl GltfDocument {
@@ -102,7 +103,11 @@ impl GltfDocument {
         let buffers = read_buffers(&json, binary, &resources::folder(path))?;
         let Plain { json, buffers, dropped } = compressed::plain(json, buffers)?;
         extensions::refuse_unreadable(&json)?;
-        let instances = scene::instances(&json)?;
+        let mut notes: Vec<String> = dropped
+            .iter()
+            .map(|name| format!("it was compressed ({name}), and is written without"))
+            .collect();
+        let instances = scene::instances(&json, &mut notes)?;
         let size = bytes.len() + buffers.iter().map(Vec::len).sum::<usize>();
         let budget = Budget::of_file(size);
         let reader = GeometryReader::new(&json, &buffers, &budget);
@@ -117,6 +122,7 @@ impl GltfDocument {
             meshes.push(SourceMesh { name, mesh });
             geometries.push(geometry);
         }
+        notes.extend(reader.notes());
         Ok(GltfDocument {
             path: path.to_owned(),
             format,
@@ -127,7 +133,8 @@ impl GltfDocument {
             normals,
             instances,
             buffer_uris,
-            decompressed: dropped,
+            was_compressed: !dropped.is_empty(),
+            notes,
             bytes,
         })
     }
@@ -179,6 +186,7 @@ impl GltfDocument {
         if needed_quantization {
             extensions::drop_unneeded_quantization(&mut json)?;
         }
+        extensions::drop_unneeded_restart(&mut json);
         Ok((json, bytes))
     }
 
@@ -272,8 +280,7 @@ impl Document for GltfDocument {
     }
 
     fn notes(&self) -> Vec<String> {
-        let note = |name: &&str| format!("it was compressed ({name}), and is written without");
-        self.decompressed.iter().map(note).collect()
+        self.notes.clone()
     }
 
     fn encode(
@@ -289,7 +296,7 @@ impl Document for GltfDocument {
             chamfered.len()
         );
         let changed = chamfered.iter().enumerate().any(|(i, result)| self.is_changed(i, result));
-        if !changed && format == self.format && self.decompressed.is_empty() {
+        if !changed && format == self.format && !self.was_compressed {
             return self.encode_unchanged(output);
         }
         let images = resources::without_existing(self.copies("images", output)?)?;

@@ -137,7 +137,7 @@ impl<'a> Rewrite<'a> {
                 writer.write(Role::Successor(attribute.accessor), usage(attribute), &stream)?;
             accessors.push((attribute.name.clone(), accessor));
         }
-        if block.smoothed {
+        if block.smoothed && block.attribute("NORMAL").is_none() {
             let stream = self.core_stream("NORMAL", ElementType::floats(Shape::VEC3), vertices)?;
             let role = Role::NormalsOf(position(block));
             accessors.push(("NORMAL".to_owned(), writer.write(role, Usage::Vertices, &stream)?));

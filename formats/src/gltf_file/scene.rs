@@ -8,15 +8,19 @@ use super::json;
 use crate::document::Instance;
 
 /// The placed meshes of the default scene, or of all root nodes where the file has no scene; each
-/// mesh once at the origin where nothing is placed.
+/// mesh once at the origin where nothing is placed. A sentence for `notes` where a rule was broken
+/// that does not matter.
 ///
 /// # Errors
 /// Where the nodes are no forest, or a transform is not finite.
-pub fn instances(json: &Value) -> Result<Vec<Instance>> {
+pub fn instances(json: &Value, notes: &mut Vec<String>) -> Result<Vec<Instance>> {
     let parents = parents(json)?;
     refuse_cycles(&parents)?;
-    let mut open: Vec<(usize, Mat4)> =
-        roots(json, &parents)?.into_iter().rev().map(|root| (root, Mat4::IDENTITY)).collect();
+    let mut open: Vec<(usize, Mat4)> = roots(json, &parents, notes)?
+        .into_iter()
+        .rev()
+        .map(|root| (root, Mat4::IDENTITY))
+        .collect();
     let mut instances = Vec::new();
     while let Some((node, above)) = open.pop() {
         let path = format!("nodes[{node}]");
@@ -84,7 +88,7 @@ fn refuse_cycles(parents: &[Option<usize>]) -> Result<()> {
     Ok(())
 }
 
-fn roots(json: &Value, parents: &[Option<usize>]) -> Result<Vec<usize>> {
+fn roots(json: &Value, parents: &[Option<usize>], notes: &mut Vec<String>) -> Result<Vec<usize>> {
     let scenes = json::list(json, "scenes");
     let scene = json::optional(json, "scene", "the file")?;
     if scenes.is_empty() && scene.is_none() {
@@ -95,12 +99,32 @@ fn roots(json: &Value, parents: &[Option<usize>]) -> Result<Vec<usize>> {
     let listed = roots.len();
     roots.sort_unstable();
     roots.dedup();
-    ensure!(listed == roots.len(), "scenes[{scene}] lists a node twice");
+    if listed > roots.len() {
+        notes.push(format!("scenes[{scene}] lists a node twice: it was taken once"));
+    }
     if let Some(child) = roots.iter().find(|root| parents.get(**root).is_some_and(Option::is_some))
     {
-        bail!("scenes[{scene}] lists nodes[{child}], which is a child of another node");
+        notes.push(format!(
+            "scenes[{scene}] lists nodes[{child}], which is a child of another node: it was taken \
+             as a root, unless that node is in the scene too"
+        ));
     }
+    let listed = roots.clone();
+    roots.retain(|root| !has_ancestor_in(&listed, *root, parents));
     Ok(roots)
+}
+
+/// Whether a node is reached from one of these, which are sorted. Nodes are a forest.
+fn has_ancestor_in(listed: &[usize], node: usize, parents: &[Option<usize>]) -> bool {
+    let parent = |node: usize| parents.get(node).copied().flatten();
+    let mut above = parent(node);
+    while let Some(node) = above {
+        if listed.binary_search(&node).is_ok() {
+            return true;
+        }
+        above = parent(node);
+    }
+    false
 }
 
 fn local(node: &Value, path: &str) -> Result<Mat4> {
@@ -122,6 +146,44 @@ mod tests {
     use super::*;
     use serde_json::json;
 
+    /// Where meshes stand in a file in which all rules are kept.
+    fn placed(json: &Value) -> Vec<Instance> {
+        let mut notes = Vec::new();
+        let instances = instances(json, &mut notes).unwrap();
+        assert_eq!(notes, [""; 0]);
+        instances
+    }
+
+    //  0 - 1 - 2, of which a scene lists some
+    #[test]
+    fn a_child_in_the_scene_stands_there_once() {
+        let json = |listed: Value| {
+            json!({
+                "meshes": [{}],
+                "nodes": [
+                    {"children": [1], "translation": [1, 0, 0]},
+                    {"children": [2], "translation": [0, 1, 0]},
+                    {"mesh": 0, "translation": [0, 0, 1]},
+                ],
+                "scenes": [{"nodes": listed}],
+            })
+        };
+        let places = |listed: Value| {
+            let mut notes = Vec::new();
+            let instances = instances(&json(listed), &mut notes).unwrap();
+            let places = instances.iter().map(|instance| instance.transform[3]);
+            (places.collect::<Vec<_>>(), notes.join(" "))
+        };
+        let (found, note) = places(json!([1]));
+        assert_eq!(found, [[0.0, 1.0, 1.0, 1.0]]);
+        assert!(note.starts_with("scenes[0] lists nodes[1], which is a child"), "{note}");
+        for listed in [json!([0, 2]), json!([0, 1, 2]), json!([0, 0])] {
+            let (found, note) = places(listed);
+            assert_eq!(found, [[1.0, 1.0, 1.0, 1.0]]);
+            assert!(!note.is_empty());
+        }
+    }
+
     #[test]
     fn transforms_accumulate_down_the_tree() {
         let json = json!({
@@ -132,7 +194,7 @@ mod tests {
             ],
             "scenes": [{"nodes": [0]}],
         });
-        let instances = instances(&json).unwrap();
+        let instances = placed(&json);
         assert_eq!(instances.len(), 1);
         assert_eq!(instances[0].transform[3], [6.0, 8.0, 10.0, 1.0]);
     }
@@ -145,13 +207,13 @@ mod tests {
             "scenes": [{"nodes": [0]}, {"nodes": [1]}],
             "scene": 1,
         });
-        let meshes: Vec<usize> = instances(&json).unwrap().iter().map(|i| i.mesh).collect();
+        let meshes: Vec<usize> = placed(&json).iter().map(|i| i.mesh).collect();
         assert_eq!(meshes, [1]);
     }
 
     #[test]
     fn meshes_without_a_node_stand_at_the_origin() {
-        let instances = instances(&json!({"meshes": [{}, {}]})).unwrap();
+        let instances = placed(&json!({"meshes": [{}, {}]}));
         assert_eq!(instances.len(), 2);
         assert_eq!(instances[1].transform, Mat4::IDENTITY.to_cols_array_2d());
     }
@@ -163,12 +225,14 @@ mod tests {
         let shared = json!({"nodes": [{"children": [2]}, {"children": [2]}, {}]});
         let missing = json!({"nodes": [{"children": [7]}]});
         for json in [cycle, itself, shared, missing] {
-            assert!(instances(&json).is_err(), "{json}");
+            assert!(instances(&json, &mut Vec::new()).is_err(), "{json}");
         }
     }
 
     #[test]
     fn an_infinite_transform_is_refused() {
-        assert!(instances(&json!({"nodes": [{"translation": [1e39, 0, 0]}]})).is_err());
+        assert!(
+            instances(&json!({"nodes": [{"translation": [1e39, 0, 0]}]}), &mut Vec::new()).is_err()
+        );
     }
 }

@@ -20,7 +20,16 @@ impl Mode {
     }
 
     /// `#triangles by 3`, flattened. What is left over at the end of a list forms no triangle.
-    pub fn to_list(self, indices: Vec<u32>) -> Vec<u32> {
+    /// `restart` is no vertex: what follows it begins anew.
+    pub fn to_list(self, indices: Vec<u32>, restart: u32) -> Vec<u32> {
+        if !indices.contains(&restart) {
+            return self.run_to_list(indices);
+        }
+        let runs = indices.split(|index| *index == restart);
+        runs.flat_map(|run| self.run_to_list(run.to_vec())).collect()
+    }
+
+    fn run_to_list(self, indices: Vec<u32>) -> Vec<u32> {
         match self {
             Mode::List => whole_triangles(indices),
             Mode::Strip => with_area(indices.windows(3).enumerate().map(strip_triangle)),
@@ -53,29 +62,39 @@ fn with_area(triangles: impl Iterator<Item = [u32; 3]>) -> Vec<u32> {
 mod tests {
     use super::*;
 
+    const NONE: u32 = u32::MAX;
+
+    #[test]
+    fn strips_and_fans_begin_anew_after_a_restart() {
+        let indices = vec![0, 1, 2, 9, 3, 4, 5, 6];
+        assert_eq!(Mode::Strip.to_list(indices.clone(), 9), [0, 1, 2, 3, 4, 5, 4, 6, 5]);
+        assert_eq!(Mode::Fan.to_list(indices.clone(), 9), [1, 2, 0, 4, 5, 3, 5, 6, 3]);
+        assert_eq!(Mode::List.to_list(indices, 9), [0, 1, 2, 3, 4, 5]);
+    }
+
     #[test]
     fn a_strip_turns_every_other_triangle() {
         //  1---3        the second triangle keeps the winding of the first
         //  | \ | \
         //  0---2---4
-        assert_eq!(Mode::Strip.to_list(vec![0, 1, 2, 3, 4]), [0, 1, 2, 1, 3, 2, 2, 3, 4]);
+        assert_eq!(Mode::Strip.to_list(vec![0, 1, 2, 3, 4], NONE), [0, 1, 2, 1, 3, 2, 2, 3, 4]);
     }
 
     #[test]
     fn a_strip_drops_its_joints() {
-        assert_eq!(Mode::Strip.to_list(vec![0, 1, 2, 2, 3, 3, 4, 5]), [0, 1, 2, 3, 5, 4]);
+        assert_eq!(Mode::Strip.to_list(vec![0, 1, 2, 2, 3, 3, 4, 5], NONE), [0, 1, 2, 3, 5, 4]);
     }
 
     #[test]
     fn a_fan_turns_about_its_first_vertex() {
-        assert_eq!(Mode::Fan.to_list(vec![7, 1, 2, 3]), [1, 2, 7, 2, 3, 7]);
+        assert_eq!(Mode::Fan.to_list(vec![7, 1, 2, 3], NONE), [1, 2, 7, 2, 3, 7]);
     }
 
     #[test]
     fn short_lists_have_no_triangle() {
         for mode in [Mode::List, Mode::Strip, Mode::Fan] {
-            assert!(mode.to_list(vec![]).is_empty());
-            assert!(mode.to_list(vec![1, 2]).is_empty());
+            assert!(mode.to_list(vec![], NONE).is_empty());
+            assert!(mode.to_list(vec![1, 2], NONE).is_empty());
         }
     }
 }

@@ -6,5 +6,6 @@ mod damage;
 mod features;
 mod files;
 mod followers;
+mod lenient;
 mod morphs;
 mod support;
