@@ -64,11 +64,13 @@ impl Document for ObjDocument {
     }
 
     fn notes(&self) -> Vec<String> {
-        if self.obj.dropped.is_empty() {
-            return Vec::new();
+        let mut notes = self.obj.slips.notes();
+        if !self.obj.dropped.is_empty() {
+            let names: Vec<&str> = self.obj.dropped.iter().map(String::as_str).collect();
+            let names = names.join(", ");
+            notes.push(format!("statements left out because nothing is known of them: {names}"));
         }
-        let names: Vec<&str> = self.obj.dropped.iter().map(String::as_str).collect();
-        vec![format!("statements left out because nothing is known of them: {}", names.join(", "))]
+        notes
     }
 
     fn encode(

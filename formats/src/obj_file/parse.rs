@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::collections::BTreeSet;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, anyhow, bail};
 
 /// What stands in an OBJ file.
 #[derive(Debug, Default)]
@@ -28,8 +28,60 @@ pub struct Obj {
     pub polygon_ends: Vec<usize>,
     /// All else, in the order of the file.
     pub items: Vec<Item>,
+    /// `#polygons`: the smoothing group of each; 0 for none.
+    pub smoothing_groups: Vec<u32>,
     /// Keywords of the statements that are not kept.
     pub dropped: BTreeSet<String>,
+    /// What was read otherwise than it stands there.
+    pub slips: Slips,
+}
+
+/// Broken rules that do not matter, each with how often and the line where it was first.
+#[derive(Debug, Default)]
+pub struct Slips {
+    /// Whether a byte-order mark stood in front of the first statement.
+    pub byte_order_mark: bool,
+    /// Faces of fewer than three corners.
+    pub thin_faces: Slip,
+    /// Corners whose texture coordinates the file does not have.
+    pub texcoords: Slip,
+    /// Corners whose normals the file does not have.
+    pub normals: Slip,
+}
+
+/// How often something is so, and in which line first.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Slip {
+    count: usize,
+    line: usize,
+}
+
+impl Slip {
+    fn add(&mut self, line: usize) {
+        self.count += 1;
+        self.line = if self.count == 1 { line } else { self.line.min(line) };
+    }
+
+    fn note(self, what: &str, becomes: &str) -> Option<String> {
+        let Slip { count, line } = self;
+        (count > 0).then(|| format!("{count} {what}, first in line {line}: {becomes}"))
+    }
+}
+
+impl Slips {
+    /// A sentence each.
+    pub fn notes(&self) -> Vec<String> {
+        let mark = "the byte-order mark in front was left out";
+        [
+            self.byte_order_mark.then(|| mark.to_owned()),
+            self.thin_faces.note("faces of fewer than three corners", "left out"),
+            self.texcoords.note("corners name a vt that is not there", "read without"),
+            self.normals.note("corners name a vn that is not there", "normals were made for them"),
+        ]
+        .into_iter()
+        .flatten()
+        .collect()
+    }
 }
 
 /// A corner of a polygon, by zero-based numbers.
@@ -60,15 +112,20 @@ pub enum Item {
 /// Names the first line that makes no sense.
 pub fn parse(bytes: &[u8]) -> Result<Obj> {
     let mut parser = Parser::default();
-    for (number, line) in (Lines { rest: bytes, number: 0 }) {
+    let text = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes);
+    parser.obj.slips.byte_order_mark = text.len() < bytes.len();
+    for (number, line) in (Lines { rest: text, number: 0 }) {
         parser.statement(&line, number).with_context(|| format!("line {number}"))?;
     }
-    if parser.statements == 0 && !bytes.trim_ascii().is_empty() && !parser.commented() {
+    if parser.statements == 0 && !text.trim_ascii().is_empty() && !parser.commented() {
         bail!("no OBJ statement in this file");
     }
     parser.check_indices()?;
     Ok(parser.obj)
 }
+
+/// That of UTF-8, which some editors write in front of a text.
+const BYTE_ORDER_MARK: &[u8] = b"\xEF\xBB\xBF";
 
 impl Obj {
     /// `#submeshes`: the material that each run of faces uses.
@@ -139,6 +196,8 @@ struct Parser {
     /// `#polygons`: the line of each, and `#elements` likewise, for errors found at the end.
     polygon_lines: Vec<usize>,
     element_lines: Vec<usize>,
+    /// The smoothing group of the faces that follow.
+    smoothing_group: u32,
 }
 
 impl Parser {
@@ -165,8 +224,7 @@ impl Parser {
             b"f" | b"fo" => self.polygon(rest, number)?,
             b"l" | b"p" => self.element(keyword[0], rest, number)?,
             b"o" | b"g" | b"usemtl" | b"mtllib" => self.obj.items.push(Item::Line(line.to_vec())),
-            // Smoothing groups say nothing beside normals, and every corner gets one.
-            b"s" => {}
+            b"s" => self.smoothing_group = smoothing_group(rest),
             _ => {
                 self.statements = known;
                 self.obj.dropped.insert(String::from_utf8_lossy(keyword).into_owned());
@@ -217,8 +275,11 @@ impl Parser {
             self.obj.corners.push(corner);
         }
         if self.obj.corners.len() - before < 3 {
-            bail!("a face needs at least three corners");
+            self.obj.corners.truncate(before);
+            self.obj.slips.thin_faces.add(number);
+            return Ok(());
         }
+        self.obj.smoothing_groups.push(self.smoothing_group);
         self.obj.polygon_ends.push(self.obj.corners.len());
         self.polygon_lines.push(number);
         let polygons = self.obj.polygon_ends.len();
@@ -244,21 +305,25 @@ impl Parser {
             Some(text) => index(text, count).map(Some),
         };
         let position = part(self.obj.positions.len())?;
-        let texcoord = part(self.obj.texcoords.len())?;
-        let normal = part(self.obj.normals.len())?;
+        let position = position.map(|given| inside(given, self.obj.positions.len())).transpose()?;
+        // One that reaches back too far is told from the others that are not there at the end.
+        let known = |given: Option<i64>| given.map(|at| u32::try_from(at).unwrap_or(u32::MAX));
+        let texcoord = known(part(self.obj.texcoords.len())?);
+        let normal = known(part(self.obj.normals.len())?);
         let position = position.context("a corner without a vertex number")?;
         Ok(Corner { position, texcoord, normal })
     }
 
     /// At the end only, because some programs write faces above the vertices that they use.
-    fn check_indices(&self) -> Result<()> {
-        let obj = &self.obj;
+    fn check_indices(&mut self) -> Result<()> {
+        let obj = &mut self.obj;
+        let counts = [obj.texcoords.len(), obj.normals.len()];
         let mut start = 0;
-        for (&end, line) in obj.polygon_ends.iter().zip(&self.polygon_lines) {
-            for corner in &obj.corners[start..end] {
-                check(*line, "vertex", Some(corner.position), obj.positions.len())?;
-                check(*line, "vt", corner.texcoord, obj.texcoords.len())?;
-                check(*line, "vn", corner.normal, obj.normals.len())?;
+        for (&end, &line) in obj.polygon_ends.iter().zip(&self.polygon_lines) {
+            for corner in &mut obj.corners[start..end] {
+                check(line, corner.position, obj.positions.len())?;
+                drop_unknown(&mut corner.texcoord, counts[0], line, &mut obj.slips.texcoords);
+                drop_unknown(&mut corner.normal, counts[1], line, &mut obj.slips.normals);
             }
             start = end;
         }
@@ -268,20 +333,32 @@ impl Parser {
         });
         for (positions, line) in elements.zip(&self.element_lines) {
             for &position in positions {
-                check(*line, "vertex", Some(position), obj.positions.len())?;
+                check(*line, position, obj.positions.len())?;
             }
         }
         Ok(())
     }
 }
 
-fn check(line: usize, what: &str, index: Option<u32>, count: usize) -> Result<()> {
-    match index {
-        Some(index) if index as usize >= count => {
-            bail!("line {line}: {what} {} of {count} that the file has", u64::from(index) + 1)
-        }
-        _ => Ok(()),
+fn check(line: usize, position: u32, count: usize) -> Result<()> {
+    if position as usize >= count {
+        bail!("line {line}: vertex {} of {count} that the file has", u64::from(position) + 1);
     }
+    Ok(())
+}
+
+/// What geometry can do without need not be there.
+fn drop_unknown(index: &mut Option<u32>, count: usize, line: usize, slip: &mut Slip) {
+    if index.is_some_and(|index| index as usize >= count) {
+        *index = None;
+        slip.add(line);
+    }
+}
+
+/// `off` and all that is no number stand for none.
+fn smoothing_group(rest: &[u8]) -> u32 {
+    let word = words(rest).next().map(String::from_utf8_lossy);
+    word.and_then(|word| word.parse().ok()).unwrap_or(0)
 }
 
 /// The words of a line, up to a comment.
@@ -305,19 +382,23 @@ fn numbers<const N: usize>(rest: &[u8]) -> Result<([f32; N], usize)> {
     Ok((values, count))
 }
 
-/// A zero-based number from one that counts from 1, or backwards from the last of `count`.
-fn index(text: &[u8], count: usize) -> Result<u32> {
+/// A zero-based number from one that counts from 1, or backwards from the last of `count`: then it
+/// is negative where it reaches back too far.
+fn index(text: &[u8], count: usize) -> Result<i64> {
     let text = String::from_utf8_lossy(text);
     let given: i64 = text.parse().with_context(|| format!("\"{text}\" is not an index"))?;
-    let zero_based = match given {
-        1.. => given - 1,
+    match given {
+        1.. => Ok(given - 1),
         0 => bail!("index 0: OBJ counts from 1"),
-        _ => count as i64 + given,
-    };
-    match u32::try_from(zero_based) {
-        Ok(index) => Ok(index),
-        Err(_) => bail!("index {given} is out of range: {count} are defined above it"),
+        _ => Ok((count as i64).saturating_add(given)),
     }
+}
+
+fn inside(zero_based: i64, count: usize) -> Result<u32> {
+    u32::try_from(zero_based).map_err(|_| {
+        let given = if zero_based < 0 { zero_based - count as i64 } else { zero_based + 1 };
+        anyhow!("index {given} is out of range: {count} are defined above it")
+    })
 }
 
 #[cfg(test)]
@@ -408,17 +489,50 @@ mod tests {
         assert!(error("v 0 0 x").starts_with("line 1: \"x\" is not a number"));
         assert!(error("\nv 0 0 nan").starts_with("line 2: \"nan\" is too large"));
         assert!(error("v 0 0 1e39").contains("too large"));
-        assert_eq!(
-            error(&format!("{CORNERS}f 1 2")),
-            "line 6: a face needs at least three corners"
-        );
         assert!(error(&format!("{CORNERS}f 0 1 2")).contains("index 0"));
         assert!(error(&format!("{CORNERS}f -4 1 2")).contains("index -4 is out of range"));
         assert_eq!(error(&format!("{CORNERS}f 1 2 4")), "line 6: vertex 4 of 3 that the file has");
-        assert!(error(&format!("{CORNERS}f 1 2 3/9")).contains("vt 9 of 1"));
         assert!(error(&format!("{CORNERS}f 1 2 99999999999")).contains("out of range"));
         assert!(error("solid x\nfacet").contains("no OBJ statement"));
         assert!(error("l 1 2").contains("line 1: vertex 1 of 0"));
+    }
+
+    #[test]
+    fn a_byte_order_mark_swallows_no_vertex() {
+        let obj = parse(format!("\u{feff}{CORNERS}f 1 2 3").as_bytes()).unwrap();
+        assert_eq!(obj.positions.len(), 3);
+        assert_eq!(obj.slips.notes(), ["the byte-order mark in front was left out"]);
+    }
+
+    #[test]
+    fn corners_without_what_they_name_lack_it() {
+        let text = format!("{CORNERS}f 1/1/1 2/2/1 3/-9/7\nf 1/9/1 2/1/1 3//1\n");
+        let obj = parse(text.as_bytes()).unwrap();
+        let texcoords: Vec<_> = obj.corners.iter().map(|corner| corner.texcoord).collect();
+        assert_eq!(texcoords, [Some(0), None, None, None, Some(0), None]);
+        assert_eq!(obj.corners[2].normal, None);
+        assert_eq!(
+            obj.slips.notes(),
+            [
+                "3 corners name a vt that is not there, first in line 6: read without",
+                "1 corners name a vn that is not there, first in line 6: normals were made for them",
+            ]
+        );
+    }
+
+    #[test]
+    fn faces_of_fewer_than_three_corners_are_left_out() {
+        let obj = parse(format!("{CORNERS}f 1 2\nf\nf 1 2 3\nf 3\n").as_bytes()).unwrap();
+        assert_eq!(obj.polygon_ends, [3]);
+        let note = "3 faces of fewer than three corners, first in line 6: left out";
+        assert_eq!(obj.slips.notes(), [note]);
+    }
+
+    #[test]
+    fn faces_remember_their_smoothing_group() {
+        let face = "f 1 2 3\n";
+        let text = format!("{CORNERS}{face}s 1\n{face}{face}s off\n{face}s 7\n{face}s 0\n{face}");
+        assert_eq!(parse(text.as_bytes()).unwrap().smoothing_groups, [0, 1, 1, 0, 7, 0]);
     }
 
     #[test]

@@ -3,10 +3,11 @@
 use std::collections::HashMap;
 use std::io::Write;
 
-use chamfer::{Chamfered, MeshBuffers};
+use chamfer::{Chamfered, MeshBuffers, TriangleKind};
 
 use super::build::Origin;
 use super::parse::{Item, Obj};
+use super::polygon::triangulate;
 
 /// The group and material of the triangles in a submesh that the file did not have.
 const OWN_SUBMESH: &str = "chamfer";
@@ -34,8 +35,58 @@ pub fn write(obj: &Obj, source: &MeshBuffers, origin: &Origin, result: &Chamfere
         texcoord: &texcoords.number_of,
         normal: &normals.number_of,
     };
-    text.items(obj, &result.mesh, &line_of, &positions.line_of_source);
+    let polygons = polygons(origin, result);
+    text.items(obj, &result.mesh, &polygons, &line_of, &positions.line_of_source);
     text.0
+}
+
+/// `#triangles` of the result: for the first of a polygon that is still whole its corners, and none
+/// for the others of it; for all other triangles themselves.
+fn polygons(origin: &Origin, result: &Chamfered) -> Vec<Vec<u32>> {
+    let triangles = result.mesh.indices.as_chunks::<3>().0;
+    let mut faces: Vec<Vec<u32>> = triangles.iter().map(|triangle| triangle.to_vec()).collect();
+    let mut place_of = vec![None; origin.polygon_of.len()];
+    for (place, source) in result.triangle_sources.iter().enumerate() {
+        if source.kind == TriangleKind::Source {
+            place_of[source.index as usize] = Some(place);
+        }
+    }
+    let mut first = 0;
+    for polygon in origin.polygon_of.chunk_by(|a, b| a == b) {
+        let own = first..first + polygon.len();
+        first = own.end;
+        let places: Option<Vec<usize>> = place_of[own.clone()].iter().copied().collect();
+        if let Some(places) = places.filter(|places| places.len() > 1)
+            && let Some(loop_) = whole(&origin.places[own], &places, triangles, &result.mesh)
+        {
+            places.iter().for_each(|&place| faces[place].clear());
+            faces[places[0]] = loop_;
+        }
+    }
+    faces
+}
+
+/// The corners of a polygon, if its triangles still agree about them, and whoever reads it would
+/// cut it into the same.
+fn whole(
+    corners: &[[u32; 3]],
+    places: &[usize],
+    triangles: &[[u32; 3]],
+    mesh: &MeshBuffers,
+) -> Option<Vec<u32>> {
+    let mut polygon = vec![None; corners.len() + 2];
+    for (corners, &place) in corners.iter().zip(places) {
+        for (&corner, &vertex) in corners.iter().zip(&triangles[place]) {
+            let known = polygon.get_mut(corner as usize)?;
+            if *known.get_or_insert(vertex) != vertex {
+                return None;
+            }
+        }
+    }
+    let polygon: Vec<u32> = polygon.into_iter().collect::<Option<_>>()?;
+    let points: Vec<_> = polygon.iter().map(|&at| mesh.positions[at as usize]).collect();
+    let cut = triangulate(&points).into_iter().map(|triangle| triangle.map(|at| at as u32));
+    cut.eq(corners.iter().copied()).then_some(polygon)
 }
 
 /// Distinct values, numbered from 1 in the order of first use.
@@ -175,13 +226,14 @@ impl Text {
         &mut self,
         obj: &Obj,
         mesh: &MeshBuffers,
+        faces: &[Vec<u32>],
         vertices: &Vertices,
         line_of_source: &[usize],
     ) {
-        let mut rest = mesh.indices.as_slice();
+        let mut rest = faces;
         let mut counts = mesh.submesh_index_counts.iter();
         let mut next_run = || {
-            let (run, after) = rest.split_at(*counts.next()? as usize);
+            let (run, after) = rest.split_at(*counts.next()? as usize / 3);
             rest = after;
             Some(run)
         };
@@ -208,10 +260,10 @@ impl Text {
         self.0.push(b'\n');
     }
 
-    fn faces(&mut self, indices: &[u32], vertices: &Vertices) {
-        for triangle in indices.as_chunks::<3>().0 {
-            let corners = triangle.map(|index| index as usize);
-            let textured = corners.iter().all(|&corner| vertices.texcoord[corner] > 0);
+    fn faces(&mut self, faces: &[Vec<u32>], vertices: &Vertices) {
+        for face in faces.iter().filter(|face| !face.is_empty()) {
+            let corners = face.iter().map(|&index| index as usize);
+            let textured = corners.clone().all(|corner| vertices.texcoord[corner] > 0);
             self.0.push(b'f');
             for corner in corners {
                 let (position, normal) = (vertices.position[corner], vertices.normal[corner]);
@@ -229,7 +281,7 @@ impl Text {
 mod tests {
     use super::*;
     use crate::obj_file::{build, parse};
-    use chamfer::{Blend, VertexSource};
+    use chamfer::{Blend, TriangleSource, VertexSource};
 
     /// The text after `change` was made to the mesh of another text.
     fn rewritten(text: &str, change: impl FnOnce(&mut MeshBuffers)) -> String {
@@ -239,7 +291,10 @@ mod tests {
         change(&mut mesh);
         let one = |_| VertexSource::new(Blend::one(0), Blend::one(0));
         let vertex_sources = (0..mesh.positions.len()).map(one).collect();
-        let result = Chamfered { mesh, vertex_sources, ..Chamfered::default() };
+        let triangles = source.indices.len() as u32 / 3;
+        let kept = |index| TriangleSource { kind: TriangleKind::Source, index };
+        let triangle_sources = (0..triangles).map(kept).collect();
+        let result = Chamfered { mesh, vertex_sources, triangle_sources, ..Chamfered::default() };
         String::from_utf8(write(&obj, &source, &origin, &result)).unwrap()
     }
 
@@ -290,6 +345,28 @@ f 3/2/1 2/2/1 1/1/1
         let model =
             "v 0 0 0 0.5 0 0\nv 1 0 0 1 1 1\nv 0 1 0 0.25 0 1\nvn 0 0 1\nf 1//1 2//1 3//1\n";
         assert_eq!(rewritten(model, |_| {}), model);
+    }
+
+    const QUAD: &str = "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nvn 0 0 1\nf 1//1 2//1 3//1 4//1\n";
+
+    #[test]
+    fn a_quad_that_is_whole_stays_one() {
+        assert_eq!(rewritten(QUAD, |_| {}), QUAD);
+        let text = rewritten(QUAD, |mesh| mesh.positions[0] = [0.5, 0.5, 0.0]);
+        assert!(text.ends_with("f 4//1 1//1 2//1 3//1\n"), "{text}");
+    }
+
+    /// Where its triangles part, and where a reader would cut it along its other diagonal.
+    #[test]
+    fn a_quad_that_was_cut_is_triangles() {
+        let text = rewritten(QUAD, |mesh| {
+            mesh.positions.push([0.25, 0.25, 0.0]);
+            mesh.normals.push([0.0, 0.0, 1.0]);
+            mesh.indices[3] = 4;
+        });
+        assert_eq!(text.matches("f ").count(), 2, "{text}");
+        let text = rewritten(QUAD, |mesh| mesh.positions[1] = [0.5, 1.5, 0.0]);
+        assert_eq!(text.matches("f ").count(), 2, "{text}");
     }
 
     #[test]
