@@ -63,7 +63,7 @@ fn chamfered((name, before): (&'static str, MeshBuffers)) -> Result<Model> {
 fn write_model(folder: &Path, model: &Model) -> Result<()> {
     let file = |when: &str, mesh: &MeshBuffers| -> Result<OutputFile> {
         let path = folder.join(format!("{}.{when}.glb", model.name));
-        Ok(OutputFile { path, bytes: glb::encode(model.name, mesh, &[])? })
+        Ok(OutputFile { path, bytes: glb::encode(model.name, mesh, &[], &[])? })
     };
     write::together(&[file("before", &model.before)?, file("after", &model.after.mesh)?])
 }

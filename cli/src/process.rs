@@ -14,7 +14,7 @@ use chamfer::{
 };
 use chamfer_formats as formats;
 use chamfer_formats::paths::identity;
-use chamfer_formats::{Document, OutputFile, ReadOptions, SourceMesh};
+use chamfer_formats::{Document, OutputFile, ReadOptions, SourceMesh, row_of};
 
 use crate::jobs::Job;
 use crate::report::MeshReport;
@@ -51,14 +51,34 @@ pub struct Processed {
 pub fn process(job: &Job, settings: &Settings, progress: &dyn Fn(f32)) -> Result<Processed> {
     let document = formats::read(&job.input, &settings.read)?;
     let mut notes = document.notes();
+    notes.extend(row_of(&job.output).iter().flat_map(|row| document.losses(row.format)));
     if document.meshes().iter().all(|mesh| mesh.mesh.indices.is_empty()) {
         notes.push("there are no triangles in it: nothing was chamfered".into());
     }
     let (chamfered, reports) = chamfer_all(&*document, settings, progress, &mut notes)?;
+    notes.extend(document.meshes().iter().zip(&chamfered).filter_map(too_far_out));
     let files = formats::encode(&*document, &job.output, &chamfered)?;
     settings.taken.claim(job, &files)?;
     write::together(&files)?;
     Ok(Processed { document, chamfered, reports, notes })
+}
+
+/// A chamfer that is so few steps of its coordinates wide is bent by rounding, and held back.
+const LEAST_STEPS: f32 = 16.0;
+
+/// Says where a mesh lies too far from the origin for its chamfers.
+fn too_far_out((SourceMesh { name, mesh }, result): (&SourceMesh, &Chamfered)) -> Option<String> {
+    let farthest = mesh.positions.as_flattened().iter().fold(0.0f32, |most, at| most.max(at.abs()));
+    let step = farthest * f32::EPSILON;
+    let is_fine = result.verdicts.is_empty() || result.width >= LEAST_STEPS * step;
+    (!is_fine && result.width > 0.0).then(|| {
+        format!(
+            "mesh {name} lies so far from the origin ({farthest}) that its coordinates go in steps \
+             of {step}, too coarse for chamfers of {}: move it there, and let its node's transform \
+             say where it stands",
+            result.width
+        )
+    })
 }
 
 /// Chamfers the meshes of a file together, as they stand in its scene.
@@ -179,6 +199,21 @@ mod tests {
         assert!(taken.claim(&b, &texture("red")[1..]).is_ok());
         let error = taken.claim(&b, &texture("blue")[1..]).unwrap_err().to_string();
         assert!(error.contains("t.png belongs to another model"), "{error}");
+    }
+
+    #[test]
+    fn chamfers_far_from_the_origin_are_told_of() {
+        let note = |shift: f32, width: f32| {
+            let mut mesh = chamfer::shapes::plain_cube(1.0);
+            mesh.positions.iter_mut().for_each(|position| position[0] += shift);
+            let options = Options { width: chamfer::Width::Units(width), ..Options::default() };
+            let result = chamfer::chamfer(&mesh.as_mesh(), &options).unwrap();
+            too_far_out((&SourceMesh { name: "a".into(), mesh }, &result))
+        };
+        assert_eq!(note(0.0, 0.01), None);
+        assert_eq!(note(5e4, 0.0), None);
+        assert!(note(5e4, 0.01).unwrap().starts_with("mesh a lies so far from the origin (50000"));
+        assert_eq!(note(5e4, 0.1), None);
     }
 
     #[test]

@@ -25,7 +25,7 @@ fn cuts(length: usize) -> impl Iterator<Item = usize> {
 }
 
 fn cubes_glb() -> Vec<u8> {
-    glb::encode("cubes", &shapes::cube_field(12), &[]).unwrap()
+    glb::encode("cubes", &shapes::cube_field(12), &[], &[]).unwrap()
 }
 
 fn cubes_obj() -> String {

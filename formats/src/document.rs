@@ -75,6 +75,11 @@ pub trait Document {
         Vec::new()
     }
 
+    /// What will be lost when it is written in a format: a sentence each.
+    fn losses(&self, _format: Format) -> Vec<String> {
+        Vec::new()
+    }
+
     /// The file with `chamfered[i]` in the place of mesh `i`, in one of the formats that it can have:
     /// the file of the path `output` first, then those that belong to it.
     ///

@@ -7,19 +7,39 @@ use chamfer::{MeshBuffers, UvBuffer};
 use serde_json::{Value, json};
 
 use crate::gltf_file::write_glb;
+use crate::pictures::Picture;
 
 const ARRAY_BUFFER: u32 = 34962;
 const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 const UNSIGNED_INT: u32 = 5125;
 const FLOAT: u32 = 5126;
 
+/// What is known of a material beside its name.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Material {
+    /// As submeshes name it.
+    pub name: String,
+    /// Red, green, blue and opacity (0 to 1), which a texture is multiplied by.
+    pub color: [f32; 4],
+    /// How matte it is (0 to 1).
+    pub roughness: f32,
+    /// The picture on it.
+    pub texture: Option<Picture>,
+}
+
 /// Encodes a mesh as .glb. `materials` names the material of each submesh (`#submeshes`; those
-/// missing have none); the submeshes of one material become one primitive.
+/// missing have none); the submeshes of one material become one primitive. What `library` knows of
+/// a material goes along.
 ///
 /// # Errors
 /// Where the file would be larger than the 4 GiB that the format allows.
-pub fn encode(name: &str, mesh: &MeshBuffers, materials: &[Option<String>]) -> Result<Vec<u8>> {
-    let mut builder = Builder::default();
+pub fn encode(
+    name: &str,
+    mesh: &MeshBuffers,
+    materials: &[Option<String>],
+    library: &[Material],
+) -> Result<Vec<u8>> {
+    let mut builder = Builder { library, ..Builder::default() };
     let groups = by_material(mesh, materials);
     let mut root = json!({
         "asset": { "version": "2.0", "generator": "chamfer" },
@@ -35,8 +55,14 @@ pub fn encode(name: &str, mesh: &MeshBuffers, materials: &[Option<String>]) -> R
         root["accessors"] = Value::Array(builder.accessors);
         root["bufferViews"] = Value::Array(builder.views);
         root["buffers"] = json!([{ "byteLength": builder.binary.len() }]);
-        if !builder.materials.is_empty() {
-            root["materials"] = Value::Array(builder.materials);
+        for (key, items) in [
+            ("materials", builder.materials),
+            ("textures", builder.textures),
+            ("images", builder.images),
+        ] {
+            if !items.is_empty() {
+                root[key] = Value::Array(items);
+            }
         }
     }
     write_glb(&serde_json::to_vec(&root)?, &builder.binary, &[])
@@ -69,14 +95,52 @@ fn by_material<'a>(mesh: &MeshBuffers, materials: &'a [Option<String>]) -> Vec<G
 
 /// The parts of a glTF that refer to each other by number.
 #[derive(Default)]
-struct Builder {
+struct Builder<'a> {
+    library: &'a [Material],
     binary: Vec<u8>,
     views: Vec<Value>,
     accessors: Vec<Value>,
     materials: Vec<Value>,
+    textures: Vec<Value>,
+    images: Vec<Value>,
 }
 
-impl Builder {
+impl Builder<'_> {
+    /// The number of a new material.
+    fn material(&mut self, name: &str) -> usize {
+        let mut material = json!({ "name": name });
+        let library = self.library;
+        if let Some(known) = library.iter().find(|known| known.name == name) {
+            let mut surface = json!({
+                "baseColorFactor": known.color,
+                "metallicFactor": 0.0,
+                "roughnessFactor": known.roughness,
+            });
+            if let Some(picture) = &known.texture {
+                surface["baseColorTexture"] = json!({ "index": self.texture(picture) });
+            }
+            material["pbrMetallicRoughness"] = surface;
+            if known.color[3] < 1.0 {
+                material["alphaMode"] = json!("BLEND");
+            }
+        }
+        self.materials.push(material);
+        self.materials.len() - 1
+    }
+
+    /// The number of a texture; one that is there already for a picture of that name.
+    fn texture(&mut self, picture: &Picture) -> usize {
+        let known = self.images.iter().position(|image| image["name"] == picture.name.as_str());
+        known.unwrap_or_else(|| {
+            let view = self.view(picture.bytes.iter().copied(), None);
+            let image =
+                json!({ "name": picture.name, "mimeType": picture.kind, "bufferView": view });
+            self.images.push(image);
+            self.textures.push(json!({ "source": self.images.len() - 1 }));
+            self.textures.len() - 1
+        })
+    }
+
     fn attributes(&mut self, mesh: &MeshBuffers) -> Value {
         let mut attributes = json!({});
         let position = self.floats("VEC3", mesh.positions.as_flattened());
@@ -104,12 +168,11 @@ impl Builder {
         let mut primitives = Vec::new();
         for group in groups {
             let bytes = group.indices.iter().flat_map(|index| index.to_le_bytes());
-            let view = self.view(bytes, ELEMENT_ARRAY_BUFFER);
+            let view = self.view(bytes, Some(ELEMENT_ARRAY_BUFFER));
             let indices = self.accessor(view, UNSIGNED_INT, "SCALAR", group.indices.len());
             let mut primitive = json!({ "attributes": attributes, "indices": indices });
             if let Some(name) = group.material {
-                primitive["material"] = json!(self.materials.len());
-                self.materials.push(json!({ "name": name }));
+                primitive["material"] = json!(self.material(name));
             }
             primitives.push(primitive);
         }
@@ -122,19 +185,24 @@ impl Builder {
             "VEC3" => 3,
             _ => 4,
         };
-        let view = self.view(values.iter().flat_map(|value| value.to_le_bytes()), ARRAY_BUFFER);
+        let view =
+            self.view(values.iter().flat_map(|value| value.to_le_bytes()), Some(ARRAY_BUFFER));
         self.accessor(view, FLOAT, kind, values.len() / components)
     }
 
-    fn view(&mut self, bytes: impl Iterator<Item = u8>, target: u32) -> usize {
+    fn view(&mut self, bytes: impl Iterator<Item = u8>, target: Option<u32>) -> usize {
+        self.binary.resize(self.binary.len().next_multiple_of(4), 0);
         let offset = self.binary.len();
         self.binary.extend(bytes);
-        self.views.push(json!({
+        let mut view = json!({
             "buffer": 0,
             "byteOffset": offset,
             "byteLength": self.binary.len() - offset,
-            "target": target,
-        }));
+        });
+        if let Some(target) = target {
+            view["target"] = target.into();
+        }
+        self.views.push(view);
         self.views.len() - 1
     }
 
@@ -191,7 +259,7 @@ mod tests {
 
     #[test]
     fn a_triangle_has_bounds_and_one_primitive() {
-        let json = json_of(&encode("tri", &triangle(), &[Some("red".into())]).unwrap());
+        let json = json_of(&encode("tri", &triangle(), &[Some("red".into())], &[]).unwrap());
         assert_eq!(json["accessors"][0]["max"], json!([1.0, 2.0, 0.0]));
         assert_eq!(json["accessors"][0]["count"], 3);
         assert_eq!(json["meshes"][0]["primitives"].as_array().unwrap().len(), 1);
@@ -201,12 +269,36 @@ mod tests {
     }
 
     #[test]
+    fn what_is_known_of_a_material_goes_along() {
+        let png = Picture::new("a.png".into(), b"\x89PNG\r\n\x1A\n".to_vec());
+        assert!(png.is_some() && Picture::new("a.tga".into(), vec![0; 8]).is_none());
+        let red = Material {
+            name: "red".into(),
+            color: [1.0, 0.0, 0.0, 0.5],
+            roughness: 0.25,
+            texture: png,
+        };
+        let json = json_of(&encode("tri", &triangle(), &[Some("red".into())], &[red]).unwrap());
+        let material = &json["materials"][0];
+        let surface = &material["pbrMetallicRoughness"];
+        assert_eq!(surface["baseColorFactor"], json!([1.0, 0.0, 0.0, 0.5]));
+        assert_eq!(
+            (&surface["roughnessFactor"], &material["alphaMode"]),
+            (&json!(0.25), &json!("BLEND"))
+        );
+        assert_eq!(surface["baseColorTexture"]["index"], 0);
+        assert_eq!(json["images"][0]["mimeType"], "image/png");
+        let view = &json["bufferViews"][json["images"][0]["bufferView"].as_u64().unwrap() as usize];
+        assert_eq!((&view["byteLength"], view.get("target")), (&json!(8), None));
+    }
+
+    #[test]
     fn submeshes_of_one_material_become_one_primitive() {
         let mut mesh = triangle();
         mesh.indices = vec![0, 1, 2, 2, 1, 0, 1, 0, 2];
         mesh.submesh_index_counts = vec![3, 3, 0, 3];
         let names = ["a", "b", "c", "a"].map(|name| Some(name.to_string()));
-        let json = json_of(&encode("tri", &mesh, &names).unwrap());
+        let json = json_of(&encode("tri", &mesh, &names, &[]).unwrap());
         let primitives = json["meshes"][0]["primitives"].as_array().unwrap();
         assert_eq!(primitives.len(), 2);
         assert_eq!(
@@ -219,7 +311,7 @@ mod tests {
     fn channels_are_numbered_without_gaps_and_cut_to_two_components() {
         let mut mesh = triangle();
         mesh.uvs[2] = UvBuffer { components: 3, values: vec![0.5; 9] };
-        let json = json_of(&encode("tri", &mesh, &[]).unwrap());
+        let json = json_of(&encode("tri", &mesh, &[], &[]).unwrap());
         let attributes = &json["meshes"][0]["primitives"][0]["attributes"];
         let uv = &json["accessors"][attributes["TEXCOORD_0"].as_u64().unwrap() as usize];
         assert_eq!((uv["type"].as_str(), uv["count"].as_u64()), (Some("VEC2"), Some(3)));
@@ -227,7 +319,7 @@ mod tests {
 
     #[test]
     fn a_mesh_without_triangles_is_an_empty_scene() {
-        let json = json_of(&encode("none", &MeshBuffers::default(), &[]).unwrap());
+        let json = json_of(&encode("none", &MeshBuffers::default(), &[], &[]).unwrap());
         assert_eq!(json["scenes"], json!([{}]));
         assert!(json.get("meshes").is_none());
     }

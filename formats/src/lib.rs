@@ -5,10 +5,12 @@
 //! each are named and what they can become stands in one table, [`FORMATS`].
 
 mod document;
+mod foreign;
 pub mod glb;
 pub mod gltf_file;
 pub mod obj_file;
 pub mod paths;
+pub mod pictures;
 mod registry;
 pub mod stl_file;
 

@@ -8,7 +8,7 @@ use chamfer::Chamfered;
 
 use crate::document::{Document, Format, OutputFile, ReadOptions};
 use crate::gltf_file::GltfDocument;
-use crate::{obj_file, stl_file};
+use crate::{foreign, obj_file, stl_file};
 
 /// A document that was read, of any format.
 pub type Read = Box<dyn Document + Send>;
@@ -108,7 +108,7 @@ pub fn endings() -> String {
 pub fn read(path: &Path, options: &ReadOptions) -> Result<Read> {
     // Looked at first: whatever a file of an unknown kind holds, there is no need to load it.
     let row = known(path)?;
-    (row.reader)(path, fs::read(path)?, options)
+    decode_as(row, path, fs::read(path)?, options)
 }
 
 /// Reads a model from the bytes of its file. What it refers to is looked for beside `path`.
@@ -116,7 +116,14 @@ pub fn read(path: &Path, options: &ReadOptions) -> Result<Read> {
 /// # Errors
 /// As [`read`].
 pub fn decode(path: &Path, bytes: Vec<u8>, options: &ReadOptions) -> Result<Read> {
-    (known(path)?.reader)(path, bytes, options)
+    decode_as(known(path)?, path, bytes, options)
+}
+
+fn decode_as(row: &Row, path: &Path, bytes: Vec<u8>, options: &ReadOptions) -> Result<Read> {
+    if let Some(what) = foreign::of_content(&bytes) {
+        bail!("{what}");
+    }
+    (row.reader)(path, bytes, options)
 }
 
 /// The file with `chamfered[i]` in the place of mesh `i`, in the format that the ending of `output`
@@ -133,7 +140,10 @@ pub fn encode(
 }
 
 fn known(path: &Path) -> Result<&'static Row> {
-    row_of(path).with_context(|| format!("unknown kind of file: give {}", endings()))
+    row_of(path).with_context(|| match foreign::of_ending(path) {
+        Some(what) => format!("files of this kind are not read: {what}"),
+        None => format!("unknown kind of file: give {}", endings()),
+    })
 }
 
 #[cfg(test)]

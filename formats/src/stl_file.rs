@@ -57,7 +57,7 @@ impl Document for StlDocument {
         let mesh = &chamfered.first().context("the mesh is missing")?.mesh;
         let bytes = match format {
             Format::Stl => binary(mesh)?,
-            _ => glb::encode(&self.mesh.name, mesh, &[])?,
+            _ => glb::encode(&self.mesh.name, mesh, &[], &[])?,
         };
         Ok(vec![OutputFile { path: output.to_path_buf(), bytes }])
     }

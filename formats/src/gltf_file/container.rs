@@ -22,13 +22,20 @@ pub struct Container<'a> {
 
 /// Takes a file apart; a .glb is known by its first bytes, whatever it is called.
 pub fn parse(bytes: &[u8]) -> Result<Container<'_>> {
-    if bytes.starts_with(MAGIC) { parse_chunks(bytes) } else { Ok(parse_plain(bytes)) }
+    if bytes.starts_with(MAGIC) { parse_chunks(bytes) } else { parse_plain(bytes) }
 }
 
-fn parse_plain(bytes: &[u8]) -> Container<'_> {
+fn parse_plain(bytes: &[u8]) -> Result<Container<'_>> {
     let json = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
-    Container { format: Format::Gltf, json, binary: None, further_chunks: &[] }
+    if !matches!(json.trim_ascii_start().first(), Some(b'{' | b'[')) {
+        let start = String::from_utf8_lossy(&bytes[..bytes.len().min(SHOWN)]).into_owned();
+        bail!("neither a .glb nor the JSON of a .gltf: it begins with {start:?}; export it anew");
+    }
+    Ok(Container { format: Format::Gltf, json, binary: None, further_chunks: &[] })
 }
+
+/// How much of what is no glTF an error shows.
+const SHOWN: usize = 16;
 
 fn parse_chunks(bytes: &[u8]) -> Result<Container<'_>> {
     let version = read_u32(bytes, 4).context("the .glb ends inside its header")?;
@@ -118,6 +125,13 @@ mod tests {
         for length in 4..glb.len() {
             assert!(parse(&glb[..length]).is_err(), "{length} bytes");
         }
+    }
+
+    #[test]
+    fn text_that_is_no_json_is_shown() {
+        let error = parse(b"solid nothing to see here").err().unwrap().to_string();
+        assert!(error.contains("begins with \"solid nothing to\""), "{error}");
+        assert!(parse(b"\xEF\xBB\xBF {}").is_ok());
     }
 
     #[test]

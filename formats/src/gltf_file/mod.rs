@@ -9,7 +9,8 @@
 //! - Otherwise all buffers are folded into one: the chunk of a .glb; for a .gltf a file named
 //!   after the output, or a data URI where the input had only those.
 //! - Images in buffers stay there. Images that are files keep their URIs; where the output goes
-//!   to another folder they are copied to the same place beside it.
+//!   to another folder they are copied to the same place beside it. Those of a .gltf that becomes a
+//!   .glb go into it.
 
 mod accessor;
 mod accessor_writer;
@@ -156,14 +157,14 @@ impl GltfDocument {
     /// The file as it was, and the files it refers to if it goes to another folder.
     fn encode_unchanged(&self, output: &Path) -> Result<Vec<OutputFile>> {
         let mut files = vec![OutputFile { path: output.to_owned(), bytes: self.bytes.clone() }];
-        files.extend(self.copies("buffers", output)?);
-        files.extend(resources::without_existing(self.copies("images", output)?)?);
+        files.extend(self.copies(&self.json, "buffers", output)?);
+        files.extend(resources::without_existing(self.copies(&self.json, "images", output)?)?);
         Ok(files)
     }
 
-    fn copies(&self, key: &str, output: &Path) -> Result<Vec<OutputFile>> {
+    fn copies(&self, json: &Value, key: &str, output: &Path) -> Result<Vec<OutputFile>> {
         let (from, to) = (resources::folder(&self.path), resources::folder(output));
-        resources::copies(&self.json, key, &from, &to)
+        resources::copies(json, key, &from, &to)
     }
 
     /// The JSON with all chamfered meshes in it, and the content of its buffer.
@@ -299,8 +300,11 @@ impl Document for GltfDocument {
         if !changed && format == self.format && !self.was_compressed {
             return self.encode_unchanged(output);
         }
-        let images = resources::without_existing(self.copies("images", output)?)?;
-        let (json, buffer) = self.rewritten(chamfered)?;
+        let (mut json, mut buffer) = self.rewritten(chamfered)?;
+        if format == Format::Glb && self.format == Format::Gltf {
+            resources::embed_images(&mut json, &mut buffer, &resources::folder(&self.path))?;
+        }
+        let images = resources::without_existing(self.copies(&json, "images", output)?)?;
         let mut files = match format {
             Format::Glb => self.encode_glb(output, &json, &buffer)?,
             _ => self.encode_gltf(output, json, buffer)?,

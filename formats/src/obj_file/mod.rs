@@ -19,7 +19,7 @@ use crate::document::{Document, Format, NormalsRead, OutputFile, ReadOptions, So
 use crate::glb;
 
 use build::Origin;
-use parse::Obj;
+use parse::{Item, Obj};
 
 /// An OBJ file: all its objects are one mesh, because CAD programs put every face of a closed
 /// body into an object of its own. Each run of faces of one object, group and material is a
@@ -73,6 +73,22 @@ impl Document for ObjDocument {
         notes
     }
 
+    fn losses(&self, format: Format) -> Vec<String> {
+        let mut losses = Vec::new();
+        if format == Format::Glb {
+            // What cannot be read is told by the error of writing.
+            let (_, pictures) = materials::known(&self.obj, &self.folder).unwrap_or_default();
+            let note =
+                |name| format!("{name} is no PNG or JPEG, which glTF needs: it was left out");
+            losses.extend(pictures.into_iter().map(note));
+            let is_element = |item: &Item| matches!(item, Item::Element(..));
+            if self.obj.items.iter().any(is_element) {
+                losses.push("its lines and points were left out".into());
+            }
+        }
+        losses
+    }
+
     fn encode(
         &self,
         format: Format,
@@ -102,7 +118,8 @@ impl ObjDocument {
         for v in uv.values.iter_mut().skip(1).step_by(uv.components.max(1) as usize) {
             *v = 1.0 - *v;
         }
-        glb::encode(&self.mesh.name, &mesh, &self.obj.materials_of_runs())
+        let (library, _) = materials::known(&self.obj, &self.folder)?;
+        glb::encode(&self.mesh.name, &mesh, &self.obj.materials_of_runs(), &library)
     }
 }
 

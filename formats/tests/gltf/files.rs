@@ -79,6 +79,30 @@ fn another_image_of_the_same_name_is_not_overwritten() {
 }
 
 #[test]
+fn pictures_of_a_gltf_go_into_a_glb() {
+    let (from, to) = (folder("embed_from"), folder("embed_to"));
+    let path = write_gltf(&from, "shape.bin");
+    let png = b"\x89PNG\r\n\x1A\n...";
+    fs::write(from.join("Textures/color map.png"), png).unwrap();
+    let document = read(&path).unwrap();
+    for chamfered in [unchanged(&document), all_grown(&document)] {
+        let files = encode(&document, &to.join("out.glb"), &chamfered).unwrap();
+        assert_eq!(names(&files, &to), ["out.glb"]);
+        let json = json_of(&files[0].bytes);
+        let image = &json["images"][0];
+        assert_eq!((&image["mimeType"], image.get("uri")), (&json!("image/png"), None));
+        let view = &json["bufferViews"][image["bufferView"].as_u64().unwrap() as usize];
+        let number = |key: &str| view[key].as_u64().unwrap() as usize;
+        let start = files[0].bytes.len() - number("byteLength").next_multiple_of(4);
+        assert_eq!(files[0].bytes[start..][..number("byteLength")], *png);
+        assert_eq!(json["buffers"][0]["byteLength"], number("byteOffset") + png.len());
+    }
+    fs::remove_file(from.join("Textures/color map.png")).unwrap();
+    let files = encode(&document, &to.join("out.glb"), &unchanged(&document)).unwrap();
+    assert_eq!(json_of(&files[0].bytes)["images"][0]["uri"], "Textures/color%20map.png");
+}
+
+#[test]
 fn data_uris_stay_data_uris() {
     let folder = folder("data");
     let uri = format!("data:application/octet-stream;base64,{}", base64(&square().bytes));
