@@ -17,6 +17,8 @@ pub enum Format {
     Obj,
     /// Stereolithography triangles, ASCII or binary.
     Stl,
+    /// Autodesk's FBX, binary or ASCII.
+    Fbx,
 }
 
 /// One mesh of a file, in the layout of the core.

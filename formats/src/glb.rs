@@ -7,12 +7,8 @@ use chamfer::{MeshBuffers, UvBuffer};
 use serde_json::{Value, json};
 
 use crate::gltf_file::write_glb;
+use crate::parts::Parts;
 use crate::pictures::Picture;
-
-const ARRAY_BUFFER: u32 = 34962;
-const ELEMENT_ARRAY_BUFFER: u32 = 34963;
-const UNSIGNED_INT: u32 = 5125;
-const FLOAT: u32 = 5126;
 
 /// What is known of a material beside its name.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -52,9 +48,9 @@ pub fn encode(
         root["scenes"] = json!([{ "nodes": [0] }]);
         root["nodes"] = json!([{ "mesh": 0, "name": name }]);
         root["meshes"] = json!([{ "name": name, "primitives": primitives }]);
-        root["accessors"] = Value::Array(builder.accessors);
-        root["bufferViews"] = Value::Array(builder.views);
-        root["buffers"] = json!([{ "byteLength": builder.binary.len() }]);
+        root["accessors"] = Value::Array(builder.parts.accessors);
+        root["bufferViews"] = Value::Array(builder.parts.views);
+        root["buffers"] = json!([{ "byteLength": builder.parts.binary.len() }]);
         for (key, items) in [
             ("materials", builder.materials),
             ("textures", builder.textures),
@@ -65,7 +61,7 @@ pub fn encode(
             }
         }
     }
-    write_glb(&serde_json::to_vec(&root)?, &builder.binary, &[])
+    write_glb(&serde_json::to_vec(&root)?, &builder.parts.binary, &[])
 }
 
 /// The indices of all submeshes of one material.
@@ -97,9 +93,7 @@ fn by_material<'a>(mesh: &MeshBuffers, materials: &'a [Option<String>]) -> Vec<G
 #[derive(Default)]
 struct Builder<'a> {
     library: &'a [Material],
-    binary: Vec<u8>,
-    views: Vec<Value>,
-    accessors: Vec<Value>,
+    parts: Parts,
     materials: Vec<Value>,
     textures: Vec<Value>,
     images: Vec<Value>,
@@ -132,7 +126,7 @@ impl Builder<'_> {
     fn texture(&mut self, picture: &Picture) -> usize {
         let known = self.images.iter().position(|image| image["name"] == picture.name.as_str());
         known.unwrap_or_else(|| {
-            let view = self.view(picture.bytes.iter().copied(), None);
+            let view = self.parts.view(picture.bytes.iter().copied(), None);
             let image =
                 json!({ "name": picture.name, "mimeType": picture.kind, "bufferView": view });
             self.images.push(image);
@@ -143,22 +137,18 @@ impl Builder<'_> {
 
     fn attributes(&mut self, mesh: &MeshBuffers) -> Value {
         let mut attributes = json!({});
-        let position = self.floats("VEC3", mesh.positions.as_flattened());
-        let (low, high) = bounds(&mesh.positions);
-        self.accessors[position]["min"] = json!(low);
-        self.accessors[position]["max"] = json!(high);
-        attributes["POSITION"] = json!(position);
-        attributes["NORMAL"] = json!(self.floats("VEC3", mesh.normals.as_flattened()));
+        attributes["POSITION"] = json!(self.parts.positions(&mesh.positions));
+        attributes["NORMAL"] = json!(self.parts.floats("VEC3", mesh.normals.as_flattened()));
         if !mesh.tangents.is_empty() {
-            attributes["TANGENT"] = json!(self.floats("VEC4", mesh.tangents.as_flattened()));
+            attributes["TANGENT"] = json!(self.parts.floats("VEC4", mesh.tangents.as_flattened()));
         }
         if !mesh.colors.is_empty() {
-            attributes["COLOR_0"] = json!(self.floats("VEC4", mesh.colors.as_flattened()));
+            attributes["COLOR_0"] = json!(self.parts.floats("VEC4", mesh.colors.as_flattened()));
         }
         // glTF numbers its channels without gaps.
         let present = mesh.uvs.iter().filter(|uv| uv.components > 0);
         for (number, uv) in present.enumerate() {
-            let accessor = self.floats("VEC2", &first_two(uv));
+            let accessor = self.parts.floats("VEC2", &first_two(uv));
             attributes[format!("TEXCOORD_{number}")] = json!(accessor);
         }
         attributes
@@ -167,9 +157,7 @@ impl Builder<'_> {
     fn primitives(&mut self, groups: &[Group], attributes: &Value) -> Vec<Value> {
         let mut primitives = Vec::new();
         for group in groups {
-            let bytes = group.indices.iter().flat_map(|index| index.to_le_bytes());
-            let view = self.view(bytes, Some(ELEMENT_ARRAY_BUFFER));
-            let indices = self.accessor(view, UNSIGNED_INT, "SCALAR", group.indices.len());
+            let indices = self.parts.indices(&group.indices);
             let mut primitive = json!({ "attributes": attributes, "indices": indices });
             if let Some(name) = group.material {
                 primitive["material"] = json!(self.material(name));
@@ -178,56 +166,6 @@ impl Builder<'_> {
         }
         primitives
     }
-
-    fn floats(&mut self, kind: &str, values: &[f32]) -> usize {
-        let components = match kind {
-            "VEC2" => 2,
-            "VEC3" => 3,
-            _ => 4,
-        };
-        let view =
-            self.view(values.iter().flat_map(|value| value.to_le_bytes()), Some(ARRAY_BUFFER));
-        self.accessor(view, FLOAT, kind, values.len() / components)
-    }
-
-    fn view(&mut self, bytes: impl Iterator<Item = u8>, target: Option<u32>) -> usize {
-        self.binary.resize(self.binary.len().next_multiple_of(4), 0);
-        let offset = self.binary.len();
-        self.binary.extend(bytes);
-        let mut view = json!({
-            "buffer": 0,
-            "byteOffset": offset,
-            "byteLength": self.binary.len() - offset,
-        });
-        if let Some(target) = target {
-            view["target"] = target.into();
-        }
-        self.views.push(view);
-        self.views.len() - 1
-    }
-
-    fn accessor(&mut self, view: usize, component: u32, kind: &str, count: usize) -> usize {
-        self.accessors.push(json!({
-            "bufferView": view,
-            "componentType": component,
-            "type": kind,
-            "count": count,
-        }));
-        self.accessors.len() - 1
-    }
-}
-
-/// The lowest and highest coordinate on each axis.
-fn bounds(positions: &[[f32; 3]]) -> ([f32; 3], [f32; 3]) {
-    let mut low = [f32::INFINITY; 3];
-    let mut high = [f32::NEG_INFINITY; 3];
-    for position in positions {
-        for axis in 0..3 {
-            low[axis] = low[axis].min(position[axis]);
-            high[axis] = high[axis].max(position[axis]);
-        }
-    }
-    (low, high)
 }
 
 /// glTF texture coordinates are pairs; further components are dropped.

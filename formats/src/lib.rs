@@ -5,12 +5,15 @@
 //! each are named and what they can become stands in one table, [`FORMATS`].
 
 mod document;
+pub mod fbx_file;
 mod foreign;
 pub mod glb;
 pub mod gltf_file;
 pub mod obj_file;
+mod parts;
 pub mod paths;
 pub mod pictures;
+mod polygon;
 mod registry;
 pub mod stl_file;
 

@@ -8,7 +8,7 @@ use chamfer::Chamfered;
 
 use crate::document::{Document, Format, OutputFile, ReadOptions};
 use crate::gltf_file::GltfDocument;
-use crate::{foreign, obj_file, stl_file};
+use crate::{fbx_file, foreign, obj_file, stl_file};
 
 /// A document that was read, of any format.
 pub type Read = Box<dyn Document + Send>;
@@ -28,7 +28,7 @@ pub struct Row {
 }
 
 /// All formats, in the order of [`Format`].
-pub static FORMATS: [Row; 4] = [
+pub static FORMATS: [Row; 5] = [
     Row {
         format: Format::Glb,
         name: "glTF, binary",
@@ -56,6 +56,13 @@ pub static FORMATS: [Row; 4] = [
         ending: "stl",
         reader: |path, bytes, options| Ok(Box::new(stl_file::decode(path, &bytes, options)?)),
         writes: &[Format::Glb, Format::Stl],
+    },
+    Row {
+        format: Format::Fbx,
+        name: "FBX, binary or ASCII",
+        ending: "fbx",
+        reader: |path, bytes, options| Ok(Box::new(fbx_file::decode(path, &bytes, options)?)),
+        writes: &[Format::Glb, Format::Gltf],
     },
 ];
 
@@ -161,7 +168,7 @@ mod tests {
         assert_eq!(format("a/b.GLB"), Some(Format::Glb));
         assert_eq!(format("b.txt"), None);
         assert_eq!(format("glb"), None);
-        assert_eq!(endings(), ".glb, .gltf, .obj or .stl");
+        assert_eq!(endings(), ".glb, .gltf, .obj, .stl or .fbx");
     }
 
     #[test]

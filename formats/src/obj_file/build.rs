@@ -6,9 +6,9 @@ use anyhow::{Context, Result};
 use chamfer::{MeshBuffers, UvBuffer, split_by_angle};
 
 use crate::document::NormalsRead;
+use crate::polygon::triangulate;
 
 use super::parse::{Corner, Item, Obj};
-use super::polygon::triangulate;
 
 /// What rounding to 32 bits does to the length of a unit vector: one within it stays as it is, so
 /// that a file read and written again is the same.

@@ -7,7 +7,6 @@
 mod build;
 mod materials;
 mod parse;
-mod polygon;
 mod write;
 
 use std::path::{Path, PathBuf};

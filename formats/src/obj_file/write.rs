@@ -5,9 +5,10 @@ use std::io::Write;
 
 use chamfer::{Chamfered, MeshBuffers, TriangleKind};
 
+use crate::polygon::triangulate;
+
 use super::build::Origin;
 use super::parse::{Item, Obj};
-use super::polygon::triangulate;
 
 /// The group and material of the triangles in a submesh that the file did not have.
 const OWN_SUBMESH: &str = "chamfer";
