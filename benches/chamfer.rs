@@ -61,7 +61,7 @@ fn time_of(mesh: &MeshBuffers, options: &Options, wanted: Stage) -> Duration {
 
 /// All models of the corpus, one after the other; nothing without them.
 fn corpus(criterion: &mut Criterion) {
-    let read = ReadOptions { smoothing_angle: 30.0 };
+    let read = ReadOptions::default();
     let documents: Vec<_> = measure::models(Path::new(measure::FOLDER))
         .iter()
         .filter_map(|path| formats::read(path, &read).ok())

@@ -57,7 +57,7 @@ fn main() {
 
 /// The corpus as a whole, `full` in terms of `fast`, and the meshes that are slow to drag.
 fn corpus(rounds: usize) {
-    let read = ReadOptions { smoothing_angle: 30.0 };
+    let read = ReadOptions::default();
     let (mut fast, mut full, mut triangles) = (Duration::ZERO, Duration::ZERO, 0);
     for path in measure::models(Path::new(measure::FOLDER)) {
         let Ok(document) = formats::read(&path, &read) else { continue };

@@ -104,7 +104,7 @@ fn main() {
 /// How many samples leak in a file. Prints where.
 fn look(request: &Request, path: &Path, percent: f32) -> usize {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let read = ReadOptions { smoothing_angle: 30.0 };
+    let read = ReadOptions::default();
     let document = match formats::read(path, &read) {
         Ok(document) => document,
         Err(error) => {

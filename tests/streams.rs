@@ -81,7 +81,7 @@ fn of_corpus(percent: f32) -> Option<Tally> {
     paths.sort();
     let mut tally = Tally::default();
     for path in paths {
-        let Ok(document) = formats::read(&path, &ReadOptions { smoothing_angle: 30.0 }) else {
+        let Ok(document) = formats::read(&path, &ReadOptions::default()) else {
             continue;
         };
         for source in document.meshes() {

@@ -14,7 +14,9 @@ use chamfer::{
 };
 use chamfer_formats as formats;
 use chamfer_formats::paths::identity;
+use chamfer_formats::weld;
 use chamfer_formats::{Document, OutputFile, ReadOptions, SourceMesh, row_of};
+use glam::{Mat4, Vec3};
 
 use crate::jobs::Job;
 use crate::report::MeshReport;
@@ -57,10 +59,48 @@ pub fn process(job: &Job, settings: &Settings, progress: &dyn Fn(f32)) -> Result
     }
     let (chamfered, reports) = chamfer_all(&*document, settings, progress, &mut notes)?;
     notes.extend(document.meshes().iter().zip(&chamfered).filter_map(too_far_out));
+    notes.extend(document.meshes().iter().filter_map(nearly_touching));
+    notes.extend(meshes_that_touch(&*document, &chamfered));
     let files = formats::encode(&*document, &job.output, &chamfered)?;
     settings.taken.claim(job, &files)?;
     write::together(&files)?;
     Ok(Processed { document, chamfered, reports, notes })
+}
+
+/// Says where edges may be open that nobody sees.
+fn nearly_touching(SourceMesh { name, mesh }: &SourceMesh) -> Option<String> {
+    let (count, distance) = weld::nearly_touching(&mesh.positions, &mesh.indices);
+    (count > 0).then(|| {
+        format!(
+            "mesh {name}: {count} vertices are not where others are, but within {distance:.1e} of them: \
+             edges between them are open and stay as they are; --weld auto joins them"
+        )
+    })
+}
+
+/// Says that edges between meshes stay, where there are no others.
+fn meshes_that_touch(document: &dyn Document, chamfered: &[Chamfered]) -> Option<String> {
+    let instances = document.instances();
+    if instances.len() < 2 || chamfered.iter().any(|result| !result.verdicts.is_empty()) {
+        return None;
+    }
+    let mut places: Vec<([u32; 3], usize)> = Vec::new();
+    for (number, instance) in instances.iter().enumerate() {
+        let transform = Mat4::from_cols_array_2d(&instance.transform);
+        let positions = document.meshes()[instance.mesh].mesh.positions.iter();
+        let place = |&at: &[f32; 3]| transform.transform_point3(Vec3::from(at)) + Vec3::ZERO;
+        places.extend(positions.map(|at| (place(at).to_array().map(f32::to_bits), number)));
+    }
+    places.sort_unstable();
+    places.dedup();
+    let shared = places.chunk_by(|(one, _), (other, _)| one == other);
+    let count = shared.filter(|same| same.len() > 1).count();
+    (count > 1).then(|| {
+        format!(
+            "no mesh has a hard edge of its own, but {count} places belong to several: edges between \
+             meshes are not chamfered, so join the meshes first"
+        )
+    })
 }
 
 /// A chamfer that is so few steps of its coordinates wide is bent by rounding, and held back.

@@ -459,3 +459,29 @@ fn a_file_without_triangles_is_sound_on_both_ways() {
     assert!(run.err().contains("there are no triangles in it"), "{}", run.err());
     folder.run("check a.stl a.glb").exits(0);
 }
+
+/// A cube of six faces that do not quite meet.
+fn cracked_cube() -> String {
+    let mesh = chamfer::shapes::plain_cube(1.0);
+    let crack = |vertex: usize| if vertex.is_multiple_of(2) { 1e-7 } else { 0.0 };
+    let points = mesh.positions.iter().enumerate();
+    let points = points.map(|(v, [x, y, z])| format!("v {} {y} {z}\n", x + crack(v)));
+    let face = |corners: &[u32]| {
+        let [a, b, c] = [0, 1, 2].map(|corner| corners[corner] + 1);
+        format!("f {a} {b} {c}\n")
+    };
+    points.chain(mesh.indices.chunks_exact(3).map(face)).collect()
+}
+
+#[test]
+fn vertices_that_nearly_touch_are_counted_or_welded() {
+    let folder = Folder::with(&[("a.obj", &cracked_cube())]);
+    let run = folder.run("a.obj -o b.obj").exits(0);
+    assert!(run.err().contains("vertices are not where others are"), "{}", run.err());
+    for weld in ["auto", "0.001"] {
+        let run = folder.run(&format!("a.obj -o b.obj --weld {weld}")).exits(0);
+        assert!(run.out().contains("12 hard edges: 12 chamfered"), "{}", run.out());
+        assert!(run.err().contains("were welded onto others"), "{}", run.err());
+        folder.run(&format!("check a.obj b.obj --weld {weld}")).exits(0);
+    }
+}

@@ -11,7 +11,7 @@ use tempfile::TempDir;
 const KILOBYTE: usize = 1024;
 
 fn read(name: &str, bytes: &[u8]) -> Result<usize, String> {
-    let options = ReadOptions { smoothing_angle: 30.0 };
+    let options = ReadOptions::default();
     match decode(Path::new(name), bytes.to_vec(), &options) {
         Ok(document) => Ok(document.meshes().iter().map(|m| m.mesh.indices.len() / 3).sum()),
         Err(error) => Err(format!("{error:#}")),

@@ -44,10 +44,32 @@ pub struct OutputFile {
     pub bytes: Vec<u8>,
 }
 
-/// How to read a file.
+/// How to read a file. Further options may come: start from the default.
+#[derive(Clone, Copy, Debug)]
 pub struct ReadOptions {
     /// For models without normals: faces that meet at up to this angle, in degrees, shade as one.
+    /// 30 by default.
     pub smoothing_angle: f32,
+    /// Which vertices become one; by default those at the very same place.
+    pub weld: Weld,
+}
+
+impl Default for ReadOptions {
+    fn default() -> Self {
+        ReadOptions { smoothing_angle: 30.0, weld: Weld::Equal }
+    }
+}
+
+/// Which vertices of a mesh become one.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Weld {
+    /// Those whose positions are equal to the bit.
+    #[default]
+    Equal,
+    /// Those at most so far from each other, in mesh units.
+    Within(f32),
+    /// Those that only rounding may have set apart.
+    Auto,
 }
 
 /// What reading did to the normals of a mesh.

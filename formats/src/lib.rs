@@ -16,8 +16,9 @@ pub mod pictures;
 mod polygon;
 mod registry;
 pub mod stl_file;
+pub mod weld;
 
 pub use document::{
-    Document, Format, IDENTITY, Instance, NormalsRead, OutputFile, ReadOptions, SourceMesh,
+    Document, Format, IDENTITY, Instance, NormalsRead, OutputFile, ReadOptions, SourceMesh, Weld,
 };
 pub use registry::{FORMATS, Row, decode, encode, endings, read, row_of};

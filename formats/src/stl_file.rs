@@ -11,6 +11,7 @@ use chamfer::{Chamfered, MeshBuffers, split_by_angle};
 
 use crate::document::{Document, Format, NormalsRead, OutputFile, ReadOptions, SourceMesh};
 use crate::glb;
+use crate::weld;
 
 const HEADER_LENGTH: usize = 80;
 /// Header and triangle count.
@@ -24,6 +25,8 @@ type Triangle = [[f32; 3]; 3];
 pub struct StlDocument {
     mesh: SourceMesh,
     normals: NormalsRead,
+    /// How many corners were moved onto others.
+    welded: usize,
 }
 
 /// Reads the bytes of an ASCII or binary STL. Corners at one position become one vertex, split again where
@@ -32,11 +35,12 @@ pub struct StlDocument {
 /// # Errors
 /// Where it is cut off or holds anything but finite triangles.
 pub fn decode(path: &Path, bytes: &[u8], options: &ReadOptions) -> Result<StlDocument> {
-    let triangles = parse(bytes)?;
+    let mut triangles = parse(bytes)?;
+    let welded = weld::weld(triangles.as_flattened_mut(), options.weld);
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let mesh = build(&triangles, options.smoothing_angle)?;
     let normals = NormalsRead { computed: true, ..NormalsRead::default() };
-    Ok(StlDocument { mesh: SourceMesh { name: stem.into_owned(), mesh }, normals })
+    Ok(StlDocument { mesh: SourceMesh { name: stem.into_owned(), mesh }, normals, welded })
 }
 
 impl Document for StlDocument {
@@ -46,6 +50,10 @@ impl Document for StlDocument {
 
     fn normals(&self) -> &[NormalsRead] {
         std::slice::from_ref(&self.normals)
+    }
+
+    fn notes(&self) -> Vec<String> {
+        weld::note(self.welded).into_iter().collect()
     }
 
     fn encode(

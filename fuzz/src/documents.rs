@@ -47,7 +47,7 @@ pub fn read_chamfer_write(extension: &str, bytes: &[u8]) {
 }
 
 fn read(path: &Path, bytes: &[u8]) -> Option<Box<dyn Document + Send>> {
-    let options = ReadOptions { smoothing_angle: 30.0 };
+    let options = ReadOptions::default();
     match decode(path, bytes.to_vec(), &options) {
         Ok(document) => Some(document),
         Err(error) => {
@@ -74,7 +74,7 @@ fn write(document: &dyn Document, chamfered: &[Chamfered], output: &Path) {
     assert_eq!(files[0].path, output);
     let is_alone = files.len() == 1;
     if is_alone && row_of(output).is_some_and(|row| row.format != Format::Gltf) {
-        let options = ReadOptions { smoothing_angle: 30.0 };
+        let options = ReadOptions::default();
         let again = decode(output, files[0].bytes.clone(), &options);
         let again = again.map_err(|error| format!("{error:#}")).expect("what is written is read");
         let triangles = |document: &dyn Document| -> usize {

@@ -66,7 +66,7 @@ pub fn measure(
     mut inspect: impl FnMut(&Mesh, &Chamfered),
 ) -> Result<Vec<Measured>, String> {
     let options = Options { width: Width::PercentOfExtent(percent), verify, ..Options::default() };
-    let read = ReadOptions { smoothing_angle: 30.0 };
+    let read = ReadOptions::default();
     let document = formats::read(path, &read).map_err(|error| format!("{error:#}"))?;
     let file = path.file_name().unwrap_or_default().to_string_lossy();
     let mut measured = |source: &chamfer_formats::SourceMesh| {

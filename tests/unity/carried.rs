@@ -81,7 +81,7 @@ struct Model {
 
 impl Model {
     fn new(path: &Path) -> Model {
-        let document = GltfDocument::read(path, &ReadOptions { smoothing_angle: 30.0 }).unwrap();
+        let document = GltfDocument::read(path, &ReadOptions::default()).unwrap();
         let meshes: Vec<_> = document.meshes().iter().map(|mesh| mesh.mesh.clone()).collect();
         let options = Options { width: Width::PercentOfExtent(PERCENT), ..Options::default() };
         let chamfered: Vec<_> =

@@ -33,7 +33,7 @@ fn models() -> Vec<PathBuf> {
 }
 
 fn meshes_of(path: &Path) -> Vec<MeshBuffers> {
-    let Ok(document) = formats::read(path, &ReadOptions { smoothing_angle: 30.0 }) else {
+    let Ok(document) = formats::read(path, &ReadOptions::default()) else {
         return Vec::new();
     };
     document.meshes().iter().map(|source| source.mesh.clone()).collect()

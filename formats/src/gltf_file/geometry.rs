@@ -16,6 +16,8 @@ use super::element::{ElementType, Shape, Stream};
 use super::json;
 use super::names::is_carried_by_core;
 use super::triangles::Mode;
+use crate::document::Weld;
+use crate::weld;
 
 /// How a core mesh lies in the primitives of a glTF mesh.
 #[derive(Default)]
@@ -95,6 +97,36 @@ impl MeshGeometry {
     /// `#submeshes`: how many of the indices belong to each.
     pub fn submesh_index_counts(&self) -> Vec<u32> {
         self.submeshes.iter().map(|submesh| submesh.index_count as u32).collect()
+    }
+
+    /// Moves vertices onto those that they are to be one with; how many.
+    pub fn weld(&mut self, weld: Weld) -> usize {
+        if weld == Weld::Equal {
+            return 0;
+        }
+        let stored = self.streams(None, "POSITION");
+        let place = |vertex: usize| {
+            stored.at(vertex).map_or([0.0; 3], |at| [at[0], at[1], at[2]].map(|at| at as f32))
+        };
+        let mut positions: Vec<[f32; 3]> = (0..self.origins.len()).map(place).collect();
+        let moved = weld::weld(&mut positions, weld);
+        for (number, block) in (0..).zip(&mut self.blocks) {
+            let attribute = block.attributes.iter_mut().find(|a| a.name == "POSITION");
+            let Some(stream) = attribute.map(|attribute| Arc::make_mut(&mut attribute.stream))
+            else {
+                continue;
+            };
+            let own =
+                self.origins.iter().zip(&positions).filter(|(origin, _)| origin.block == number);
+            for (origin, position) in own {
+                let place = &mut stream.values[3 * origin.element as usize..][..3];
+                // Others keep the digits that the file has.
+                if place.iter().zip(position).any(|(old, new)| *old as f32 != *new) {
+                    place.copy_from_slice(&position.map(f64::from));
+                }
+            }
+        }
+        moved
     }
 
     /// Lets go of the values that the core mesh holds now.

@@ -47,6 +47,7 @@ use serde_json::Value;
 use crate::document::{
     Document, Format, Instance, NormalsRead, OutputFile, ReadOptions, SourceMesh,
 };
+use crate::weld;
 use accessor_writer::AccessorWriter;
 use budget::Budget;
 use compressed::Plain;
@@ -113,8 +114,10 @@ impl GltfDocument {
         let budget = Budget::of_file(size);
         let reader = GeometryReader::new(&json, &buffers, &budget);
         let (mut meshes, mut geometries, mut normals) = (Vec::new(), Vec::new(), Vec::new());
+        let mut welded = 0;
         for (index, value) in json::list(&json, "meshes").iter().enumerate() {
             let mut geometry = reader.read(index)?;
+            welded += geometry.weld(options.weld);
             let mesh = core_mesh::build(&mut geometry, options.smoothing_angle);
             normals.push(core_mesh::normals_read(&geometry, &mesh));
             geometry.forget_core_streams();
@@ -124,6 +127,7 @@ impl GltfDocument {
             geometries.push(geometry);
         }
         notes.extend(reader.notes());
+        notes.extend(weld::note(welded));
         Ok(GltfDocument {
             path: path.to_owned(),
             format,

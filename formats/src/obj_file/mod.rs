@@ -16,6 +16,7 @@ use chamfer::Chamfered;
 
 use crate::document::{Document, Format, NormalsRead, OutputFile, ReadOptions, SourceMesh};
 use crate::glb;
+use crate::weld;
 
 use build::Origin;
 use parse::{Item, Obj};
@@ -30,6 +31,8 @@ pub struct ObjDocument {
     folder: PathBuf,
     obj: Obj,
     origin: Origin,
+    /// How many positions were moved onto others.
+    welded: usize,
     /// The file as it was, where there is no face to change.
     unchanged: Option<Vec<u8>>,
 }
@@ -40,7 +43,8 @@ pub struct ObjDocument {
 /// # Errors
 /// Where a line makes no sense: it is named by its number.
 pub fn decode(path: &Path, bytes: Vec<u8>, options: &ReadOptions) -> Result<ObjDocument> {
-    let obj = parse::parse(&bytes)?;
+    let mut obj = parse::parse(&bytes)?;
+    let welded = weld::weld(&mut obj.positions, options.weld);
     let build::Built { mesh, origin, normals } = build::build(&obj, options.smoothing_angle)?;
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     Ok(ObjDocument {
@@ -50,6 +54,7 @@ pub fn decode(path: &Path, bytes: Vec<u8>, options: &ReadOptions) -> Result<ObjD
         folder: path.parent().unwrap_or(Path::new("")).to_path_buf(),
         obj,
         origin,
+        welded,
     })
 }
 
@@ -64,6 +69,7 @@ impl Document for ObjDocument {
 
     fn notes(&self) -> Vec<String> {
         let mut notes = self.obj.slips.notes();
+        notes.extend(weld::note(self.welded));
         if !self.obj.dropped.is_empty() {
             let names: Vec<&str> = self.obj.dropped.iter().map(String::as_str).collect();
             let names = names.join(", ");

@@ -272,7 +272,7 @@ fn damaged_data_is_read_or_refused() {
 }
 
 fn read_or_refuse(path: &Path, model: &Model) {
-    let options = chamfer_formats::ReadOptions { smoothing_angle: 30.0 };
+    let options = chamfer_formats::ReadOptions::default();
     match chamfer_formats::decode(path, model.glb(), &options) {
         Ok(document) => {
             for source in document.meshes() {

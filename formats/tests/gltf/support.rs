@@ -11,7 +11,7 @@ use chamfer_formats::{Document, OutputFile, ReadOptions, encode};
 use serde_json::{Value, json};
 
 pub fn read(path: &Path) -> anyhow::Result<GltfDocument> {
-    GltfDocument::read(path, &ReadOptions { smoothing_angle: 30.0 })
+    GltfDocument::read(path, &ReadOptions::default())
 }
 
 /// Where a test may write.
