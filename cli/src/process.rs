@@ -15,7 +15,7 @@ use chamfer::{
 use chamfer_formats as formats;
 use chamfer_formats::paths::identity;
 use chamfer_formats::weld;
-use chamfer_formats::{Document, OutputFile, ReadOptions, SourceMesh, row_of};
+use chamfer_formats::{Document, Encoded, OutputFile, ReadOptions, SourceMesh};
 use glam::{Mat4, Vec3};
 
 use crate::jobs::Job;
@@ -53,7 +53,6 @@ pub struct Processed {
 pub fn process(job: &Job, settings: &Settings, progress: &dyn Fn(f32)) -> Result<Processed> {
     let document = formats::read(&job.input, &settings.read)?;
     let mut notes = document.notes();
-    notes.extend(row_of(&job.output).iter().flat_map(|row| document.losses(row.format)));
     if document.meshes().iter().all(|mesh| mesh.mesh.indices.is_empty()) {
         notes.push("there are no triangles in it: nothing was chamfered".into());
     }
@@ -61,7 +60,8 @@ pub fn process(job: &Job, settings: &Settings, progress: &dyn Fn(f32)) -> Result
     notes.extend(document.meshes().iter().zip(&chamfered).filter_map(too_far_out));
     notes.extend(document.meshes().iter().filter_map(nearly_touching));
     notes.extend(meshes_that_touch(&*document, &chamfered));
-    let files = formats::encode(&*document, &job.output, &chamfered)?;
+    let Encoded { files, notes: lost } = formats::encode(&*document, &job.output, &chamfered)?;
+    notes.extend(lost);
     settings.taken.claim(job, &files)?;
     write::together(&files)?;
     Ok(Processed { document, chamfered, reports, notes })

@@ -44,6 +44,21 @@ pub struct OutputFile {
     pub bytes: Vec<u8>,
 }
 
+/// A document that was encoded.
+#[derive(Default)]
+pub struct Encoded {
+    /// The file of the path asked for, then those that belong to it.
+    pub files: Vec<OutputFile>,
+    /// What is otherwise than one may expect, or was lost: a sentence each.
+    pub notes: Vec<String>,
+}
+
+impl From<Vec<OutputFile>> for Encoded {
+    fn from(files: Vec<OutputFile>) -> Encoded {
+        Encoded { files, notes: Vec::new() }
+    }
+}
+
 /// How to read a file. Further options may come: start from the default.
 #[derive(Clone, Copy, Debug)]
 pub struct ReadOptions {
@@ -94,13 +109,8 @@ pub trait Document {
         (0..self.meshes().len()).map(|mesh| Instance { mesh, transform: IDENTITY }).collect()
     }
 
-    /// What the user should know of what was read or will be lost: a sentence each.
+    /// What the user should know of what was read: a sentence each.
     fn notes(&self) -> Vec<String> {
-        Vec::new()
-    }
-
-    /// What will be lost when it is written in a format: a sentence each.
-    fn losses(&self, _format: Format) -> Vec<String> {
         Vec::new()
     }
 
@@ -109,10 +119,5 @@ pub trait Document {
     ///
     /// # Errors
     /// Where the result does not fit the format.
-    fn encode(
-        &self,
-        format: Format,
-        output: &Path,
-        chamfered: &[Chamfered],
-    ) -> Result<Vec<OutputFile>>;
+    fn encode(&self, format: Format, output: &Path, chamfered: &[Chamfered]) -> Result<Encoded>;
 }

@@ -19,6 +19,7 @@ pub mod stl_file;
 pub mod weld;
 
 pub use document::{
-    Document, Format, IDENTITY, Instance, NormalsRead, OutputFile, ReadOptions, SourceMesh, Weld,
+    Document, Encoded, Format, IDENTITY, Instance, NormalsRead, OutputFile, ReadOptions,
+    SourceMesh, Weld,
 };
 pub use registry::{FORMATS, Row, decode, encode, endings, read, row_of};

@@ -6,7 +6,7 @@ use std::path::Path;
 use anyhow::{Context, Result, bail};
 use chamfer::Chamfered;
 
-use crate::document::{Document, Format, OutputFile, ReadOptions};
+use crate::document::{Document, Encoded, Format, ReadOptions};
 use crate::gltf_file::GltfDocument;
 use crate::{fbx_file, foreign, obj_file, stl_file};
 
@@ -138,11 +138,7 @@ fn decode_as(row: &Row, path: &Path, bytes: Vec<u8>, options: &ReadOptions) -> R
 ///
 /// # Errors
 /// Where the result does not fit the format, or the document cannot become one of that format.
-pub fn encode(
-    document: &dyn Document,
-    output: &Path,
-    chamfered: &[Chamfered],
-) -> Result<Vec<OutputFile>> {
+pub fn encode(document: &dyn Document, output: &Path, chamfered: &[Chamfered]) -> Result<Encoded> {
     document.encode(known(output)?.format, output, chamfered)
 }
 

@@ -9,7 +9,9 @@ use std::path::Path;
 use anyhow::{Context, Result, bail};
 use chamfer::{Chamfered, MeshBuffers, split_by_angle};
 
-use crate::document::{Document, Format, NormalsRead, OutputFile, ReadOptions, SourceMesh};
+use crate::document::{
+    Document, Encoded, Format, NormalsRead, OutputFile, ReadOptions, SourceMesh,
+};
 use crate::glb;
 use crate::weld;
 
@@ -56,18 +58,13 @@ impl Document for StlDocument {
         weld::note(self.welded).into_iter().collect()
     }
 
-    fn encode(
-        &self,
-        format: Format,
-        output: &Path,
-        chamfered: &[Chamfered],
-    ) -> Result<Vec<OutputFile>> {
+    fn encode(&self, format: Format, output: &Path, chamfered: &[Chamfered]) -> Result<Encoded> {
         let mesh = &chamfered.first().context("the mesh is missing")?.mesh;
         let bytes = match format {
             Format::Stl => binary(mesh)?,
             _ => glb::encode(&self.mesh.name, mesh, &[], &[])?,
         };
-        Ok(vec![OutputFile { path: output.to_path_buf(), bytes }])
+        Ok(vec![OutputFile { path: output.to_path_buf(), bytes }].into())
     }
 }
 

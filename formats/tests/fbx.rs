@@ -30,7 +30,7 @@ fn written(text: &str) -> (Value, Vec<u8>) {
     assert_eq!(chamfered[0].totals.chamfered, 12);
     let folder: PathBuf = Path::new(env!("CARGO_TARGET_TMPDIR")).join("fbx");
     fs::create_dir_all(&folder).unwrap();
-    let files = encode(&*document, &folder.join("out.glb"), &chamfered).unwrap();
+    let files = encode(&*document, &folder.join("out.glb"), &chamfered).unwrap().files;
     assert_eq!(files.len(), 1);
     let length = u32::from_le_bytes(files[0].bytes[12..16].try_into().unwrap()) as usize;
     (serde_json::from_slice(&files[0].bytes[20..20 + length]).unwrap(), files[0].bytes.clone())

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use chamfer::{Chamfered, MeshBuffers, Options, Verify, Width, chamfer};
-use chamfer_formats::{Document, FORMATS, Format, ReadOptions, decode, encode, row_of};
+use chamfer_formats::{Document, Encoded, FORMATS, Format, ReadOptions, decode, encode, row_of};
 
 use crate::oracle::chamfer_and_check;
 
@@ -70,7 +70,7 @@ fn check_whole(mesh: &MeshBuffers) {
 }
 
 fn write(document: &dyn Document, chamfered: &[Chamfered], output: &Path) {
-    let Ok(files) = encode(document, output, chamfered) else { return };
+    let Ok(Encoded { files, .. }) = encode(document, output, chamfered) else { return };
     assert_eq!(files[0].path, output);
     let is_alone = files.len() == 1;
     if is_alone && row_of(output).is_some_and(|row| row.format != Format::Gltf) {

@@ -86,7 +86,7 @@ impl Model {
         let options = Options { width: Width::PercentOfExtent(PERCENT), ..Options::default() };
         let chamfered: Vec<_> =
             meshes.iter().map(|mesh| chamfer(&mesh.as_mesh(), &options).unwrap()).collect();
-        let files = encode(&document, Path::new("after.glb"), &chamfered).unwrap();
+        let files = encode(&document, Path::new("after.glb"), &chamfered).unwrap().files;
         let name = path.file_name().unwrap().to_string_lossy().into_owned();
         let before = Glb::parse(&fs::read(path).unwrap());
         assert_eq!(before.mesh_count(), meshes.len(), "{name}");

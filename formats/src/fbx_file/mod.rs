@@ -19,9 +19,7 @@ use ufbx::{
     SpaceConversion,
 };
 
-use crate::document::{
-    Document, Format, Instance, NormalsRead, OutputFile, ReadOptions, SourceMesh,
-};
+use crate::document::{Document, Encoded, Format, Instance, NormalsRead, ReadOptions, SourceMesh};
 use crate::gltf_file::GltfDocument;
 
 /// Memory that any file may take, and for each of its bytes if that is more: arrays are compressed.
@@ -89,12 +87,7 @@ impl Document for FbxDocument {
         [self.notes.clone(), self.gltf.notes()].concat()
     }
 
-    fn encode(
-        &self,
-        format: Format,
-        output: &Path,
-        chamfered: &[Chamfered],
-    ) -> Result<Vec<OutputFile>> {
+    fn encode(&self, format: Format, output: &Path, chamfered: &[Chamfered]) -> Result<Encoded> {
         self.gltf.encode(format, output, chamfered)
     }
 }

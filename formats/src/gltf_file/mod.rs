@@ -27,6 +27,7 @@ mod geometry;
 mod json;
 mod meshopt_views;
 mod names;
+mod quantized;
 mod references;
 mod resources;
 mod rewrite;
@@ -45,7 +46,7 @@ use chamfer::Chamfered;
 use serde_json::Value;
 
 use crate::document::{
-    Document, Format, Instance, NormalsRead, OutputFile, ReadOptions, SourceMesh,
+    Document, Encoded, Format, Instance, NormalsRead, OutputFile, ReadOptions, SourceMesh,
 };
 use crate::weld;
 use accessor_writer::AccessorWriter;
@@ -54,6 +55,7 @@ use compressed::Plain;
 use container::Container;
 use extensions::Mentions;
 use geometry::{GeometryReader, MeshGeometry};
+use quantized::OnGrid;
 use references::Replaced;
 use rewrite::Rewrite;
 use uri::Target;
@@ -79,6 +81,14 @@ pub struct GltfDocument {
     buffer_uris: Vec<Option<String>>,
     was_compressed: bool,
     /// What the user should know.
+    notes: Vec<String>,
+}
+
+/// A file with chamfered meshes.
+struct Rewritten {
+    json: Value,
+    /// The content of its one buffer.
+    buffer: Vec<u8>,
     notes: Vec<String>,
 }
 
@@ -171,17 +181,27 @@ impl GltfDocument {
         resources::copies(json, key, &from, &to)
     }
 
-    /// The JSON with all chamfered meshes in it, and the content of its buffer.
-    fn rewritten(&self, chamfered: &[Chamfered]) -> Result<(Value, Vec<u8>)> {
+    /// The file with all chamfered meshes in it.
+    fn rewritten(&self, chamfered: &[Chamfered]) -> Result<Rewritten> {
         let mut json = self.json.clone();
         let mentions = Mentions::of(&json);
         let freed = references::freed(&json, &self.replaced(chamfered), &mentions)?;
         let mut writer = AccessorWriter::new(&json, freed);
+        let mut notes = Vec::new();
         for (index, result) in chamfered.iter().enumerate() {
             if !self.is_changed(index, result) {
                 continue;
             }
-            let rewrite = Rewrite::new(&self.geometries[index], result);
+            let (geometry, source) = (&self.geometries[index], &self.meshes[index]);
+            let on_grid = quantized::on_grid(geometry, &source.mesh, result);
+            if matches!(on_grid, OnGrid::No) {
+                let name = &source.name;
+                notes.push(format!(
+                    "mesh {name} was quantized, too coarse for its chamfers: its positions are \
+                     written as floats"
+                ));
+            }
+            let rewrite = Rewrite::new(geometry, on_grid.result().unwrap_or(result));
             rewrite
                 .and_then(|rewrite| rewrite.write(&mut json["meshes"][index], &mut writer))
                 .with_context(|| format!("mesh {:?}", self.meshes[index].name))?;
@@ -192,7 +212,7 @@ impl GltfDocument {
             extensions::drop_unneeded_quantization(&mut json)?;
         }
         extensions::drop_unneeded_restart(&mut json);
-        Ok((json, bytes))
+        Ok(Rewritten { json, buffer: bytes, notes })
     }
 
     fn replaced(&self, chamfered: &[Chamfered]) -> BTreeSet<Replaced> {
@@ -288,12 +308,7 @@ impl Document for GltfDocument {
         self.notes.clone()
     }
 
-    fn encode(
-        &self,
-        format: Format,
-        output: &Path,
-        chamfered: &[Chamfered],
-    ) -> Result<Vec<OutputFile>> {
+    fn encode(&self, format: Format, output: &Path, chamfered: &[Chamfered]) -> Result<Encoded> {
         ensure!(
             chamfered.len() == self.meshes.len(),
             "{} meshes were read, but {} chamfered",
@@ -302,9 +317,9 @@ impl Document for GltfDocument {
         );
         let changed = chamfered.iter().enumerate().any(|(i, result)| self.is_changed(i, result));
         if !changed && format == self.format && !self.was_compressed {
-            return self.encode_unchanged(output);
+            return Ok(self.encode_unchanged(output)?.into());
         }
-        let (mut json, mut buffer) = self.rewritten(chamfered)?;
+        let Rewritten { mut json, mut buffer, notes } = self.rewritten(chamfered)?;
         if format == Format::Glb && self.format == Format::Gltf {
             resources::embed_images(&mut json, &mut buffer, &resources::folder(&self.path))?;
         }
@@ -314,7 +329,7 @@ impl Document for GltfDocument {
             _ => self.encode_gltf(output, json, buffer)?,
         };
         files.extend(images);
-        Ok(files)
+        Ok(Encoded { files, notes })
     }
 }
 

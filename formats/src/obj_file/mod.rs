@@ -14,7 +14,9 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result};
 use chamfer::Chamfered;
 
-use crate::document::{Document, Format, NormalsRead, OutputFile, ReadOptions, SourceMesh};
+use crate::document::{
+    Document, Encoded, Format, NormalsRead, OutputFile, ReadOptions, SourceMesh,
+};
 use crate::glb;
 use crate::weld;
 
@@ -78,32 +80,12 @@ impl Document for ObjDocument {
         notes
     }
 
-    fn losses(&self, format: Format) -> Vec<String> {
-        let mut losses = Vec::new();
-        if format == Format::Glb {
-            // What cannot be read is told by the error of writing.
-            let (_, pictures) = materials::known(&self.obj, &self.folder).unwrap_or_default();
-            let note =
-                |name| format!("{name} is no PNG or JPEG, which glTF needs: it was left out");
-            losses.extend(pictures.into_iter().map(note));
-            let is_element = |item: &Item| matches!(item, Item::Element(..));
-            if self.obj.items.iter().any(is_element) {
-                losses.push("its lines and points were left out".into());
-            }
-        }
-        losses
-    }
-
-    fn encode(
-        &self,
-        format: Format,
-        output: &Path,
-        chamfered: &[Chamfered],
-    ) -> Result<Vec<OutputFile>> {
+    fn encode(&self, format: Format, output: &Path, chamfered: &[Chamfered]) -> Result<Encoded> {
         let result = chamfered.first().context("the mesh is missing")?;
         if format == Format::Glb {
-            let bytes = self.to_glb(result)?;
-            return Ok(vec![OutputFile { path: output.to_path_buf(), bytes }]);
+            let (bytes, notes) = self.to_glb(result)?;
+            let files = vec![OutputFile { path: output.to_path_buf(), bytes }];
+            return Ok(Encoded { files, notes });
         }
         let bytes = match &self.unchanged {
             Some(bytes) => bytes.clone(),
@@ -111,20 +93,27 @@ impl Document for ObjDocument {
         };
         let mut files = vec![OutputFile { path: output.to_path_buf(), bytes }];
         files.extend(materials::companions(&self.obj, &self.folder, output)?);
-        Ok(files)
+        Ok(files.into())
     }
 }
 
 impl ObjDocument {
-    fn to_glb(&self, result: &Chamfered) -> Result<Vec<u8>> {
+    /// The file, and what it is without.
+    fn to_glb(&self, result: &Chamfered) -> Result<(Vec<u8>, Vec<String>)> {
         let mut mesh = result.mesh.clone();
         // OBJ counts the second texture coordinate from below, glTF from above.
         let uv = &mut mesh.uvs[0];
         for v in uv.values.iter_mut().skip(1).step_by(uv.components.max(1) as usize) {
             *v = 1.0 - *v;
         }
-        let (library, _) = materials::known(&self.obj, &self.folder)?;
-        glb::encode(&self.mesh.name, &mesh, &self.obj.materials_of_runs(), &library)
+        let (library, pictures) = materials::known(&self.obj, &self.folder)?;
+        let note = |name| format!("{name} is no PNG or JPEG, which glTF needs: it was left out");
+        let mut notes: Vec<String> = pictures.into_iter().map(note).collect();
+        if self.obj.items.iter().any(|item| matches!(item, Item::Element(..))) {
+            notes.push("its lines and points were left out".into());
+        }
+        let materials = self.obj.materials_of_runs();
+        Ok((glb::encode(&self.mesh.name, &mesh, &materials, &library)?, notes))
     }
 }
 

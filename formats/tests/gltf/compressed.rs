@@ -145,7 +145,7 @@ fn comes_out_plain(name: &str, model: &Model, mesh: &MeshBuffers, extension: &st
         for ending in ["glb", "gltf"] {
             let output =
                 folder(&format!("{name}/{ending}{added}")).join("out").with_extension(ending);
-            let files = encode(&document, &output, &chamfered).unwrap();
+            let files = encode(&document, &output, &chamfered).unwrap().files;
             for file in &files {
                 fs::write(&file.path, &file.bytes).unwrap();
             }

@@ -270,7 +270,7 @@ fn a_further_submesh_is_a_further_primitive_of_the_same_material() {
     let output = folder("further").join("out.glb");
     let mut chamfered = all_grown(&document);
     chamfered[0].mesh.submesh_index_counts = vec![6, 3];
-    write(&encode(&document, &output, &chamfered).unwrap());
+    write(&encode(&document, &output, &chamfered).unwrap().files);
     assert_eq!(read(&output).unwrap().meshes()[0].mesh, chamfered[0].mesh);
     let json = json_of(&fs::read(&output).unwrap());
     let primitives = &json["meshes"][0]["primitives"];
@@ -279,7 +279,7 @@ fn a_further_submesh_is_a_further_primitive_of_the_same_material() {
 
     let mut same = unchanged(&document);
     same[0].mesh.submesh_index_counts.push(0);
-    assert_eq!(encode(&document, &output, &same).unwrap()[0].bytes, model.glb());
+    assert_eq!(encode(&document, &output, &same).unwrap().files[0].bytes, model.glb());
 }
 
 #[test]

@@ -40,10 +40,10 @@ fn a_gltf_to_another_folder_takes_its_files_along() {
     let (from, to) = (folder("along_from"), folder("along_to"));
     let document = read(&write_gltf(&from, "shape.bin")).unwrap();
     let output = to.join("out.gltf");
-    let same = encode(&document, &output, &unchanged(&document)).unwrap();
+    let same = encode(&document, &output, &unchanged(&document)).unwrap().files;
     assert_eq!(names(&same, &to), ["out.gltf", "shape.bin", "Textures/color map.png"]);
     assert_eq!(same[0].bytes, fs::read(from.join("model.gltf")).unwrap());
-    let changed = encode(&document, &output, &all_grown(&document)).unwrap();
+    let changed = encode(&document, &output, &all_grown(&document)).unwrap().files;
     assert_eq!(names(&changed, &to), ["out.gltf", "out.bin", "Textures/color map.png"]);
     write(&changed);
     assert_eq!(read(&output).unwrap().meshes()[0].mesh.indices.len(), 9);
@@ -54,9 +54,9 @@ fn beside_the_input_only_new_files_are_written() {
     let folder = folder("beside");
     let document = read(&write_gltf(&folder, "shape.bin")).unwrap();
     let output = folder.join("out.gltf");
-    let same = encode(&document, &output, &unchanged(&document)).unwrap();
+    let same = encode(&document, &output, &unchanged(&document)).unwrap().files;
     assert_eq!(names(&same, &folder), ["out.gltf"]);
-    let changed = encode(&document, &output, &all_grown(&document)).unwrap();
+    let changed = encode(&document, &output, &all_grown(&document)).unwrap().files;
     assert_eq!(names(&changed, &folder), ["out.gltf", "out.bin"]);
 }
 
@@ -86,7 +86,7 @@ fn pictures_of_a_gltf_go_into_a_glb() {
     fs::write(from.join("Textures/color map.png"), png).unwrap();
     let document = read(&path).unwrap();
     for chamfered in [unchanged(&document), all_grown(&document)] {
-        let files = encode(&document, &to.join("out.glb"), &chamfered).unwrap();
+        let files = encode(&document, &to.join("out.glb"), &chamfered).unwrap().files;
         assert_eq!(names(&files, &to), ["out.glb"]);
         let json = json_of(&files[0].bytes);
         let image = &json["images"][0];
@@ -98,7 +98,7 @@ fn pictures_of_a_gltf_go_into_a_glb() {
         assert_eq!(json["buffers"][0]["byteLength"], number("byteOffset") + png.len());
     }
     fs::remove_file(from.join("Textures/color map.png")).unwrap();
-    let files = encode(&document, &to.join("out.glb"), &unchanged(&document)).unwrap();
+    let files = encode(&document, &to.join("out.glb"), &unchanged(&document)).unwrap().files;
     assert_eq!(json_of(&files[0].bytes)["images"][0]["uri"], "Textures/color%20map.png");
 }
 
@@ -108,7 +108,7 @@ fn data_uris_stay_data_uris() {
     let uri = format!("data:application/octet-stream;base64,{}", base64(&square().bytes));
     let document = read(&write_gltf(&folder, &uri)).unwrap();
     let output = folder.join("out.gltf");
-    let files = encode(&document, &output, &all_grown(&document)).unwrap();
+    let files = encode(&document, &output, &all_grown(&document)).unwrap().files;
     assert_eq!(names(&files, &folder), ["out.gltf"]);
     write(&files);
     assert_eq!(read(&output).unwrap().meshes()[0].mesh.indices.len(), 9);
@@ -125,11 +125,11 @@ fn formats_convert_into_each_other_and_back() {
     let path = folder.join("model.glb");
     fs::write(&path, square().glb()).unwrap();
     let document = read(&path).unwrap();
-    write(&encode(&document, &folder.join("other.gltf"), &unchanged(&document)).unwrap());
+    write(&encode(&document, &folder.join("other.gltf"), &unchanged(&document)).unwrap().files);
     assert!(folder.join("other.bin").exists());
     let other = read(&folder.join("other.gltf")).unwrap();
     assert_eq!(other.meshes()[0].mesh, document.meshes()[0].mesh);
-    let back = encode(&other, &folder.join("back.glb"), &unchanged(&other)).unwrap();
+    let back = encode(&other, &folder.join("back.glb"), &unchanged(&other)).unwrap().files;
     assert_eq!(back.len(), 1);
     assert_eq!(json_of(&back[0].bytes), json_of(&square().glb()));
 }
@@ -147,7 +147,7 @@ fn several_buffers_are_folded_into_one() {
     fs::write(folder.join("all.bin"), &model.bytes).unwrap();
     fs::write(folder.join("model.gltf"), json.to_string()).unwrap();
     let document = read(&folder.join("model.gltf")).unwrap();
-    write(&encode(&document, &folder.join("out.glb"), &unchanged(&document)).unwrap());
+    write(&encode(&document, &folder.join("out.glb"), &unchanged(&document)).unwrap().files);
     let out = read(&folder.join("out.glb")).unwrap();
     assert_eq!(out.meshes()[0].mesh, document.meshes()[0].mesh);
 }

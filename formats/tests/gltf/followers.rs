@@ -31,7 +31,7 @@ fn stretched(model: &Model, name: &str) -> Written {
     let source = sources.last_mut().unwrap();
     (source.chart.weights, source.owner.weights) = ([1.5, -0.25, -0.25], [1.5, -0.25, -0.25]);
     chamfered[0].vertex_sources = sources.into_iter().collect();
-    let files = encode(&document, &folder(name).join("out.glb"), &chamfered).unwrap();
+    let files = encode(&document, &folder(name).join("out.glb"), &chamfered).unwrap().files;
     let bytes = files[0].bytes.clone();
     let json_length = u32::from_le_bytes(bytes[12..16].try_into().unwrap()) as usize;
     Written { json: json_of(&bytes), bytes: bytes[28 + json_length..].to_vec() }

@@ -8,4 +8,5 @@ mod files;
 mod followers;
 mod lenient;
 mod morphs;
+mod quantized;
 mod support;

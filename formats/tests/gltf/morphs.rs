@@ -184,7 +184,7 @@ fn before_and_after(name: &str, percent: f32) -> Option<[Glb; 2]> {
     let chamfered: Vec<_> =
         meshes.map(|mesh| chamfer(&mesh.mesh.as_mesh(), &options).unwrap()).collect();
     let output = path_in("played").join(name);
-    let files = encode(&document, &output, &chamfered).unwrap();
+    let files = encode(&document, &output, &chamfered).unwrap().files;
     Some([Glb::new(&before), Glb::new(&files[0].bytes)])
 }
 

@@ -237,7 +237,7 @@ impl Model {
     pub fn grown(&self, name: &str) -> Written {
         let document = self.read(name).unwrap();
         let output = path_in(name).join("grown.glb");
-        let files = encode(&document, &output, &all_grown(&document)).unwrap();
+        let files = encode(&document, &output, &all_grown(&document)).unwrap().files;
         write(&files);
         Written { json: json_of(&files[0].bytes), bytes: buffer_of(&files[0].bytes) }
     }
