@@ -73,7 +73,7 @@ fn nearly_touching(SourceMesh { name, mesh }: &SourceMesh) -> Option<String> {
     (count > 0).then(|| {
         format!(
             "mesh {name}: {count} vertices are not where others are, but within {distance:.1e} of them: \
-             edges between them are open and stay as they are; --weld auto joins them"
+             edges between them may be open, and stay as they are then; --weld auto joins them"
         )
     })
 }

@@ -11,6 +11,9 @@ use super::nodes::node_number;
 const SET_SIZE: usize = 4;
 const MOST_SETS: usize = 2;
 
+/// Joints and weights, each `#vertices by 4`.
+type Set = (Vec<[u16; 4]>, Vec<[f32; 4]>);
+
 /// The clusters that have a bone, in their order.
 fn bound(skin: &SkinDeformer) -> impl Iterator<Item = (usize, u32, &SkinCluster)> {
     let bone =
@@ -38,13 +41,9 @@ pub fn write_skin(skin: &SkinDeformer, parts: &mut Parts) -> Value {
     json!({"joints": joints, "inverseBindMatrices": parts.matrices(&matrices)})
 }
 
-/// Joints and weights of each vertex, `#vertices` by 4 in each set; `cut` counts vertices that have
+/// The influences of each vertex, in as many sets as it takes; `cut` counts vertices that have
 /// more than there is room for. Vertices are told by the numbers of their positions.
-pub fn influences(
-    skin: &SkinDeformer,
-    vertices: &[u32],
-    cut: &mut usize,
-) -> Vec<(Vec<[u16; 4]>, Vec<[f32; 4]>)> {
+pub fn influences(skin: &SkinDeformer, vertices: &[u32], cut: &mut usize) -> Vec<Set> {
     let mut joint_of = vec![None; skin.clusters.len()];
     for (joint, (cluster, _, _)) in bound(skin).enumerate() {
         joint_of[cluster] = u16::try_from(joint).ok();
