@@ -120,6 +120,7 @@ mod tests {
     #[test]
     fn vertices_go_to_the_first_that_is_near() {
         assert_eq!(welded(&[0.0, 0.5, 0.1, -0.1], Weld::Within(0.2)), [0.0, 0.5, 0.0, 0.0]);
+        assert_eq!(welded(&[0.0, 0.3, 0.15], Weld::Within(0.2)), [0.0, 0.3, 0.0]);
         assert_eq!(welded(&[0.0, 0.1], Weld::Equal), [0.0, 0.1]);
         assert_eq!(welded(&[0.0, 0.1], Weld::Within(0.0)), [0.0, 0.1]);
     }
