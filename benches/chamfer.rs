@@ -13,7 +13,8 @@ use std::path::Path;
 use std::time::Duration;
 
 use chamfer::{MeshBuffers, Options, Stage, Verify, Width, chamfer};
-use chamfer_cli::{document::ReadOptions, format};
+use chamfer_formats as formats;
+use chamfer_formats::ReadOptions;
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
 
@@ -60,10 +61,10 @@ fn time_of(mesh: &MeshBuffers, options: &Options, wanted: Stage) -> Duration {
 
 /// All models of the corpus, one after the other; nothing without them.
 fn corpus(criterion: &mut Criterion) {
-    let read = ReadOptions { smoothing_angle: 30.0 };
+    let read = ReadOptions::default();
     let documents: Vec<_> = measure::models(Path::new(measure::FOLDER))
         .iter()
-        .filter_map(|path| format::read(path, &read).ok())
+        .filter_map(|path| formats::read(path, &read).ok())
         .collect();
     if documents.is_empty() {
         return println!("SKIPPED: no models in {}", measure::FOLDER);

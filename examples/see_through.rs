@@ -14,11 +14,11 @@ use std::time::Instant;
 use chamfer::see_through::{Eyes, Leak, SceneTriangle, leaks};
 use chamfer::{Mesh, Options, Placed, Reason, Totals, Verify, Width, chamfer, chamfer_scene};
 use chamfer_cli::close_up::close_up;
-use chamfer_cli::document::ReadOptions;
-use chamfer_cli::format;
 use chamfer_cli::pictures::write_png;
 use chamfer_cli::preview::{Panel, contact_sheet};
 use chamfer_cli::scene::{largest_length, placed, scene_triangles};
+use chamfer_formats as formats;
+use chamfer_formats::ReadOptions;
 use glam::{Quat, Vec3};
 
 struct Request {
@@ -104,8 +104,8 @@ fn main() {
 /// How many samples leak in a file. Prints where.
 fn look(request: &Request, path: &Path, percent: f32) -> usize {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let read = ReadOptions { smoothing_angle: 30.0 };
-    let document = match format::read(path, &read) {
+    let read = ReadOptions::default();
+    let document = match formats::read(path, &read) {
         Ok(document) => document,
         Err(error) => {
             println!("{name}: {error:#}");

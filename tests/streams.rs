@@ -18,8 +18,8 @@ use std::path::Path;
 use chamfer::{
     Chamfered, Mesh, MeshBuffers, Options, TriangleKind, UvBuffer, Verify, Width, chamfer, shapes,
 };
-use chamfer_cli::document::ReadOptions;
-use chamfer_cli::format;
+use chamfer_formats as formats;
+use chamfer_formats::ReadOptions;
 use tally::Tally;
 
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/corpus");
@@ -81,7 +81,7 @@ fn of_corpus(percent: f32) -> Option<Tally> {
     paths.sort();
     let mut tally = Tally::default();
     for path in paths {
-        let Ok(document) = format::read(&path, &ReadOptions { smoothing_angle: 30.0 }) else {
+        let Ok(document) = formats::read(&path, &ReadOptions::default()) else {
             continue;
         };
         for source in document.meshes() {

@@ -6,11 +6,10 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result};
 use chamfer::{Chamfered, MeshBuffers, Options, chamfer, shapes};
+use chamfer_formats::{IDENTITY, OutputFile, glb};
 
 use crate::args::DemoArgs;
 use crate::console::{say, warn};
-use crate::document::{IDENTITY, OutputFile};
-use crate::glb;
 use crate::pictures::write_png;
 use crate::preview::{Panel, Placed, contact_sheet};
 use crate::write;
@@ -64,7 +63,7 @@ fn chamfered((name, before): (&'static str, MeshBuffers)) -> Result<Model> {
 fn write_model(folder: &Path, model: &Model) -> Result<()> {
     let file = |when: &str, mesh: &MeshBuffers| -> Result<OutputFile> {
         let path = folder.join(format!("{}.{when}.glb", model.name));
-        Ok(OutputFile { path, bytes: glb::encode(model.name, mesh, &[])? })
+        Ok(OutputFile { path, bytes: glb::encode(model.name, mesh, &[], &[])? })
     };
     write::together(&[file("before", &model.before)?, file("after", &model.after.mesh)?])
 }

@@ -99,8 +99,8 @@ fn lines(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::document::IDENTITY;
     use chamfer::{Options, Width, chamfer, shapes};
+    use chamfer_formats::IDENTITY;
 
     #[test]
     fn lines_follow_the_strips() {

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use chamfer::check::{Findings, check};
 use chamfer::{Chamfered, EdgeVerdict, Mesh, Options, Reason, Totals, Verify, Width, chamfer};
-use chamfer_cli::document::ReadOptions;
-use chamfer_cli::format;
+use chamfer_formats as formats;
+use chamfer_formats::ReadOptions;
 
 /// The models, beside the project.
 pub const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/corpus");
@@ -66,10 +66,10 @@ pub fn measure(
     mut inspect: impl FnMut(&Mesh, &Chamfered),
 ) -> Result<Vec<Measured>, String> {
     let options = Options { width: Width::PercentOfExtent(percent), verify, ..Options::default() };
-    let read = ReadOptions { smoothing_angle: 30.0 };
-    let document = format::read(path, &read).map_err(|error| format!("{error:#}"))?;
+    let read = ReadOptions::default();
+    let document = formats::read(path, &read).map_err(|error| format!("{error:#}"))?;
     let file = path.file_name().unwrap_or_default().to_string_lossy();
-    let mut measured = |source: &chamfer_cli::document::SourceMesh| {
+    let mut measured = |source: &chamfer_formats::SourceMesh| {
         let before = source.mesh.as_mesh();
         let start = std::time::Instant::now();
         let after = chamfer(&before, &options).map_err(|error| error.to_string())?;

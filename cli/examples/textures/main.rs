@@ -7,8 +7,8 @@ use std::error::Error;
 use std::path::Path;
 
 use chamfer::{Chamfered, MeshBuffers, Options, Width, chamfer, shapes};
-use chamfer_cli::document::IDENTITY;
 use chamfer_cli::preview::{Panel, Placed, Surface, Zoom, before_after};
+use chamfer_formats::IDENTITY;
 use image::{RgbImage, imageops};
 
 use atlas::Atlas;

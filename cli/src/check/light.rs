@@ -5,10 +5,10 @@ use std::path::Path;
 
 use anyhow::Result;
 use chamfer::see_through::{Eyes, Leak, REACH, SceneTriangle, leaks};
+use chamfer_formats::Document;
 use glam::Vec3;
 
 use crate::close_up::close_up;
-use crate::document::Document;
 use crate::pictures::write_png;
 use crate::preview::{Panel, before_after, contact_sheet};
 use crate::scene::{placed, scene_triangles};
