@@ -5,6 +5,7 @@
 //! input is not held against the output.
 
 mod borders;
+mod facts;
 mod flatness;
 mod hardness;
 mod intersections;
@@ -13,6 +14,7 @@ mod nearest;
 mod origins;
 mod rules;
 mod solids;
+mod stored;
 mod surface;
 mod triangles;
 mod values;
@@ -23,13 +25,13 @@ use crate::mesh::Mesh;
 use crate::options::Verify;
 use crate::report::Chamfered;
 
+use facts::facts;
 use origins::Origins;
 use solids::Solids;
 use surface::Surface;
 use widths::Ruler;
 
-pub use rules::{Breach, Element, Facts, Findings, Matching, Rule, Unchecked};
-pub use widths::MeasuredEdge;
+pub use rules::{Breach, Element, Facts, Findings, Matching, MeasuredEdge, Rule, Unchecked};
 
 /// Checks a chamfered mesh against its source, with its provenance and verdicts.
 ///
@@ -121,8 +123,8 @@ fn well_formed(before: &Mesh, after: &Mesh, findings: &mut Findings) -> bool {
 }
 
 fn state_facts([before, after]: &[Surface; 2], findings: &mut Findings) {
-    findings.before = before.facts();
-    findings.after = after.facts();
+    findings.before = facts(before);
+    findings.after = facts(after);
 }
 
 fn check_geometry(

@@ -8,6 +8,7 @@
 mod density;
 mod feet;
 mod fill_map;
+mod fit;
 mod ground;
 mod owners;
 mod patch;

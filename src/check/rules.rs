@@ -2,8 +2,6 @@
 
 use std::fmt;
 
-use super::widths::MeasuredEdge;
-
 /// How many offending elements a [`Breach`] names.
 const NAMED_ELEMENTS: usize = 5;
 
@@ -275,3 +273,33 @@ const FACT_ROWS: [(&str, Fact); 11] = [
     ("tangents not right", |facts| Some(facts.odd_tangents)),
     ("self-intersections", |facts| facts.self_intersections),
 ];
+
+/// A hard edge of the source with two sides, measured in the result.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MeasuredEdge {
+    /// The source vertices at its ends, on the side of the first triangle that uses it.
+    pub vertices: [u32; 2],
+    /// Its length, in mesh units.
+    pub length: f32,
+    /// `#ends by #sides`: how far the corner of the side's triangle is from the line of the old
+    /// edge, in mesh units.
+    pub distances: [[f32; 2]; 2],
+    /// `#ends`: whether the two sides are at different positions there.
+    pub is_open: [bool; 2],
+}
+
+impl MeasuredEdge {
+    /// At each end, the mean distance of the two sides from the line of the old edge, in mesh
+    /// units; 0 where the sides did not come apart.
+    pub fn widths(&self) -> [f32; 2] {
+        [0, 1].map(|end| {
+            let [one, other] = self.distances[end];
+            if self.is_open[end] { (one + other) / 2.0 } else { 0.0 }
+        })
+    }
+
+    /// Whether there is a chamfer in its place.
+    pub fn is_chamfered(&self) -> bool {
+        self.is_open != [false; 2]
+    }
+}

@@ -1,8 +1,8 @@
 //! Verdicts against the mesh that they are about.
 
-use super::rules::{Element, Findings, Rule};
+use super::rules::{Element, Findings, MeasuredEdge, Rule};
 use super::surface::{HalfEdge, Surface};
-use super::widths::{MeasuredEdge, Ruler};
+use super::widths::Ruler;
 use crate::mesh::Mesh;
 use crate::report::{Chamfered, EdgeVerdict, Outcome, TriangleKind};
 

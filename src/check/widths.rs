@@ -3,37 +3,8 @@
 use glam::DVec3;
 
 use super::origins::Origins;
+use super::rules::MeasuredEdge;
 use super::surface::{HalfEdge, Surface};
-
-/// A hard edge of the source with two sides, measured in the result.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MeasuredEdge {
-    /// The source vertices at its ends, on the side of the first triangle that uses it.
-    pub vertices: [u32; 2],
-    /// Its length, in mesh units.
-    pub length: f32,
-    /// `#ends by #sides`: how far the corner of the side's triangle is from the line of the old
-    /// edge, in mesh units.
-    pub distances: [[f32; 2]; 2],
-    /// `#ends`: whether the two sides are at different positions there.
-    pub is_open: [bool; 2],
-}
-
-impl MeasuredEdge {
-    /// At each end, the mean distance of the two sides from the line of the old edge, in mesh
-    /// units; 0 where the sides did not come apart.
-    pub fn widths(&self) -> [f32; 2] {
-        [0, 1].map(|end| {
-            let [one, other] = self.distances[end];
-            if self.is_open[end] { (one + other) / 2.0 } else { 0.0 }
-        })
-    }
-
-    /// Whether there is a chamfer in its place.
-    pub fn is_chamfered(&self) -> bool {
-        self.is_open != [false; 2]
-    }
-}
 
 /// The corners of a source mesh in the result.
 pub(super) struct Ruler<'a> {

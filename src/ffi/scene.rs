@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use std::ptr;
 
 use super::guard::{caught, guard};
-use super::input::{self, check_array};
+use super::input::{self, SceneArrays, check_array};
 use super::overlap;
 use super::status::Failure;
 use super::types::*;
@@ -22,16 +22,6 @@ const BYTES_PER_SEEN_CORNER: u64 = 1024;
 
 /// With [`Verify::Seen`], the first pass over all meshes is about so much of the work.
 const SHARE_BEFORE_LOOKING: f32 = 0.5;
-
-/// What a scene is made of, as the caller hands it over.
-#[derive(Clone, Copy)]
-pub struct SceneArrays {
-    pub meshes: *const *const chamfer_mesh,
-    pub mesh_count: usize,
-    pub objects: *const chamfer_object,
-    pub object_count: usize,
-    pub options: *const chamfer_options,
-}
 
 /// Chamfers meshes that stand together: of each, the edges are held that the open border of
 /// another object rests on. With `CHAMFER_VERIFY_SEEN` the scene is looked at as a whole, and what

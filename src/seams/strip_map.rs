@@ -2,8 +2,8 @@
 
 use glam::{DVec2, DVec3};
 
-use super::density::{Facing, Lie, MOST_STRETCH, misfit, roomiest};
 use super::feet::{Depth, End, Frame, Room, Spread, abreast, band_foot, flat_lay, inside};
+use super::fit::{Facing, Lie, MOST_STRETCH, misfit, roomiest};
 use super::ground::Ground;
 use super::patch::{Joint, Patches};
 use super::{Owners, channels_of, place_of};
