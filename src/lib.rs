@@ -29,7 +29,6 @@ mod attributes;
 mod breaks;
 mod bvh;
 mod contacts;
-mod corners;
 mod edges;
 mod error;
 mod faces;
@@ -37,6 +36,7 @@ mod faces;
 mod ffi;
 #[cfg(test)]
 mod figures;
+mod fills;
 mod foot;
 mod groups;
 mod ids;

@@ -15,7 +15,7 @@ use std::cmp::Ordering;
 use glam::DVec3;
 
 use crate::contacts::Wedge;
-use crate::corners;
+use crate::fills;
 use crate::ids::{Corner, Edge, Few, IdVec, Ring, Sector, Triangle};
 use crate::math::{area_vector, unit};
 use crate::options::Verify;
@@ -320,21 +320,21 @@ fn fill_is_valid(plan: &Plan, placement: &Placement, ring: Ring) -> bool {
             let sectors = [a, b, c];
             let points = sectors.map(|sector| placement.point[sector]);
             let normals = sectors.map(|sector| placement.normals[sector][0]);
-            corners::can_fill(points, normals, plan.view.resolution)
+            fills::can_fill(points, normals, plan.view.resolution)
         }
         _ => fill(plan, placement, ring).is_some(),
     }
 }
 
 /// The fill of a ring where its sectors stand now; none if every way to fill it folds.
-pub fn fill(plan: &Plan, placement: &Placement, ring: Ring) -> Option<corners::Fill> {
+pub fn fill(plan: &Plan, placement: &Placement, ring: Ring) -> Option<fills::Fill> {
     let sectors = plan.sectors.ring(ring);
     if sectors.len() < 3 {
-        return Some(corners::Fill::default());
+        return Some(fills::Fill::default());
     }
     let points: Few<_> = sectors.iter().map(|&sector| placement.point[sector]).collect();
     let normals: Few<_> = sectors.iter().map(|&sector| placement.normals[sector][0]).collect();
-    corners::fill(&points, &normals, plan.view.resolution)
+    fills::fill(&points, &normals, plan.view.resolution)
 }
 
 /// Gives back to every sector that was shrunk, up to its room, as much as it can take with all

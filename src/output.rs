@@ -7,7 +7,7 @@
 mod submeshes;
 
 use crate::attributes::{Attributes, middles};
-use crate::corners::MIDDLE_FROM;
+use crate::fills::MIDDLE_FROM;
 use crate::ids::{Edge, IdVec, Ring};
 use crate::limits::{self, Limits};
 use crate::mesh::MeshBuffers;

@@ -6,7 +6,7 @@
 use glam::DVec3;
 
 use super::{Streams, Taken};
-use crate::corners;
+use crate::fills;
 use crate::ids::{Few, Sector, Vertex};
 use crate::math::unit;
 use crate::placement::{Placement, base};
@@ -31,7 +31,7 @@ pub fn add(
 ) -> u32 {
     let points: Few<DVec3> = sectors.iter().map(|&s| placement.point[s]).collect();
     let normal = unit(places.iter().map(|&place| placement.normals[sectors[place]][0]).sum());
-    let position = corners::middle(&points, places);
+    let position = fills::middle(&points, places);
     let cluster = plan.topology.cluster_at[plan.sectors.fans[sectors[0]].first];
     let near = nearest(plan, sectors, position);
     streams.add_between(plan, cluster, (position, normal), (near, taken))

@@ -10,7 +10,7 @@ use std::sync::OnceLock;
 use glam::DVec3;
 
 use crate::bvh::Kin;
-use crate::corners::middle;
+use crate::fills::middle;
 use crate::ids::{Corner, Few, Id, IdVec, Ring, Sector};
 use crate::intersect::{self, Triangle, cutting_pairs};
 use crate::placement::Placement;

@@ -12,7 +12,7 @@ use super::ground::Ground;
 use super::patch::{Joint, Middle, Patches};
 use super::{Owners, channels_of, place_of};
 use crate::attributes::{Attributes, Taken, middles};
-use crate::corners::{Fill, middle};
+use crate::fills::{Fill, middle};
 use crate::ids::{Corner, Edge, Few, Ring, Sector};
 use crate::math::{area_vector, unit};
 use crate::placement::{Placement, base};

@@ -1,4 +1,4 @@
-//! Corners: the hole where three or more chamfered edges met (thesis 6.6).
+//! Fills: what closes the hole where three or more chamfered edges met (thesis 6.6).
 //!
 //! The strips that end around a cluster leave a loop of their ends, one point for each sector.
 //! Three points are a triangle, four are two; five or more get a new vertex in the middle
