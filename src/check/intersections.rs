@@ -6,7 +6,8 @@ use super::solids::Solids;
 use super::surface::Surface;
 use crate::intersect::self_intersections;
 
-/// No solid cuts through itself that did not in the source.
+/// No solid cuts through itself in what is joined by edges, and did not cut through itself in the
+/// source. Where parts that are joined cut each other there, nobody can tell what is whose.
 pub(super) fn check_intersections(
     [before, after]: [&Surface; 2],
     [source, result]: [&Solids; 2],
@@ -14,13 +15,19 @@ pub(super) fn check_intersections(
     findings: &mut Findings,
 ) {
     let [parts_before, parts_after] = [&source.of, &result.of];
+    let joined = before.components();
     let [pairs_before, pairs_after] =
-        [intersections_within(before, parts_before), intersections_within(after, parts_after)];
+        [intersections_within(before, &joined), intersections_within(after, parts_after)];
     findings.before.self_intersections = Some(pairs_before.len());
     findings.after.self_intersections = Some(pairs_after.len());
     let mut cut_before = vec![false; parts_before.len()];
     for &(triangle, _) in &pairs_before {
-        cut_before[parts_before[triangle as usize] as usize] = true;
+        cut_before[joined[triangle as usize] as usize] = true;
+    }
+    for (triangle, &part) in joined.iter().enumerate() {
+        if cut_before[part as usize] {
+            cut_before[parts_before[triangle] as usize] = true;
+        }
     }
     for solid in source.lying_on_themselves(before) {
         cut_before[solid as usize] = true;

@@ -264,13 +264,17 @@ fn lacking(known: &[Option<u32>], here: &[HalfEdge], there: &[HalfEdge]) -> Vec<
 /// solids than these may have together.
 ///
 /// A skin that is there twice has four sides on each edge, before and after. Where several sides
-/// meet on an edge of the source, its chamfers may have them too.
+/// meet on an edge of the source, its chamfers may have them too. Only where the mesh has more such
+/// edges than before is there anything to find: which solid a side belongs to is not always certain.
 pub(super) fn check_sides(
     [before, after]: [&Surface; 2],
     [source, result]: [&Solids; 2],
     origins: &Origins,
     findings: &mut Findings,
 ) {
+    if after.count_non_manifold() <= before.count_non_manifold() {
+        return;
+    }
     let allowed = Allowed::new([before, after], source, origins);
     for edge in after.edges().filter(|(a, b)| a.len() + b.len() > 2) {
         let clusters = edge.0.first().or(edge.1.first()).map_or([0; 2], |h| h.clusters);

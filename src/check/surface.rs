@@ -139,6 +139,11 @@ impl<'a> Surface<'a> {
         !backward.is_empty() && !forward.iter().all(has_soft_partner)
     }
 
+    /// How many edges have more than two sides.
+    pub fn count_non_manifold(&self) -> usize {
+        self.edges().filter(is_non_manifold).count()
+    }
+
     /// Whether no border touches a non-manifold edge.
     fn has_clear_borders(&self) -> bool {
         let mut on_border = vec![false; self.cluster_of.len()];
