@@ -265,14 +265,14 @@ fn lacking(known: &[Option<u32>], here: &[HalfEdge], there: &[HalfEdge]) -> Vec<
 ///
 /// A skin that is there twice has four sides on each edge, before and after. Where several sides
 /// meet on an edge of the source, its chamfers may have them too. Only where the mesh has more such
-/// edges than before is there anything to find: which solid a side belongs to is not always certain.
+/// sides than before is there anything to find: which solid a side belongs to is not always certain.
 pub(super) fn check_sides(
     [before, after]: [&Surface; 2],
     [source, result]: [&Solids; 2],
     origins: &Origins,
     findings: &mut Findings,
 ) {
-    if after.count_non_manifold() <= before.count_non_manifold() {
+    if after.sides_past_two() <= before.sides_past_two() {
         return;
     }
     let allowed = Allowed::new([before, after], source, origins);

@@ -139,9 +139,9 @@ impl<'a> Surface<'a> {
         !backward.is_empty() && !forward.iter().all(has_soft_partner)
     }
 
-    /// How many edges have more than two sides.
-    pub fn count_non_manifold(&self) -> usize {
-        self.edges().filter(is_non_manifold).count()
+    /// How many sides there are on edges past the second of each.
+    pub fn sides_past_two(&self) -> usize {
+        self.edges().map(|(a, b)| (a.len() + b.len()).saturating_sub(2)).sum()
     }
 
     /// Whether no border touches a non-manifold edge.

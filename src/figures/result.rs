@@ -78,7 +78,7 @@ fn name_corners(
     }
 }
 
-pub fn corners() -> Drawing {
+pub fn fills() -> Drawing {
     let mut drawing = Drawing::new(720, 290);
     let saddle = shapes::saddle();
     let (three, four, five) = (shapes::plain_cube(2.0), shapes::pyramid(4), shapes::pyramid(5));
