@@ -163,7 +163,7 @@ mod tests {
 
     fn attributes_of(mesh: &MeshBuffers, width: f32) -> Attributes {
         let plan = plan_of(mesh, width);
-        attributes(&plan, &limits(&plan, Verify::Fast).placement)
+        attributes(&plan, &limits(&plan, Verify::Fast).unwrap().placement)
     }
 
     #[test]

@@ -10,8 +10,10 @@ mod wedge;
 use glam::DVec3;
 
 use crate::bvh::{Aabb, Tree};
+use crate::error::Error;
 use crate::faces::{Faces, faces};
 use crate::ids::{Corner, Few};
+use crate::memory;
 use crate::mesh::Mesh;
 use crate::options::{Options, Width};
 use crate::tolerance::BACK_TO_BACK_COSINE;
@@ -48,7 +50,12 @@ pub struct Contacts {
 }
 
 /// Gathers what may rest on a mesh.
-pub fn contacts(view: &View, topology: &Topology, faces: &Faces) -> Contacts {
+///
+/// # Errors
+/// [`Error::OutOfMemory`] where what that needs is not to be had.
+pub fn contacts(view: &View, topology: &Topology, faces: &Faces) -> Result<Contacts, Error> {
+    let borders = open_borders(topology).count() + sheet_rims(topology, faces).count();
+    memory::ask(memory::of_rims(borders + view.mesh.held.len()))?;
     let borders = open_borders(topology).chain(sheet_rims(topology, faces)).map(|border| Rim {
         ends: [border, border.next()].map(|corner| view.position_at(corner)),
         radius: 0.0,
@@ -64,7 +71,7 @@ pub fn contacts(view: &View, topology: &Topology, faces: &Faces) -> Contacts {
     let boxes: Vec<Aabb> =
         rims.iter().map(|rim| around(rim.ends, rim.radius.max(tolerance))).collect();
     let tree = Tree::new(&boxes, &[]);
-    Contacts { rims, tree, tolerance }
+    Ok(Contacts { rims, tree, tolerance })
 }
 
 /// The open borders of a mesh, in mesh units; none of a mesh that breaks a rule.

@@ -131,7 +131,7 @@ mod tests {
         let view = view(&mesh, &Options::default()).unwrap();
         let topology = topology(&view, &weld(&mesh));
         let faces = faces(&view, &topology);
-        let contacts = contacts(&view, &topology, &faces);
+        let contacts = contacts(&view, &topology, &faces).unwrap();
         let edges = edges(&view, &topology, &faces, &contacts);
         edges.hard.iter().map(|edge| edge.skipped).collect()
     }

@@ -68,7 +68,6 @@ mod view;
 mod weld;
 
 pub use error::{Error, Stream};
-pub use memory::most_memory;
 pub use mesh::{Held, Mesh, MeshBuffers, UV_CHANNELS, Uv, UvBuffer};
 pub use options::{ChamferSubmesh, Options, Verify, Width};
 pub use pipeline::{Prepared, chamfer, chamfer_with_progress};

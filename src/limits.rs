@@ -15,6 +15,7 @@ use std::cmp::Ordering;
 use glam::DVec3;
 
 use crate::contacts::Wedge;
+use crate::error::Error;
 use crate::fills;
 use crate::ids::{Corner, Edge, Few, IdVec, Ring, Sector, Triangle};
 use crate::math::{area_vector, unit};
@@ -49,7 +50,9 @@ pub struct Limits {
     pub reason: IdVec<Sector, Reason>,
 }
 
-pub fn limits(plan: &Plan, verify: Verify) -> Limits {
+/// # Errors
+/// [`Error::OutOfMemory`] where what collisions need is not to be had.
+pub fn limits(plan: &Plan, verify: Verify) -> Result<Limits, Error> {
     let room = room::room(plan);
     let mut limits = bounded(plan, &room);
     let bad = bad_elements(plan, &limits.placement);
@@ -58,9 +61,9 @@ pub fn limits(plan: &Plan, verify: Verify) -> Limits {
         grow(plan, &room, &mut limits);
     }
     if verify != Verify::Fast {
-        collisions::resolve(plan, &mut limits);
+        collisions::resolve(plan, &mut limits)?;
     }
-    limits
+    Ok(limits)
 }
 
 /// Every sector at the width that its own triangles leave room for.
@@ -386,7 +389,7 @@ mod tests {
     /// The shares of all sectors that can move.
     fn shares(mesh: &MeshBuffers, width: f32) -> Vec<f64> {
         let plan = plan_of(mesh, width);
-        let limits = limits(&plan, Verify::Fast);
+        let limits = limits(&plan, Verify::Fast).unwrap();
         assert!(bad_elements(&plan, &limits.placement).is_empty());
         let movable = plan.sectors.fans.ids().filter(|&sector| plan.offsets[sector].moves());
         movable.map(|sector| limits.placement.share[sector]).collect()

@@ -51,7 +51,7 @@ pub fn chamfer_with_progress(
     // It may be done again, but what is told never falls.
     let mut told = 0.0_f32;
     let each = Options { verify: Verify::Full, ..*options };
-    memory::check(mesh, Verify::Seen)?;
+    memory::ask(memory::of_looking(mesh))?;
     let mut run = |_: usize, mesh: &Mesh| {
         chamfer_by_stages(mesh, &each, &mut |stage| {
             told = told.max(stage.share_done());
@@ -206,7 +206,11 @@ type Done<'a> = dyn FnMut(Stage) -> Result<(), Error> + 'a;
 fn find_shape(view: &View, done: &mut Done) -> Result<Option<Shape>, Error> {
     let weld = weld(&view.mesh);
     done(Stage::Weld)?;
-    if may_be_hard(view, &weld) { shape(view, weld, done).map(Some) } else { Ok(None) }
+    if !may_be_hard(view, &weld) {
+        return Ok(None);
+    }
+    memory::ask(memory::up_to_edges(&view.mesh))?;
+    shape(view, weld, done).map(Some)
 }
 
 pub(crate) fn shape(view: &View, weld: Weld, done: &mut Done) -> Result<Shape, Error> {
@@ -214,9 +218,10 @@ pub(crate) fn shape(view: &View, weld: Weld, done: &mut Done) -> Result<Shape, E
     done(Stage::Topology)?;
     let faces = faces(view, &topology);
     done(Stage::Faces)?;
-    let contacts = contacts(view, &topology, &faces);
+    let contacts = contacts(view, &topology, &faces)?;
     let edges = edges(view, &topology, &faces, &contacts);
     done(Stage::Edges)?;
+    memory::ask(memory::of_sectors(edges.hard.len()))?;
     let sectors = sectors(view, &topology, &edges, &contacts);
     done(Stage::Sectors)?;
     Ok(Shape {
@@ -243,13 +248,15 @@ fn chamfer_shape(
     done: &mut Done,
 ) -> Result<Chamfered, Error> {
     let Some(shape) = shape else {
+        memory::ask(memory::of_copy(&view.mesh))?;
         let chamfered = unchanged(&view, options.chamfer_submesh);
         done(Stage::Output)?;
         return Ok(chamfered);
     };
+    memory::ask(memory::of_chamfers(&view.mesh, shape.work()))?;
     let plan = plan(view, shape);
     done(Stage::Offsets)?;
-    let limits = limits(&plan, options.verify);
+    let limits = limits(&plan, options.verify)?;
     done(Stage::Limits)?;
     let cuts = strips(&plan, &limits.placement);
     done(Stage::Strips)?;

@@ -6,6 +6,7 @@ use crate::contacts::Contacts;
 use crate::edges::Edges;
 use crate::faces::Faces;
 use crate::ids::{Cluster, IdVec, Sector};
+use crate::memory::Work;
 use crate::offsets::Offset;
 use crate::rests::{Rests, rests};
 use crate::sectors::{Sectors, deep};
@@ -22,6 +23,17 @@ pub struct Shape {
     pub contacts: Arc<Contacts>,
     pub edges: Arc<Edges>,
     pub sectors: Arc<Sectors>,
+}
+
+impl Shape {
+    /// How much there is to do.
+    pub fn work(&self) -> Work {
+        Work {
+            hard_edges: self.edges.hard.len(),
+            seams: self.edges.hard.iter().filter(|edge| edge.seams != 0).count(),
+            sectors: self.sectors.fans.len(),
+        }
+    }
 }
 
 /// The values of the stages up to the offsets.

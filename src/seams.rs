@@ -55,7 +55,7 @@ mod tests {
     fn a_chain_of_edges_between_two_regions_has_one_owner() {
         let cylinder = shapes::cylinder(12);
         let plan = plan_of(&cylinder, 0.05);
-        let placement = limits(&plan, Verify::Fast).placement;
+        let placement = limits(&plan, Verify::Fast).unwrap().placement;
         let cuts = strips(&plan, &placement);
         let owners = owners(&plan, &placement, &cuts, &attributes(&plan, &placement));
         for edge in plan.edges.hard.ids() {

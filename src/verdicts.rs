@@ -109,7 +109,7 @@ mod tests {
 
     fn judge(mesh: &MeshBuffers, width: f32) -> (Vec<EdgeVerdict>, Totals) {
         let plan = plan_of(mesh, width);
-        let limits = limits(&plan, Verify::Fast);
+        let limits = limits(&plan, Verify::Fast).unwrap();
         let verdicts = verdicts(&plan, &limits, &strips::strips(&plan, &limits.placement));
         let totals = totals(&plan, &verdicts);
         (verdicts, totals)

@@ -59,7 +59,7 @@ fn name_corners(
     edge: [DVec3; 2],
 ) {
     let plan = plan_of(mesh, width);
-    let placement = limits(&plan, Verify::Fast).placement;
+    let placement = limits(&plan, Verify::Fast).unwrap().placement;
     for hard in plan.edges.hard.iter() {
         let ends = [hard.sides[0], hard.sides[0].next()].map(|end| plan.view.position_at(end));
         if edge != ends && edge != [ends[1], ends[0]] {

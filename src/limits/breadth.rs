@@ -87,7 +87,7 @@ mod tests {
     /// The faces of an upright box: how much of each stays along each of its sides, as a share.
     fn shares_kept(mesh: &MeshBuffers, options: &Options) -> Vec<f64> {
         let plan = plan_with(mesh, options);
-        let placement = limits(&plan, Verify::Fast).placement;
+        let placement = limits(&plan, Verify::Fast).unwrap().placement;
         let kept = |face: DVec3, axis: DVec3| {
             let on_face = |t: &Triangle| plan.faces.normal[*t].dot(face) > 0.9;
             let corners = || plan.view.triangles().filter(on_face).flat_map(|t| t.corners());
@@ -188,7 +188,7 @@ mod tests {
         let mesh = box_under_grid(cells);
         let options = Options { least_breadth: 0.2, ..asking(1.9, 0.2) };
         let plan = plan_with(&mesh, &options);
-        let placement = limits(&plan, Verify::Fast).placement;
+        let placement = limits(&plan, Verify::Fast).unwrap().placement;
         let lid = plan.view.triangles().filter(|&t| plan.faces.normal[t].y > 0.9);
         let depth = |corner: Corner| placement.position_at(&plan, corner).x.min(9.0);
         lid.flat_map(|t| t.corners()).map(depth).fold(9.0, f64::min)

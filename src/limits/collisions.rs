@@ -10,9 +10,11 @@ use std::sync::OnceLock;
 use glam::DVec3;
 
 use crate::bvh::Kin;
+use crate::error::Error;
 use crate::fills::middle;
 use crate::ids::{Corner, Few, Id, IdVec, Ring, Sector};
 use crate::intersect::{self, Triangle, cutting_pairs};
+use crate::memory;
 use crate::placement::Placement;
 use crate::plan::Plan;
 use crate::report::Reason;
@@ -27,8 +29,12 @@ const GIVE_BACK_ROUNDS: usize = 3;
 
 /// Shrinks the sectors of all that cuts, until nothing does that did not in the source, and gives
 /// back what is safe.
-pub fn resolve(plan: &Plan, limits: &mut Limits) {
+///
+/// # Errors
+/// [`Error::OutOfMemory`] where what searching the parts needs is not to be had.
+pub fn resolve(plan: &Plan, limits: &mut Limits) -> Result<(), Error> {
     let parts = parts(plan);
+    memory::ask(memory::of_collisions(most_searched(plan, &parts)))?;
     // Most parts are clean, and no part has a say in another: so all can be searched at once.
     let cuts = |(): &mut (), part: &Part| part.new_cuts(&limits.placement, &part.elements);
     let cuts = plan.view.threads.map_large(&parts, || (), cuts);
@@ -37,6 +43,14 @@ pub fn resolve(plan: &Plan, limits: &mut Limits) {
         let shrunk = shrink_cuts(plan, limits, part, cuts);
         give_back(plan, limits, part, &shrunk, &free);
     }
+    Ok(())
+}
+
+/// How many triangles are searched at a time, at most: each thread has a part.
+fn most_searched(plan: &Plan, parts: &[Part]) -> usize {
+    let sizes = || parts.iter().map(Part::most_triangles);
+    let largest = sizes().max().unwrap_or(0);
+    sizes().sum::<usize>().min(largest.saturating_mul(plan.view.threads.count()))
 }
 
 /// Shrinks until nothing in a part cuts; tells what has shrunk, in order.
@@ -151,6 +165,15 @@ struct Laid {
 }
 
 impl Part<'_> {
+    fn most_triangles(&self) -> usize {
+        let of = |element: &Element| match element {
+            Element::Surface(_) => 1,
+            Element::Strip(_) => 2,
+            Element::Fill(ring) => self.plan.sectors.ring(*ring).len(),
+        };
+        self.elements.iter().map(of).sum()
+    }
+
     /// The elements that take part in a cut now, if some did before sectors have moved.
     fn cuts_now(
         &self,
