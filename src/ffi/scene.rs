@@ -1,6 +1,6 @@
 //! Meshes that stand together: none loses what another rests on.
 
-use libc::c_void;
+use core::ffi::c_void;
 use std::ops::ControlFlow;
 use std::ptr;
 
