@@ -20,9 +20,16 @@
 //! assert!(result.verdicts.iter().all(|edge| edge.outcome == Outcome::Full));
 //! # Ok::<(), chamfer::Error>(())
 //! ```
+//!
+//! # Features
+//! - `parallel` (default): shares the work on one large mesh out among threads.
+//! - `check`: the checker of whole meshes.
+//! - `shapes`: models made by code, for demonstrations and tests.
 
+#[cfg(feature = "check")]
 pub mod check;
 pub mod see_through;
+#[cfg(feature = "shapes")]
 pub mod shapes;
 
 mod attributes;
