@@ -91,7 +91,7 @@ fn a_call_takes_no_more_memory_than_it_asked_for() {
         for verify in [Verify::Fast, Verify::Full, Verify::Seen] {
             for percent in [0.5, 20.0] {
                 let width = Width::PercentOfExtent(percent);
-                let options = Options { width, verify, ..Options::default() };
+                let options = Options::default().with_width(width).with_verify(verify);
                 let (bound, most) =
                     (most_memory(&mesh.as_mesh(), verify), most_during(&mesh, &options));
                 println!("{name}, {verify:?}, {percent} %: {most} of {bound}");
