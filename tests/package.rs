@@ -244,6 +244,22 @@ fn actions_of_the_workflows_are_pinned() {
     }
 }
 
+/// A test that was renamed would be missed only on that system.
+#[test]
+fn tests_that_the_workflows_name_are_there() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let check = fs::read_to_string(root.join(".github/workflows/check.yml")).unwrap();
+    let named: Vec<&str> =
+        check.split("--test ").skip(1).filter_map(|t| t.split_whitespace().next()).collect();
+    assert!(named.contains(&"determinism") && named.contains(&"streams"), "{named:?}");
+    for name in named {
+        let is_there = [format!("tests/{name}.rs"), format!("tests/{name}/main.rs")]
+            .iter()
+            .any(|path| root.join(path).is_file());
+        assert!(is_there, "check.yml names the test {name}");
+    }
+}
+
 /// Packing needs GNU tar.
 #[cfg(target_os = "linux")]
 mod archive {
