@@ -46,7 +46,7 @@ impl Eyes {
 }
 
 impl Eyes {
-    /// The same with another number of [`threads`](Eyes::threads).
+    /// The same with another number of [`threads`](field@Eyes::threads).
     #[must_use]
     pub const fn with_threads(self, threads: u32) -> Eyes {
         Eyes { threads, ..self }
