@@ -32,7 +32,7 @@ fn main() {
     for (percent, path) in percents.iter().flat_map(|&percent| {
         measure::models(Path::new(&folder)).into_iter().map(move |path| (percent, path))
     }) {
-        let options = Options { width: Width::PercentOfExtent(percent), ..options };
+        let options = options.with_width(Width::PercentOfExtent(percent));
         let file = path.file_name().unwrap_or_default().to_string_lossy();
         match formats::read(&path, &ReadOptions::default()) {
             Err(error) => println!("{percent} % {file}: {error:#}"),

@@ -65,7 +65,7 @@ fn corpus(rounds: usize) {
             let mesh = source.mesh.as_mesh();
             let time = |verify| {
                 let width = Width::PercentOfExtent(CORPUS_PERCENT);
-                let options = Options { width, verify, ..Options::default() };
+                let options = Options::default().with_width(width).with_verify(verify);
                 median(rounds, || drop(black_box(chamfer(&mesh, &options))))
             };
             let [own_fast, own_full] = [Verify::Fast, Verify::Full].map(time);

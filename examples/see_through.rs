@@ -43,10 +43,10 @@ impl Request {
             is_verbose: false,
             is_held: false,
             is_turned: false,
-            judge: Eyes::with_threads(0),
+            judge: Eyes::default().with_threads(0),
             only: None,
             folder: measure::FOLDER.to_owned(),
-            eyes: Eyes::with_threads(0),
+            eyes: Eyes::default().with_threads(0),
             close_ups: None,
             percents: Vec::new(),
         };
@@ -112,11 +112,8 @@ fn look(request: &Request, path: &Path, percent: f32) -> usize {
             return 0;
         }
     };
-    let options = Options {
-        width: Width::PercentOfExtent(percent),
-        verify: request.verify,
-        ..Options::default()
-    };
+    let options =
+        Options::default().with_width(Width::PercentOfExtent(percent)).with_verify(request.verify);
     let meshes: Vec<Mesh> = document.meshes().iter().map(|mesh| mesh.mesh.as_mesh()).collect();
     let objects: Vec<Placed> = document
         .instances()
@@ -129,8 +126,8 @@ fn look(request: &Request, path: &Path, percent: f32) -> usize {
     let (chamfered, rounds) = (scene.meshes, scene.rounds);
     let counts = chamfered.iter().fold([0; 3], |[hard, contact, skipped], mesh| {
         let Totals { hard_edges, skipped: left, .. } = mesh.totals;
-        let held = left[Reason::Contact as usize];
-        [hard + hard_edges, contact + held, skipped + left.iter().sum::<u32>()]
+        let held = left[Reason::Contact];
+        [hard + hard_edges, contact + held, skipped + left.total()]
     });
     let before = scene_triangles(&*document, |mesh| &document.meshes()[mesh].mesh);
     let after = scene_triangles(&*document, |mesh| &chamfered[mesh].mesh);

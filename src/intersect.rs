@@ -25,6 +25,7 @@ pub(crate) type Triangle = [[f32; 3]; 3];
 ///
 /// `positions` are `#vertices by 3`, finite; `triangles` `#triangles by 3`, in range. Only pairs
 /// in one part (`part_of: #triangles`) count.
+#[cfg(feature = "check")]
 pub(crate) fn self_intersections(
     positions: &[[f32; 3]],
     triangles: &[[u32; 3]],

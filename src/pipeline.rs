@@ -1,5 +1,6 @@
 //! The stages in their order: the only file that knows it.
 
+use std::fmt;
 use std::ops::ControlFlow;
 
 use crate::attributes::attributes;
@@ -58,7 +59,7 @@ pub fn chamfer_with_progress(
             progress(told)
         })
     };
-    let eyes = Some(Eyes::with_threads(options.threads));
+    let eyes = Some(Eyes::default().with_threads(options.threads));
     let mut scene = chamfer_scene(&[*mesh], &alone, eyes, &mut run)?;
     Ok(scene.meshes.swap_remove(0))
 }
@@ -129,7 +130,7 @@ pub fn chamfer_by_stages(
 /// let prepared = Prepared::new(&cube.as_mesh())?;
 /// for step in 1..5 {
 ///     let width = Width::Units(step as f32 / 10.0);
-///     let result = prepared.chamfer(&Options { width, ..Options::default() })?;
+///     let result = prepared.chamfer(&Options::default().with_width(width))?;
 ///     assert_eq!(result.width, step as f32 / 10.0);
 /// }
 /// # Ok::<(), chamfer::Error>(())
@@ -139,6 +140,19 @@ pub struct Prepared<'a> {
     mesh: Mesh<'a>,
     /// None where nothing can be hard.
     shape: Option<Shape>,
+}
+
+impl fmt::Debug for Prepared<'_> {
+    /// Of what it knows, only how much: arrays as long as the mesh help nobody.
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let hard_edges = self.shape.as_ref().map_or(0, |shape| shape.edges.hard.len());
+        let triangles = self.mesh.indices.len() / 3;
+        let mut shown = f.debug_struct("Prepared");
+        shown
+            .field("triangles", &triangles)
+            .field("hard_edges", &hard_edges)
+            .finish_non_exhaustive()
+    }
 }
 
 impl<'a> Prepared<'a> {

@@ -27,6 +27,7 @@ pub struct Placed {
 
 /// The meshes of a scene, chamfered.
 #[derive(Clone, Debug, Default)]
+#[non_exhaustive]
 pub struct ChamferedScene {
     /// `#meshes`.
     pub meshes: Vec<Chamfered>,

@@ -72,7 +72,7 @@ proptest! {
         let mesh = assembly(&blocks, turn, is_merged);
         for verify in [Verify::Fast, Verify::Full] {
             let width = Width::PercentOfExtent(percent);
-            let options = Options { width, verify, ..Options::default() };
+            let options = Options::default().with_width(width).with_verify(verify);
             let result = chamfer(&mesh.as_mesh(), &options).unwrap();
             let findings = check(&mesh.as_mesh(), &result, verify);
             prop_assert!(findings.is_sound(), "{verify:?}: {findings}");
@@ -81,7 +81,7 @@ proptest! {
 }
 
 fn chamfered(name: &str, mesh: &MeshBuffers, width: f32) -> Chamfered {
-    let options = Options { width: Width::Units(width), ..Options::default() };
+    let options = Options::default().with_width(Width::Units(width));
     let result = chamfer(&mesh.as_mesh(), &options).unwrap();
     assert_sound(name, &mesh.as_mesh(), &result);
     result

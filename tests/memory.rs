@@ -109,7 +109,7 @@ fn a_call_takes_no_more_memory_than_it_asked_for() {
         for &verify in &all[..if is_large { 2 } else { 3 }] {
             for percent in [0.5, 20.0] {
                 let width = Width::PercentOfExtent(percent);
-                let options = Options { width, verify, ..Options::default() };
+                let options = Options::default().with_width(width).with_verify(verify);
                 let [taken, asked] = taken_and_asked(&mesh, &options);
                 let case = format!("{name}, {verify:?}, {percent} %: {taken} of {asked}");
                 println!("{case}");

@@ -36,7 +36,8 @@ fn percent() -> impl Strategy<Value = f32> {
 }
 
 fn chamfered(mesh: &MeshBuffers, percent: f32, verify: Verify) -> Chamfered {
-    let options = Options { width: Width::PercentOfExtent(percent), verify, ..Options::default() };
+    let options =
+        Options::default().with_width(Width::PercentOfExtent(percent)).with_verify(verify);
     chamfer(&mesh.as_mesh(), &options).unwrap()
 }
 

@@ -38,7 +38,7 @@ fn check_affine(name: &str, before: &Mesh, percent: f32, tally: &mut Tally) {
 
 fn chamfered(mesh: &Mesh, percent: f32) -> Chamfered {
     let width = Width::PercentOfExtent(percent);
-    chamfer(mesh, &Options { width, verify: Verify::Fast, ..Options::default() }).unwrap()
+    chamfer(mesh, &Options::default().with_width(width).with_verify(Verify::Fast)).unwrap()
 }
 
 fn built() -> Vec<(&'static str, MeshBuffers)> {

@@ -254,13 +254,12 @@ impl From<VerifyArg> for Verify {
 impl Args {
     /// What to ask of the core, with this many threads for one mesh.
     pub fn options(&self, threads: u32) -> Options {
-        Options {
-            width: self.width.map_or(Width::PercentOfExtent(self.width_percent), Width::Units),
-            least_breadth: self.least_breadth / 100.0,
-            verify: self.verify.into(),
-            chamfer_submesh: self.chamfer_submesh,
-            threads,
-        }
+        Options::default()
+            .with_width(self.width.map_or(Width::PercentOfExtent(self.width_percent), Width::Units))
+            .with_least_breadth(self.least_breadth / 100.0)
+            .with_verify(self.verify.into())
+            .with_chamfer_submesh(self.chamfer_submesh)
+            .with_threads(threads)
     }
 
     /// What to ask of the readers.
@@ -325,7 +324,7 @@ mod tests {
     #[test]
     fn files_are_looked_at_and_all_else_is_as_the_core_has_it() {
         let options = parse("chamfer a.glb").unwrap().options(1);
-        assert_eq!(options, Options { verify: Verify::Seen, ..Options::default() });
+        assert_eq!(options, Options::default().with_verify(Verify::Seen));
     }
 
     #[test]

@@ -55,7 +55,7 @@ fn write_all(folder: &Path) -> Result<()> {
 fn chamfered((name, before): (&'static str, MeshBuffers)) -> Result<Model> {
     let width = chamfer::Width::PercentOfExtent(WIDTH_PERCENT);
     let start = Instant::now();
-    let after = chamfer(&before.as_mesh(), &Options { width, ..Options::default() });
+    let after = chamfer(&before.as_mesh(), &Options::default().with_width(width));
     let time = start.elapsed();
     Ok(Model { name, before, after: after.with_context(|| name)?, time })
 }

@@ -157,10 +157,11 @@ pub fn chamfer_document(
     progress: &dyn Fn(f32),
 ) -> Result<ChamferedScene> {
     let meshes: Vec<Mesh> = document.meshes().iter().map(|mesh| mesh.mesh.as_mesh()).collect();
-    let eyes = (options.verify == Verify::Seen).then(|| Eyes::with_threads(options.threads));
+    let eyes =
+        (options.verify == Verify::Seen).then(|| Eyes::default().with_threads(options.threads));
     // The scene looks through all meshes together.
     let each = match options.verify {
-        Verify::Seen => Options { verify: Verify::Full, ..*options },
+        Verify::Seen => options.with_verify(Verify::Full),
         _ => *options,
     };
     let total: usize = meshes.iter().map(|mesh| mesh.indices.len()).sum();
@@ -246,7 +247,7 @@ mod tests {
         let note = |shift: f32, width: f32| {
             let mut mesh = chamfer::shapes::plain_cube(1.0);
             mesh.positions.iter_mut().for_each(|position| position[0] += shift);
-            let options = Options { width: chamfer::Width::Units(width), ..Options::default() };
+            let options = Options::default().with_width(chamfer::Width::Units(width));
             let result = chamfer::chamfer(&mesh.as_mesh(), &options).unwrap();
             too_far_out((&SourceMesh { name: "a".into(), mesh }, &result))
         };

@@ -18,7 +18,7 @@ use run::Run;
 const WIDTH: f32 = 0.05;
 
 fn chamfered(before: &MeshBuffers) -> Chamfered {
-    let options = Options { width: Width::Units(WIDTH), ..Options::default() };
+    let options = Options::default().with_width(Width::Units(WIDTH));
     chamfer(&before.as_mesh(), &options).unwrap()
 }
 

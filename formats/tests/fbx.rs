@@ -21,7 +21,7 @@ fn read(text: &str) -> Result<Box<dyn Document + Send>, String> {
 /// The JSON of the .glb that a model becomes, chamfered.
 fn written(text: &str) -> (Value, Vec<u8>) {
     let document = read(text).unwrap();
-    let options = Options { width: Width::PercentOfExtent(10.0), ..Options::default() };
+    let options = Options::default().with_width(Width::PercentOfExtent(10.0));
     let chamfered: Vec<_> = document
         .meshes()
         .iter()

@@ -11,13 +11,9 @@ use crate::oracle::chamfer_and_check;
 /// own.
 const MOST_CHAMFERED: usize = 600;
 
-const OPTIONS: Options = Options {
-    width: Width::PercentOfExtent(2.0),
-    least_breadth: 0.2,
-    verify: Verify::Fast,
-    chamfer_submesh: chamfer::ChamferSubmesh::Owner,
-    threads: 1,
-};
+fn options() -> Options {
+    Options::default().with_width(Width::PercentOfExtent(2.0)).with_verify(Verify::Fast)
+}
 
 /// Reads a file from memory; where that goes well, chamfers it, writes it in every format that it
 /// can have, and reads that again. Nothing is looked for on disk, as the folder does not exist.
@@ -38,7 +34,7 @@ pub fn read_chamfer_write(extension: &str, bytes: &[u8]) {
     if corners > 3 * MOST_CHAMFERED {
         return;
     }
-    let chamfered = document.meshes().iter().map(|mesh| chamfer_and_check(&mesh.mesh, &OPTIONS));
+    let chamfered = document.meshes().iter().map(|mesh| chamfer_and_check(&mesh.mesh, &options()));
     let Some(chamfered) = chamfered.collect::<Option<Vec<Chamfered>>>() else { return };
     let from = row_of(&path).expect("the targets give known extensions");
     for to in FORMATS.iter().filter(|to| from.check_conversion(to).is_ok()) {
@@ -62,7 +58,7 @@ fn check_whole(mesh: &MeshBuffers) {
     let vertices = mesh.positions.len();
     assert_eq!(mesh.normals.len(), vertices);
     assert!(mesh.indices.iter().all(|&index| (index as usize) < vertices));
-    let unmoved = Options { width: Width::Units(0.0), ..OPTIONS };
+    let unmoved = options().with_width(Width::Units(0.0));
     if mesh.indices.len() <= 3 * MOST_CHAMFERED {
         let refused = chamfer(&mesh.as_mesh(), &unmoved).err();
         assert!(refused.is_none(), "{refused:?}");

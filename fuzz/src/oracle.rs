@@ -40,7 +40,7 @@ fn check_same_bytes(one: &Chamfered, other: &Chamfered) {
 }
 
 fn check_width_zero(mesh: &MeshBuffers, options: &Options) {
-    let unmoved = Options { width: Width::Units(0.0), ..*options };
+    let unmoved = options.with_width(Width::Units(0.0));
     let result = chamfer(&mesh.as_mesh(), &unmoved).expect("only the width is another");
     let mut expected = mesh.clone();
     expected.submesh_index_counts = result.mesh.submesh_index_counts.clone();

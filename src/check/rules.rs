@@ -7,6 +7,7 @@ const NAMED_ELEMENTS: usize = 5;
 
 /// Something that a chamfered mesh must keep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Rule {
     /// The source itself can be walked: lengths fit, indices are in range, values finite.
     Source,
@@ -90,6 +91,7 @@ impl Rule {
 
 /// An element of the chamfered mesh that breaks a rule.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Element {
     /// The mesh as a whole.
     Mesh,
@@ -123,6 +125,7 @@ impl fmt::Display for Element {
 
 /// A broken rule.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Breach {
     /// The rule.
     pub rule: Rule,
@@ -134,6 +137,7 @@ pub struct Breach {
 
 /// What can be said of one mesh, welded by bit-equal position.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Facts {
     /// Vertices.
     pub vertices: usize,
@@ -162,6 +166,7 @@ pub struct Facts {
 
 /// How the source's triangles were found in the result.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Matching {
     /// The result tells.
     #[default]
@@ -174,6 +179,7 @@ pub enum Matching {
 
 /// A rule that could not be checked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Unchecked {
     /// The rule.
     pub rule: Rule,
@@ -183,6 +189,7 @@ pub struct Unchecked {
 
 /// What [`check`](super::check) found.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Findings {
     /// The source.
     pub before: Facts,
@@ -275,7 +282,8 @@ const FACT_ROWS: [(&str, Fact); 11] = [
 ];
 
 /// A hard edge of the source with two sides, measured in the result.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct MeasuredEdge {
     /// The source vertices at its ends, on the side of the first triangle that uses it.
     pub vertices: [u32; 2],

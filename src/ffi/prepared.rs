@@ -1,6 +1,6 @@
 //! A mesh that is prepared for several widths.
 
-use libc::c_void;
+use core::ffi::c_void;
 
 use super::guard::caught;
 use super::sized::check_pointer;

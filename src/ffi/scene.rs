@@ -1,6 +1,6 @@
 //! Meshes that stand together: none loses what another rests on.
 
-use libc::c_void;
+use core::ffi::c_void;
 use std::ops::ControlFlow;
 use std::ptr;
 
@@ -123,7 +123,7 @@ fn run(
             chamfer_with_progress(mesh, options, &mut |done| progress(steps.rise_to(done)));
         chamfered.map_err(|error| Failure::from(error).of_mesh(number))
     };
-    let eyes = looks.then(|| Eyes::with_threads(options.threads));
+    let eyes = looks.then(|| Eyes::default().with_threads(options.threads));
     let scene = chamfer_scene(meshes, placed, eyes, &mut chamfer)?;
     if looks && progress(1.0).is_break() {
         return Err(Error::Cancelled.into());

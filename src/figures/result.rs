@@ -155,7 +155,7 @@ fn outcome_paint(outcome: Outcome) -> Paint {
 /// What the verdicts say, with an example of each kind.
 fn write_totals(drawing: &mut Drawing, result: &Chamfered) {
     let totals = &result.totals;
-    let skipped: u32 = totals.skipped.iter().sum();
+    let skipped = totals.skipped.total();
     let mut lines = vec![
         format!("width asked for  {}", result.width),
         format!("hard edges       {}", totals.hard_edges),

@@ -83,7 +83,7 @@ impl Model {
     fn new(path: &Path) -> Model {
         let document = GltfDocument::read(path, &ReadOptions::default()).unwrap();
         let meshes: Vec<_> = document.meshes().iter().map(|mesh| mesh.mesh.clone()).collect();
-        let options = Options { width: Width::PercentOfExtent(PERCENT), ..Options::default() };
+        let options = Options::default().with_width(Width::PercentOfExtent(PERCENT));
         let chamfered: Vec<_> =
             meshes.iter().map(|mesh| chamfer(&mesh.as_mesh(), &options).unwrap()).collect();
         let files = encode(&document, Path::new("after.glb"), &chamfered).unwrap().files;

@@ -1,3 +1,4 @@
+using System;
 using System.Linq;
 using System.Text;
 using Chamfer;
@@ -35,7 +36,7 @@ namespace ChamferEditor
 
         private static void AppendReasons(StringBuilder text, ChamferReport report, EdgeOutcome outcome, string name)
         {
-            for (var reason = EdgeReason.None; reason <= EdgeReason.Contact; reason++)
+            foreach (EdgeReason reason in Enum.GetValues(typeof(EdgeReason)))
             {
                 int count = report.Count(outcome, reason);
                 if (count == 0) { continue; }

@@ -52,7 +52,7 @@ fn table_atlas() -> Result<RgbImage, Box<dyn Error>> {
 
 fn chamfered(mesh: &MeshBuffers, percent: f32) -> Result<Chamfered, chamfer::Error> {
     let width = Width::PercentOfExtent(percent);
-    chamfer(&mesh.as_mesh(), &Options { width, ..Options::default() })
+    chamfer(&mesh.as_mesh(), &Options::default().with_width(width))
 }
 
 fn both<'a>(panel: Panel<'a>, before: &'a MeshBuffers, after: &'a Chamfered) -> Panel<'a> {

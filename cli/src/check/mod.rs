@@ -131,7 +131,7 @@ impl Side<'_> {
 fn expected(before: &dyn Document, args: &CheckArgs) -> Result<Vec<Chamfered>> {
     let Some(width) = args.width() else { return Ok(Vec::new()) };
     let verify = if args.no_see_through { args.verify.into() } else { Verify::Seen };
-    let options = Options { width, verify, ..Options::default() };
+    let options = Options::default().with_width(width).with_verify(verify);
     Ok(chamfer_document(before, &options, &|_| ())?.meshes)
 }
 

@@ -52,7 +52,11 @@ pub fn on_grid(geometry: &MeshGeometry, source: &MeshBuffers, result: &Chamfered
     let Some(positions) = positions.filter(|_| is_fine) else { return OnGrid::No };
     let mesh = MeshBuffers { positions, ..result.mesh.clone() };
     match compare(&source.as_mesh(), &mesh.as_mesh(), Verify::Fast).breaches.is_empty() {
-        true => OnGrid::Yes(Box::new(Chamfered { mesh, ..result.clone() })),
+        true => {
+            let mut result = result.clone();
+            result.mesh = mesh;
+            OnGrid::Yes(Box::new(result))
+        }
         false => OnGrid::No,
     }
 }

@@ -295,7 +295,9 @@ mod tests {
         let triangles = source.indices.len() as u32 / 3;
         let kept = |index| TriangleSource { kind: TriangleKind::Source, index };
         let triangle_sources = (0..triangles).map(kept).collect();
-        let result = Chamfered { mesh, vertex_sources, triangle_sources, ..Chamfered::default() };
+        let mut result = Chamfered::default();
+        (result.mesh, result.vertex_sources) = (mesh, vertex_sources);
+        result.triangle_sources = triangle_sources;
         String::from_utf8(write(&obj, &source, &origin, &result)).unwrap()
     }
 

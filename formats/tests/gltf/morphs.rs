@@ -179,7 +179,7 @@ fn before_and_after(name: &str, percent: f32) -> Option<[Glb; 2]> {
     let path = Path::new(CORPUS).join(name);
     let before = fs::read(&path).ok()?;
     let document = read(&path).unwrap();
-    let options = Options { width: Width::PercentOfExtent(percent), ..Options::default() };
+    let options = Options::default().with_width(Width::PercentOfExtent(percent));
     let meshes = document.meshes().iter();
     let chamfered: Vec<_> =
         meshes.map(|mesh| chamfer(&mesh.mesh.as_mesh(), &options).unwrap()).collect();

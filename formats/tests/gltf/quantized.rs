@@ -37,7 +37,7 @@ fn cube(component: u32, most: i32, normalized: bool) -> Model {
 /// The type of the positions of the chamfered cube, and the notes.
 fn written(model: &Model, name: &str, percent: f32) -> (u64, Vec<String>, bool) {
     let document = model.read(name).unwrap();
-    let options = Options { width: Width::PercentOfExtent(percent), ..Options::default() };
+    let options = Options::default().with_width(Width::PercentOfExtent(percent));
     let results: Vec<Chamfered> =
         vec![chamfer(&document.meshes()[0].mesh.as_mesh(), &options).unwrap()];
     assert_eq!(results[0].totals.chamfered, 12);

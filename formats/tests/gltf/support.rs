@@ -37,12 +37,11 @@ pub fn write(files: &[OutputFile]) {
 fn identity(mesh: &MeshBuffers) -> Chamfered {
     let source = |v| VertexSource::new(Blend::one(v), Blend::one(v));
     let triangle = |index| TriangleSource { kind: TriangleKind::Source, index };
-    Chamfered {
-        mesh: mesh.clone(),
-        vertex_sources: (0..mesh.positions.len() as u32).map(source).collect(),
-        triangle_sources: (0..mesh.indices.len() as u32 / 3).map(triangle).collect(),
-        ..Chamfered::default()
-    }
+    let mut result = Chamfered::default();
+    result.mesh = mesh.clone();
+    result.vertex_sources = (0..mesh.positions.len() as u32).map(source).collect();
+    result.triangle_sources = (0..mesh.indices.len() as u32 / 3).map(triangle).collect();
+    result
 }
 
 pub fn unchanged(document: &GltfDocument) -> Vec<Chamfered> {
