@@ -140,3 +140,47 @@ fn texture_places_of_any_size_stay_finite() {
     let result = chamfered(&wall, Width::Units(0.1));
     assert!(result.mesh.uvs[0].values.iter().all(|value| value.is_finite()));
 }
+
+//  A---------B     the front of a box of 2 by 1 by 1, cut into so many parts, and seen from the
+//  |    M    |     front: its top has one edge from A to B, and lines like A-M-B close the gap. They
+//  |    |    |     have the normal that is given.
+//  '----'----'
+fn box_with_cut_front(parts: usize, normal: [f32; 3]) -> MeshBuffers {
+    let at = |part: usize, y: f32| [2.0 * part as f32 / parts as f32, y, 1.0];
+    let quad = |points: [[f32; 3]; 4], normal| {
+        let [a, b, c, d] = points;
+        [flat([a, b, c], normal), flat([a, c, d], normal)]
+    };
+    let [low, high] = [[0.0; 3], [2.0, 1.0, 0.0]];
+    let (a, b) = (at(0, 1.0), at(parts, 1.0));
+    let (left, right) = ([0.0, 1.0, 0.0], [2.0, 0.0, 0.0]);
+    let mut faces = Vec::new();
+    faces.extend(quad([low, at(0, 0.0), a, left], [-1.0, 0.0, 0.0]));
+    faces.extend(quad([right, high, b, at(parts, 0.0)], [1.0, 0.0, 0.0]));
+    faces.extend(quad([left, a, b, high], UP));
+    faces.extend(quad([low, left, high, right], [0.0, 0.0, -1.0]));
+    faces.push(flat([low, right, at(parts, 0.0)], [0.0, -1.0, 0.0]));
+    for part in 0..parts {
+        let [here, next] = [part, part + 1];
+        let front = [at(here, 0.0), at(next, 0.0), at(next, 1.0), at(here, 1.0)];
+        faces.extend(quad(front, [0.0, 0.0, 1.0]));
+        faces.push(flat([low, at(next, 0.0), at(here, 0.0)], [0.0, -1.0, 0.0]));
+        if part > 0 {
+            faces.push(flat([a, at(here, 1.0), at(next, 1.0)], normal));
+        }
+    }
+    triangles(&faces)
+}
+
+/// Whichever face the lines belong to, all edges get the full width. Below, each part has an edge of
+/// its own; above, too, where the lines are part of the top.
+#[test]
+fn a_line_between_an_edge_and_two_goes_along_with_their_chamfer() {
+    for parts in 1..5 {
+        for (normal, above) in [([0.0, 0.0, 1.0], 1), (UP, parts)] {
+            let result = chamfered(&box_with_cut_front(parts, normal), Width::Units(0.05));
+            assert_eq!(result.totals.chamfered as usize, 10 + parts + above, "{parts} {normal:?}");
+            assert_eq!(result.totals.hard_edges, result.totals.chamfered);
+        }
+    }
+}
