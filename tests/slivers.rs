@@ -2,7 +2,7 @@
 //! mesh is the smallest one of its kind.
 
 use chamfer::check::check;
-use chamfer::{Chamfered, MeshBuffers, Options, Verify, Width, chamfer};
+use chamfer::{Chamfered, MeshBuffers, Options, Outcome, Reason, Verify, Width, chamfer};
 
 const UP: [f32; 3] = [0.0, 1.0, 0.0];
 
@@ -181,6 +181,38 @@ fn a_line_between_an_edge_and_two_goes_along_with_their_chamfer() {
             let result = chamfered(&box_with_cut_front(parts, normal), Width::Units(0.05));
             assert_eq!(result.totals.chamfered as usize, 10 + parts + above, "{parts} {normal:?}");
             assert_eq!(result.totals.hard_edges, result.totals.chamfered);
+        }
+    }
+}
+
+/// A line whose normal is that of no face beside it belongs to none: the edge above stays and says
+/// so, and all others get the full width.
+#[test]
+fn a_line_that_belongs_to_no_face_says_so() {
+    let result = chamfered(&box_with_cut_front(2, [1.0, 0.0, 0.0]), Width::Units(0.05));
+    let skipped = result.verdicts.iter().filter(|verdict| verdict.outcome == Outcome::Skipped);
+    assert!(skipped.clone().all(|verdict| verdict.reason == Reason::NoArea));
+    assert_eq!((skipped.count(), result.totals.chamfered), (3, 12));
+}
+
+//      c
+//     /|\        a card of no thickness, a-b-c on both sides, stands on the edge a-b of two open faces
+//    / | \       that meet there, and so four sides share it
+//   a--+--b
+//   |  d  |
+#[test]
+fn a_card_on_the_edge_of_open_faces_makes_no_edge_more_crowded() {
+    let [a, b, c] = [[0.0; 3], [3.0, 0.0, 0.0], [1.0, 2.0, 1.0]];
+    let (d, e) = ([1.0, -2.0, 0.0], [2.0, 0.0, -3.0]);
+    let normal = |[p, q, r]: [[f32; 3]; 3]| {
+        let [p, q, r] = [p, q, r].map(glam::Vec3::from);
+        (q - p).cross(r - p).normalize().to_array()
+    };
+    for faces in [&[[a, d, b], [a, b, e]][..], &[[a, d, b]], &[[a, b, e]]] {
+        let all = [[a, b, c], [b, a, c]].into_iter().chain(faces.iter().copied());
+        let all: Vec<_> = all.map(|points| flat(points, normal(points))).collect();
+        for percent in [0.0001, 1.0, 5.0] {
+            chamfered(&triangles(&all), Width::PercentOfExtent(percent));
         }
     }
 }
