@@ -144,11 +144,11 @@ fn check_geometry(
     flatness::check_flatness(source, result, origins, findings);
     hardness::check_hard_edges(source, result, origins, findings);
     let solids = Solids::new(source);
+    findings.edges = Ruler::new(surfaces, origins).measure_all(&solids);
     let solids = [&solids, &solids.carried(result, origins)];
     findings.after.non_manifold_edges = solids[1].crowded_edges(result);
     solids::check_sides([source, result], solids, origins, findings);
     if depth != Verify::Fast {
         intersections::check_intersections([source, result], solids, origins, findings);
     }
-    findings.edges = Ruler::new(surfaces, origins).measure_all();
 }

@@ -30,6 +30,9 @@ pub struct Edges {
     pub hard: IdVec<Edge, HardEdge>,
     /// `#corners`: the edge that the half-edge is a side of, where it is to be chamfered.
     pub chamfered_at: IdVec<Corner, Edge>,
+    /// Corners of lines, between the ends of an edge that is chamfered: each stands on that edge, or
+    /// on the line between that and an earlier one.
+    pub spanned: Vec<Corner>,
 }
 
 /// Whether any edge can be hard: at one position at least, normals differ.
@@ -64,7 +67,36 @@ pub fn edges(view: &View, topology: &Topology, faces: &Faces, contacts: &Contact
             chamfered_at[twin] = edge;
         }
     }
-    Edges { hard, chamfered_at }
+    let spanned = spanned(view, topology, faces, &chamfered_at);
+    Edges { hard, chamfered_at, spanned }
+}
+
+/// The corners across from the long sides of lines that reach such a side to a chamfered edge.
+fn spanned(
+    view: &View,
+    topology: &Topology,
+    faces: &Faces,
+    chamfered_at: &IdVec<Corner, Edge>,
+) -> Vec<Corner> {
+    let length =
+        |side: Corner| view.position_at(side).distance_squared(view.position_at(side.next()));
+    let is_long = |side: &Corner| {
+        let shorter = [side.next(), side.prev()].map(length);
+        faces.is_line(side.triangle()) && shorter.iter().all(|other| *other < length(*side))
+    };
+    let ends = topology.twin.ids().filter(|&side| chamfered_at[side].is_some());
+    let mut spanned: Vec<Corner> = ends.filter(is_long).map(Corner::prev).collect();
+    let mut done = 0;
+    while done < spanned.len() {
+        let sides = [spanned[done], spanned[done].prev()].map(|side| topology.twin[side]);
+        // A line across a short side of this one spans from here to one of its ends.
+        let behind = sides
+            .into_iter()
+            .filter(|side| side.is_some() && chamfered_at[*side].is_none() && is_long(side));
+        spanned.extend(behind.map(Corner::prev));
+        done += 1;
+    }
+    spanned
 }
 
 /// What keeps a hard edge from being chamfered whatever the width.

@@ -102,7 +102,44 @@ pub fn offsets(
             offsets[sector] = offset;
         }
     }
+    for &corner in &sectors.spanned {
+        let fan: Vec<Corner> = sectors.corners(topology, sectors.sector_of[corner]).collect();
+        if let Some(offset) = span(view, faces, sectors, &offsets, &fan) {
+            offsets[sectors.sector_of[corner]] = offset;
+        }
+    }
     offsets
+}
+
+/// Goes along with the ends of the line that the first corner of a flat fan is in: the line closes
+/// the gap between a chamfered edge and two that meet on it, and stays a line.
+fn span(
+    view: &View,
+    faces: &Faces,
+    sectors: &Sectors,
+    offsets: &IdVec<Sector, Offset>,
+    fan: &[Corner],
+) -> Option<Offset> {
+    let corner = fan[0];
+    let ends = [corner.next(), corner.prev()];
+    let vector = |end: Corner| {
+        let sector = sectors.sector_of[end];
+        if sector.is_none() { DVec3::ZERO } else { offsets[sector].vector }
+    };
+    let at = view.position_at(corner);
+    let distance = |end: Corner| view.position_at(end).distance(at);
+    let share = distance(ends[0]) / (distance(ends[0]) + distance(ends[1]));
+    let vector = vector(ends[0]).lerp(vector(ends[1]), share);
+    let normal = faces.normal[corner.triangle()];
+    let is_level = |corner: &Corner| faces.normal[corner.triangle()].dot(normal) > LEVEL_COSINE;
+    let within = |&corner: &Corner| {
+        let foot = locate(view, corner, at, vector)?;
+        Some(Offset { vector, within: corner, foot, is_capped: false })
+    };
+    let inside = |offset: &Offset| offset.foot.along[0].min(offset.foot.along[1]);
+    let faces = fan.iter().filter(|corner| !faces.is_line(corner.triangle())).filter_map(within);
+    let best = faces.max_by(|one, other| inside(one).total_cmp(&inside(other)));
+    best.filter(|_| vector.is_finite() && fan.iter().all(is_level))
 }
 
 /// A corner of a fan, unfolded into the plane.

@@ -5,9 +5,9 @@
 
 use glam::DVec3;
 
-use crate::breaks::same_chart;
+use crate::breaks::{is_hard, same_chart};
 use crate::foot::{Foot, locate};
-use crate::ids::{Corner, Sector, Vertex};
+use crate::ids::{Corner, Few, Sector, Triangle, Vertex};
 use crate::math::unit;
 use crate::plan::Plan;
 use crate::report::Blend;
@@ -72,12 +72,40 @@ fn nearest_own(
     let middle = corners().find(|(_, corner)| *corner == within)?.0;
     let is_own = |(_, corner): &(usize, Corner)| {
         let own = plan.view.vertex_at(*corner);
-        let triangle = corner.triangle();
-        let has_plane = plan.faces.normal[triangle] != DVec3::ZERO && !plan.faces.is_line(triangle);
-        has_plane && (own == vertex || agree(vertex, own))
+        has_plane(plan, corner.triangle()) && (own == vertex || agree(vertex, own))
     };
     let nearest = corners().filter(is_own).min_by_key(|(step, _)| step.abs_diff(middle));
     nearest.map(|(_, corner)| corner)
+}
+
+/// The normal of one of a sector's corners where a blend takes it: what the surface has there. But
+/// where the way leads over a face beyond the corner's own, as it does from a line, faces that have
+/// one normal all over keep it.
+pub fn moved_normal(plan: &Plan, sector: Sector, corner: Corner, surface: &Blend) -> DVec3 {
+    let own = plan.view.normal_at(corner);
+    let normal = blended_normal(plan, surface);
+    let leaves = [corner, plan.offsets[sector].within]
+        .into_iter()
+        .any(|corner| !has_plane(plan, corner.triangle()));
+    if normal != own && leaves && is_even(plan, sector, corner) { own } else { normal }
+}
+
+/// Whether a triangle is more than a line.
+fn has_plane(plan: &Plan, triangle: Triangle) -> bool {
+    plan.faces.normal[triangle] != DVec3::ZERO && !plan.faces.is_line(triangle)
+}
+
+/// Whether the triangles around one of a sector's corners, from one hard edge to the next, have the
+/// very same normal at all their corners.
+fn is_even(plan: &Plan, sector: Sector, corner: Corner) -> bool {
+    let normal = plan.view.normal_at(corner);
+    let is_even = |corner: &Corner| {
+        let corners = corner.triangle().corners();
+        corners.into_iter().all(|corner| plan.view.normal_at(corner) == normal)
+    };
+    let corners: Few<Corner> = plan.sectors.corners(&plan.topology, sector).collect();
+    let mut fans = corners.chunk_by(|&one, &other| !is_hard(&plan.view, other, one.prev()));
+    fans.find(|fan| fan.contains(&corner)).is_some_and(|fan| fan.iter().all(is_even))
 }
 
 /// The unit normal of a blend of source vertices; exactly theirs where they are all equal.

@@ -7,7 +7,7 @@
 #[path = "support/boxes.rs"]
 mod boxes;
 
-use chamfer::check::{assert_sound, check};
+use chamfer::check::{assert_sound, check, compare};
 use chamfer::{Chamfered, MeshBuffers, Options, Reason, Verify, Width, chamfer};
 use glam::{DMat3, DVec3};
 use proptest::collection::vec;
@@ -124,6 +124,10 @@ fn a_box_that_is_there_twice_is_chamfered_twice() {
             points
         });
         assert_eq!(first, second, "both skins follow");
+        let edges = compare(&mesh.as_mesh(), &result.mesh.as_mesh(), Verify::Fast).edges;
+        assert_eq!(edges.len(), 24);
+        let is_measured = |width: f32| (width - 0.02).abs() < 1e-6;
+        assert!(edges.iter().all(|edge| edge.widths().into_iter().all(is_measured)), "{edges:?}");
     }
 }
 

@@ -161,11 +161,6 @@ impl Streams {
         self.columns.iter().all(|column| one.of(column) == other.of(column))
     }
 
-    /// The row of a place on the source surface: its normal, and all else in its chart.
-    pub fn moved(&self, plan: &Plan, position: DVec3, [surface, chart]: [Blend; 2]) -> Row {
-        self.blended(plan, (position, blended_normal(plan, &surface)), &chart)
-    }
-
     /// Moves a source vertex.
     pub fn set(&mut self, vertex: Vertex, row: &Row, [surface, chart]: [Blend; 2]) {
         for column in &self.columns {
@@ -242,7 +237,7 @@ impl Streams {
     }
 
     /// A row at a position, with a normal, and all else blended in a chart.
-    fn blended(&self, plan: &Plan, (position, normal): (DVec3, DVec3), chart: &Blend) -> Row {
+    pub fn blended(&self, plan: &Plan, (position, normal): (DVec3, DVec3), chart: &Blend) -> Row {
         let mut row = Row([0.0; MOST_VALUES]);
         row.0[POSITION..NORMAL].copy_from_slice(&position.as_vec3().to_array());
         row.0[NORMAL..NORMAL + 3].copy_from_slice(&normal.as_vec3().to_array());
@@ -319,7 +314,9 @@ fn blend_value(blend: &Blend, values: [f32; 3]) -> f32 {
         return values[0];
     }
     let terms = [0, 1, 2].map(|k| f64::from(blend.weights[k]) * f64::from(values[k]));
-    (terms[0] + terms[1] + terms[2]) as f32
+    // Past a triangle with values of all sizes a blend may leave single precision.
+    let blended = terms[0] + terms[1] + terms[2];
+    blended.clamp(f32::MIN.into(), f32::MAX.into()) as f32
 }
 
 /// A blend may reach past its triangle: it stays within what the source holds.

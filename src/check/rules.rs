@@ -203,7 +203,8 @@ pub struct Findings {
     pub matching: Matching,
     /// Triangles of the source that were not found.
     pub lost: usize,
-    /// The hard edges of the source with two sides whose triangles were found, measured.
+    /// The hard edges of the source whose two sides were found, measured. Where several pairs of
+    /// sides lie on one edge, as of a skin that is there twice, each is one.
     pub edges: Vec<MeasuredEdge>,
 }
 

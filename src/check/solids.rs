@@ -77,6 +77,30 @@ impl Solids {
         found
     }
 
+    /// The sides of an edge in pairs, each one that runs forward with one that runs backward. Of more
+    /// than two these are the ones that have a solid between them, of one part first; none of very
+    /// many.
+    pub fn pairs<'s>(
+        &self,
+        surface: &Surface,
+        (forward, backward): (&'s [HalfEdge], &'s [HalfEdge]),
+    ) -> Vec<[&'s HalfEdge; 2]> {
+        if let ([one], [other]) = (forward, backward) {
+            return vec![[one, other]];
+        }
+        if forward.len() + backward.len() > MOST_SIDES {
+            return Vec::new();
+        }
+        let behind = behind_each_other(surface, (forward, backward), &self.of);
+        let mut left: Vec<&HalfEdge> = backward.iter().collect();
+        let pair = |one: &'s HalfEdge| {
+            let is_behind = |other: &&HalfEdge| behind.contains(&[triangle(one), triangle(other)]);
+            let place = left.iter().position(is_behind)?;
+            Some([one, left.remove(place)])
+        };
+        forward.iter().filter_map(pair).collect()
+    }
+
     /// How many sides an edge has in each of its solids: their numbers, sorted, and the counts.
     pub fn sides(&self, (forward, backward): &(&[HalfEdge], &[HalfEdge])) -> Vec<(u32, usize)> {
         let mut all: Vec<u32> = forward.iter().chain(*backward).map(|h| self.of_side(h)).collect();

@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::origins::Origins;
 use super::rules::MeasuredEdge;
+use super::solids::Solids;
 use super::surface::{HalfEdge, Surface};
 
 /// The corners of a source mesh in the result.
@@ -20,15 +21,20 @@ impl<'a> Ruler<'a> {
         Ruler { before, after, corner_after }
     }
 
-    /// The hard edges with exactly two sides, in the order of their first corners.
-    pub fn measure_all(&self) -> Vec<MeasuredEdge> {
+    /// The hard edges, in the order of their first corners. Where more than two sides meet, as
+    /// where a skin is there twice, an edge for each pair of sides with a solid between them.
+    pub fn measure_all(&self, solids: &Solids) -> Vec<MeasuredEdge> {
         let mut edges = Vec::new();
         for edge in self.before.edges().filter(|edge| self.before.is_hard(edge)) {
-            let ([forward], [backward]) = edge else { continue };
-            let first = forward.corners[0].min(backward.corners[0]);
-            let (one, other) =
-                if first == forward.corners[0] { (forward, backward) } else { (backward, forward) };
-            edges.extend(self.measure(one, other).map(|measured| (first, measured)));
+            for [forward, backward] in solids.pairs(self.before, edge) {
+                if self.before.is_soft(forward, backward) {
+                    continue;
+                }
+                let mut sides = [forward, backward];
+                sides.sort_unstable_by_key(|side| side.corners[0]);
+                let measured = self.measure(sides[0], sides[1]);
+                edges.extend(measured.map(|measured| (sides[0].corners[0], measured)));
+            }
         }
         edges.sort_unstable_by_key(|(first, _)| *first);
         edges.into_iter().map(|(_, measured)| measured).collect()
