@@ -27,7 +27,7 @@ fn flat(points: [[f32; 3]; 3], normal: [f32; 3]) -> [([f32; 3], [f32; 3]); 3] {
 #[track_caller]
 fn chamfered(mesh: &MeshBuffers, width: Width) -> Chamfered {
     let [_, full] = [Verify::Fast, Verify::Full].map(|verify| {
-        let options = Options { width, verify, ..Options::default() };
+        let options = Options::default().with_width(width).with_verify(verify);
         let result = chamfer(&mesh.as_mesh(), &options).unwrap();
         let findings = check(&mesh.as_mesh(), &result, verify);
         assert!(findings.is_sound(), "{verify:?}: {findings}");
