@@ -14,7 +14,7 @@ use crate::ids::{Corner, Few, IdVec, Sector, Vertex};
 use crate::placement::Placement;
 use crate::plan::Plan;
 use crate::report::Blend;
-use crate::resample::{chart_foot, moved_normal, surface_foot};
+use crate::resample::{blended_normal, chart_foot, surface_foot};
 
 use streams::Row;
 pub use streams::{Streams, Taken};
@@ -82,7 +82,7 @@ fn move_sector(
         attributes.vertex_at[corner] = known.unwrap_or_else(|| {
             let streams = &mut attributes.streams;
             let blends = blends(plan, sector, corner, placement.share[sector]);
-            let row = row(plan, placement, streams, (sector, corner), blends);
+            let row = row(plan, placement, streams, sector, blends);
             let output = twin_of(plan, streams, &seen, vertex, &row).unwrap_or_else(|| {
                 if taken[vertex] {
                     parted.push((sector, corner));
@@ -127,7 +127,7 @@ fn add_parted(plan: &Plan, placement: &Placement, parted: &[Parted], attributes:
     let streams = &mut attributes.streams;
     let add = |&(sector, corner): &Parted| {
         let blends = blends(plan, sector, corner, placement.share[sector]);
-        let row = row(plan, placement, streams, (sector, corner), blends);
+        let row = row(plan, placement, streams, sector, blends);
         streams.add_moved(plan.topology.cluster_at[corner], &row, blends)
     };
     let added: Vec<u32> = parted.iter().map(add).collect();
@@ -143,10 +143,10 @@ fn row(
     plan: &Plan,
     placement: &Placement,
     streams: &Streams,
-    (sector, corner): Parted,
+    sector: Sector,
     [surface, chart]: [Blend; 2],
 ) -> Row {
-    let normal = moved_normal(plan, sector, corner, &surface);
+    let normal = blended_normal(plan, &surface);
     streams.blended(plan, (placement.point[sector], normal), &chart)
 }
 

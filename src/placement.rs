@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::ids::{Corner, IdVec, Sector};
 use crate::plan::Plan;
-use crate::resample::{moved_normal, surface_foot};
+use crate::resample::{blended_normal, surface_foot};
 
 /// Positions as they will be stored, so that what is checked is what comes out.
 #[derive(Clone)]
@@ -80,8 +80,7 @@ fn normals_at(plan: &Plan, sector: Sector, share: f64, has_moved: bool) -> [DVec
         if !has_moved {
             plan.view.normal_at(corner)
         } else {
-            let surface = surface_foot(plan, sector, corner).blend(&plan.view, share);
-            moved_normal(plan, sector, corner, &surface)
+            blended_normal(plan, &surface_foot(plan, sector, corner).blend(&plan.view, share))
         }
     };
     let first = at(fan.first);

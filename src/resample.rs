@@ -21,7 +21,13 @@ pub fn surface_foot(plan: &Plan, sector: Sector, corner: Corner) -> Foot {
         let (one, other) = (plan.view.normal(one), plan.view.normal(other));
         one.dot(other) >= HARD_COSINE * (one.length_squared() * other.length_squared()).sqrt()
     };
-    foot(plan, sector, corner, agree).unwrap_or(plan.offsets[sector].foot)
+    let usual = foot(plan, sector, corner, agree).unwrap_or(plan.offsets[sector].foot);
+    let normal = plan.view.normal_at(corner);
+    let mut corners = usual.corner.triangle().corners().into_iter();
+    if corners.all(|corner| plan.view.normal_at(corner) == normal) {
+        return usual;
+    }
+    even_foot(plan, sector, corner).unwrap_or(usual)
 }
 
 /// As [`surface_foot`], within the corner's own texture chart; where that has no plane, the corner
@@ -78,16 +84,23 @@ fn nearest_own(
     nearest.map(|(_, corner)| corner)
 }
 
-/// The normal of one of a sector's corners where a blend takes it: what the surface has there. But
-/// where the way leads over a face beyond the corner's own, as it does from a line, faces that have
-/// one normal all over keep it.
-pub fn moved_normal(plan: &Plan, sector: Sector, corner: Corner, surface: &Blend) -> DVec3 {
-    let own = plan.view.normal_at(corner);
-    let normal = blended_normal(plan, surface);
-    let leaves = [corner, plan.offsets[sector].within]
-        .into_iter()
-        .any(|corner| !has_plane(plan, corner.triangle()));
-    if normal != own && leaves && is_even(plan, sector, corner) { own } else { normal }
+/// The way over a face of the corner's own where the offset leads over one beyond it, as it does
+/// from a line, and the faces around the corner have one normal all over: they keep it. None where
+/// the offset leads out of that face's plane, as then it is not the place that the vertex comes to.
+fn even_foot(plan: &Plan, sector: Sector, corner: Corner) -> Option<Foot> {
+    let offset = &plan.offsets[sector];
+    let mut ways = [corner, offset.within].into_iter();
+    let leaves = ways.any(|corner| !has_plane(plan, corner.triangle()));
+    if !leaves || !is_even(plan, sector, corner) {
+        return None;
+    }
+    let is_same = |one, other| plan.view.normal(one) == plan.view.normal(other);
+    let own = nearest_own(plan, sector, plan.view.vertex_at(corner), &is_same)?;
+    let rise = offset.vector.dot(plan.faces.normal[own.triangle()]).abs();
+    if rise > plan.view.resolution {
+        return None;
+    }
+    locate(&plan.view, own, plan.view.position_at(own), offset.vector)
 }
 
 /// Whether a triangle is more than a line.

@@ -78,29 +78,6 @@ fn what_is_flat_keeps_its_normal_where_a_line_leads_away_from_it() {
     assert_eq!(result.totals.narrowed + result.totals.chamfered, 2);
 }
 
-//  D
-//  |               Two faces meet at the edge A-D, and of one of them there is only a part. Between
-//  B               them lie two lines, A-B-C and A-B-D, whose normals are those of neither: they move
-//  |               with the corner A, and have no plane to be shaded by.
-//  C
-//  |. .
-//  A-----
-#[test]
-fn lines_without_a_plane_keep_their_normal() {
-    let (a, d, c, b) = ([0.0; 3], [0.0, 0.0, 5.0], [0.0, 0.0, 2.0], [1e-6, 0.0, 3.0]);
-    let (e, g) = ([2.0, 0.0, 0.0], [0.0, 2.0, 0.0]);
-    let between = [-0.707_106_77, -0.707_106_77, 0.0];
-    let corner = triangles(&[
-        flat([a, g, e], [0.0, 0.0, -1.0]),
-        flat([d, a, e], [0.0, -1.0, 0.0]),
-        flat([c, g, a], [-1.0, 0.0, 0.0]),
-        flat([a, b, c], between),
-        flat([b, a, d], between),
-    ]);
-    let result = chamfered(&corner, Width::Units(0.1));
-    assert_eq!(result.totals.narrowed + result.totals.chamfered, 2);
-}
-
 //  A-B ---------------- C     the upper border of a wall, with a line along it: C is a rounding
 //  |                    |     nearer than A and B. Where A is pulled onto B, nothing is left of it.
 //  |                    |
