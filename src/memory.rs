@@ -49,6 +49,9 @@ const BYTES_PER_LAID: u64 = 448;
 /// on the picture that each thread draws.
 const BYTES_PER_CORNER_SEEN: u64 = 1408;
 
+/// The same for each corner of each object of a scene, whose meshes have asked for their own.
+const BYTES_PER_CORNER_IN_SCENE: u64 = 1024;
+
 /// Depths of a few pictures of the default size for each thread.
 const BYTES_OF_PICTURES: u64 = (16 << 20) * Eyes::MOST_THREADS as u64;
 
@@ -128,6 +131,11 @@ pub fn of_looking(mesh: &Mesh) -> u64 {
     BYTES_OF_PICTURES + mesh.indices.len() as u64 * BYTES_PER_CORNER_SEEN
 }
 
+/// Looking at a scene of so many corners.
+pub fn of_scene(corners: u64) -> u64 {
+    corners.saturating_mul(BYTES_PER_CORNER_IN_SCENE)
+}
+
 /// Of the streams that the mesh has.
 fn bytes_per_vertex(mesh: &Mesh) -> u64 {
     let fours = u64::from(!mesh.tangents.is_empty()) + u64::from(!mesh.colors.is_empty());
@@ -140,6 +148,7 @@ fn bytes_per_vertex(mesh: &Mesh) -> u64 {
 /// # Errors
 /// [`Error::OutOfMemory`] where it is not to be had.
 pub fn ask(bytes: u64) -> Result<(), Error> {
-    let bytes = usize::try_from(bytes + BYTES_PER_CALL).map_err(|_| Error::OutOfMemory)?;
+    let bytes =
+        usize::try_from(bytes.saturating_add(BYTES_PER_CALL)).map_err(|_| Error::OutOfMemory)?;
     Vec::<u8>::new().try_reserve_exact(bytes).map_err(|_| Error::OutOfMemory)
 }

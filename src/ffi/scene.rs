@@ -10,15 +10,12 @@ use super::overlap;
 use super::status::Failure;
 use super::types::*;
 use super::{chamfer_result, reporting};
+use crate::memory;
 use crate::see_through::Eyes;
 use crate::view::view;
 use crate::{
     Chamfered, Error, Mesh, Options, Placed, Verify, chamfer_scene, chamfer_with_progress,
 };
-
-/// With [`Verify::Seen`], for each corner of each object: the triangles before and after, where all
-/// edges are hard, and what is compared and drawn of them.
-const BYTES_PER_SEEN_CORNER: u64 = 1024;
 
 /// With [`Verify::Seen`], the first pass over all meshes is about so much of the work.
 const SHARE_BEFORE_LOOKING: f32 = 0.5;
@@ -174,7 +171,5 @@ fn place(number: usize, object: &chamfer_object, meshes: &[Mesh]) -> Result<Plac
 /// in there would end the host's process. Each mesh asks for its own when its turn comes.
 fn check_memory(meshes: &[Mesh], placed: &[Placed]) -> Result<(), Failure> {
     let corners = placed.iter().map(|object| meshes[object.mesh].indices.len() as u64);
-    let bytes = corners.sum::<u64>().saturating_mul(BYTES_PER_SEEN_CORNER);
-    let bytes = usize::try_from(bytes).map_err(|_| Error::OutOfMemory)?;
-    Ok(Vec::<u8>::new().try_reserve_exact(bytes).map_err(|_| Error::OutOfMemory)?)
+    Ok(memory::ask(memory::of_scene(corners.sum()))?)
 }

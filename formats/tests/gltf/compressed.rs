@@ -5,12 +5,9 @@ use std::path::Path;
 
 use chamfer::{MeshBuffers, shapes};
 use chamfer_formats::{Document, encode};
-use draco_core::{
-    DataType, EncoderBuffer, EncoderOptions, GeometryAttributeType, Mesh, MeshEncoder,
-    PointAttribute,
-};
 use serde_json::{Value, json};
 
+use crate::draco::draco_bytes;
 use crate::support::{Model, all_grown, folder, json_of, read, unchanged};
 
 /// A cube with normals and texture coordinates, as a model whose views are its streams.
@@ -62,36 +59,6 @@ fn meshopt_cube() -> (Model, MeshBuffers) {
         {"byteLength": 4000, "extensions": {"EXT_meshopt_compression": {"fallback": true}}},
     ]);
     (model, mesh)
-}
-
-fn draco_attribute(kind: GeometryAttributeType, values: &[f32], size: usize) -> PointAttribute {
-    let mut attribute = PointAttribute::new();
-    attribute.init(kind, size as u8, DataType::Float32, false, values.len() / size);
-    let bytes: Vec<u8> = values.iter().flat_map(|number| number.to_le_bytes()).collect();
-    attribute.buffer_mut().write(0, &bytes);
-    attribute
-}
-
-fn draco_bytes(mesh: &MeshBuffers, speed: i32) -> Vec<u8> {
-    let mut packed = Mesh::new();
-    packed.set_num_points(mesh.positions.len());
-    let kinds = [
-        (GeometryAttributeType::Position, mesh.positions.as_flattened(), 3),
-        (GeometryAttributeType::Normal, mesh.normals.as_flattened(), 3),
-        (GeometryAttributeType::TexCoord, &mesh.uvs[0].values, 2),
-    ];
-    for (kind, values, size) in kinds {
-        packed.add_attribute(draco_attribute(kind, values, size));
-    }
-    packed.set_num_faces(mesh.indices.len() / 3);
-    packed.set_faces_from_flat_indices(&mesh.indices);
-    let mut encoder = MeshEncoder::new();
-    encoder.set_mesh(packed);
-    let mut options = EncoderOptions::new();
-    options.set_global_int("encoding_speed", speed);
-    let mut buffer = EncoderBuffer::new();
-    encoder.encode(&options, &mut buffer).unwrap();
-    buffer.data().to_vec()
 }
 
 /// The cube as two primitives of one Draco mesh, in accessors without views.

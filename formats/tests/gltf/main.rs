@@ -3,6 +3,8 @@
 mod compressed;
 mod corpus;
 mod damage;
+#[path = "../support/draco.rs"]
+mod draco;
 mod features;
 mod files;
 mod followers;

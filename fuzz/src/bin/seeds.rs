@@ -1,18 +1,18 @@
 //! Writes the seeds that every run starts from, a folder for each target: noise of several lengths,
 //! which the targets make their meshes and files of, and files as bytes.
 
+#[path = "../../../formats/tests/support/draco.rs"]
+mod draco;
+
 use std::path::Path;
 use std::{env, fs, io};
 
-use chamfer::{MeshBuffers, shapes};
+use chamfer::shapes;
 use chamfer_fuzz::compressed::HEAD;
 use chamfer_fuzz::cube_fbx::cube_fbx;
 use chamfer_fuzz::gltf::{rich_binary, rich_json, wrap_in_chunks, wrap_in_json};
 use chamfer_fuzz::noise::Noise;
-use draco_core::{
-    DataType, EncoderBuffer, EncoderOptions, GeometryAttributeType, Mesh, MeshEncoder,
-    PointAttribute,
-};
+use draco::draco_bytes;
 
 const TARGETS: [&str; 6] = ["core", "abi", "gltf", "obj_stl", "compressed", "fbx"];
 
@@ -52,31 +52,6 @@ fn compressed() -> Vec<Vec<u8>> {
     let positions = [&[1, 0, 3, 0, vertices, 0], &packed[..]].concat();
     let packed = meshopt::encode_index_buffer(&cube.indices, cube.positions.len());
     let triangles = [&[1, 1, 0, 0, corners, 0], &packed.expect("it fits")[..]].concat();
-    let draco = |speed| [&[0; HEAD], &draco(&cube, speed)[..]].concat();
+    let draco = |speed| [&[0; HEAD], &draco_bytes(&cube, speed)[..]].concat();
     vec![positions, triangles, draco(0), draco(10)]
-}
-
-fn draco(mesh: &MeshBuffers, speed: i32) -> Vec<u8> {
-    let mut packed = Mesh::new();
-    packed.set_num_points(mesh.positions.len());
-    let streams = [
-        (GeometryAttributeType::Position, &mesh.positions),
-        (GeometryAttributeType::Normal, &mesh.normals),
-    ];
-    for (kind, values) in streams {
-        let mut attribute = PointAttribute::new();
-        attribute.init(kind, 3, DataType::Float32, false, values.len());
-        let bytes: Vec<u8> = values.as_flattened().iter().flat_map(|v| v.to_le_bytes()).collect();
-        attribute.buffer_mut().write(0, &bytes);
-        packed.add_attribute(attribute);
-    }
-    packed.set_num_faces(mesh.indices.len() / 3);
-    packed.set_faces_from_flat_indices(&mesh.indices);
-    let mut encoder = MeshEncoder::new();
-    encoder.set_mesh(packed);
-    let mut options = EncoderOptions::new();
-    options.set_global_int("encoding_speed", speed);
-    let mut buffer = EncoderBuffer::new();
-    encoder.encode(&options, &mut buffer).expect("a cube can be encoded");
-    buffer.data().to_vec()
 }
