@@ -6,15 +6,18 @@
 
 mod collapsed;
 mod index;
-pub mod middles;
 mod streams;
 
 use crate::breaks::same_chart;
+use crate::chamfers::Chamfers;
 use crate::ids::{Corner, Few, IdVec, Sector, Vertex};
 use crate::placement::Placement;
-use crate::plan::Plan;
 use crate::report::Blend;
-use crate::resample::{blended_normal, chart_foot, surface_foot};
+use crate::resample::blended_normal;
+use crate::sectors::Sectors;
+use crate::surface::Surface;
+use crate::view::View;
+use crate::weld::Weld;
 
 use streams::Row;
 pub use streams::{Streams, Taken};
@@ -27,36 +30,48 @@ pub struct Attributes {
     pub vertex_at: IdVec<Corner, u32>,
 }
 
-pub fn attributes(plan: &Plan, placement: &Placement) -> Attributes {
-    let vertex_at = plan.view.mesh.indices.to_vec();
+pub fn attributes(
+    surface: Surface,
+    weld: &Weld,
+    chamfers: Chamfers,
+    placement: &Placement,
+) -> Attributes {
+    let vertex_at = surface.view.mesh.indices.to_vec();
     // At a seam both far vertices of a strip are copied.
-    let copies = 2 * plan.edges.hard.iter().filter(|edge| edge.seams != 0).count();
+    let copies = 2 * chamfers.edges.hard.iter().filter(|edge| edge.seams != 0).count();
     let mut attributes = Attributes {
-        streams: Streams::of_source(&plan.view, plan.sectors.fans.len(), copies),
+        streams: Streams::of_source(surface.view, chamfers.sectors.fans.len(), copies),
         vertex_at: IdVec::from_vec(vertex_at),
     };
-    let (mut taken, mut parted) = (staying(plan, placement), Vec::new());
-    let moved = || plan.sectors.fans.ids().filter(|&sector| placement.has_moved(plan, sector));
+    let (mut taken, mut parted) = (staying(surface, chamfers.sectors, placement), Vec::new());
+    let moved = || chamfers.sectors.fans.ids().filter(|&sector| placement.has_moved(sector));
     for sector in moved() {
-        move_sector(plan, placement, sector, (&mut taken, &mut parted), &mut attributes);
+        move_sector(
+            surface,
+            chamfers.sectors,
+            placement,
+            sector,
+            (&mut taken, &mut parted),
+            &mut attributes,
+        );
     }
-    attributes.streams.look_up(plan);
-    add_parted(plan, placement, &parted, &mut attributes);
+    attributes.streams.look_up(weld);
+    add_parted(surface, placement, &parted, &mut attributes);
     if moved().next().is_some() {
-        collapsed::close(plan, &mut attributes.vertex_at);
+        collapsed::close(surface.view, surface.topology, &mut attributes.vertex_at);
     }
     attributes
 }
 
 /// `#vertices`: whether some corner stays where it was, and so needs the source vertex.
-fn staying(plan: &Plan, placement: &Placement) -> IdVec<Vertex, bool> {
-    let mut taken = IdVec::filled(false, plan.view.mesh.positions.len());
-    for corner in plan.sectors.sector_of.ids() {
-        let sector = plan.sectors.sector_of[corner];
+fn staying(surface: Surface, sectors: &Sectors, placement: &Placement) -> IdVec<Vertex, bool> {
+    let mut taken = IdVec::filled(false, surface.view.mesh.positions.len());
+    for corner in sectors.sector_of.ids() {
+        let sector = sectors.sector_of[corner];
         // Corners of collapsed triangles follow whatever else uses their vertex.
-        let stays = sector.is_none() || !placement.has_moved(plan, sector);
-        if stays && !plan.topology.is_collapsed(corner.triangle()) {
-            taken[plan.view.vertex_at(corner)] = true;
+        let stays = sector.is_none() || !placement.has_moved(sector);
+        if stays && !surface.topology.is_collapsed(corner.triangle()) {
+            taken[surface.view.vertex_at(corner)] = true;
         }
     }
     taken
@@ -68,22 +83,23 @@ type Parted = (Sector, Corner);
 /// Gives each vertex of a sector its new place: in its own index if that is free; else it is noted,
 /// and past the source vertices its number among those noted stands for it.
 fn move_sector(
-    plan: &Plan,
+    surface: Surface,
+    sectors: &Sectors,
     placement: &Placement,
     sector: Sector,
     (taken, parted): (&mut IdVec<Vertex, bool>, &mut Vec<Parted>),
     attributes: &mut Attributes,
 ) {
-    let sources = plan.view.mesh.positions.len() as u32;
+    let sources = surface.view.mesh.positions.len() as u32;
     let mut seen: Few<Seen> = Few::new();
-    for corner in plan.sectors.corners(&plan.topology, sector) {
-        let vertex = plan.view.vertex_at(corner);
+    for corner in sectors.corners(surface.topology, sector) {
+        let vertex = surface.view.vertex_at(corner);
         let known = seen.iter().find(|seen| seen.vertex == vertex).map(|seen| seen.output);
         attributes.vertex_at[corner] = known.unwrap_or_else(|| {
             let streams = &mut attributes.streams;
-            let blends = blends(plan, sector, corner, placement.share[sector]);
-            let row = row(plan, placement, streams, sector, blends);
-            let output = twin_of(plan, streams, &seen, vertex, &row).unwrap_or_else(|| {
+            let blends = blends(surface.view, placement, sector, corner);
+            let row = row(surface.view, placement, streams, sector, blends);
+            let output = twin_of(surface.view, streams, &seen, vertex, &row).unwrap_or_else(|| {
                 if taken[vertex] {
                     parted.push((sector, corner));
                     return sources + parted.len() as u32 - 1;
@@ -108,7 +124,7 @@ struct Seen {
 /// The vertex of a sector that another one of it has become equal to, though they differed before:
 /// their normals were less than a degree apart.
 fn twin_of(
-    plan: &Plan,
+    view: &View,
     streams: &Streams,
     seen: &[Seen],
     vertex: Vertex,
@@ -116,22 +132,27 @@ fn twin_of(
 ) -> Option<u32> {
     let is_twin = |seen: &&Seen| {
         streams.are_equal(&seen.row, row)
-            && !(plan.view.normal(seen.vertex) == plan.view.normal(vertex)
-                && same_chart(&plan.view, seen.vertex, vertex))
+            && !(view.normal(seen.vertex) == view.normal(vertex)
+                && same_chart(view, seen.vertex, vertex))
     };
     seen.iter().find(is_twin).map(|seen| seen.output)
 }
 
 /// Appends the vertices that were noted, and puts them in the place of their numbers.
-fn add_parted(plan: &Plan, placement: &Placement, parted: &[Parted], attributes: &mut Attributes) {
+fn add_parted(
+    surface: Surface,
+    placement: &Placement,
+    parted: &[Parted],
+    attributes: &mut Attributes,
+) {
     let streams = &mut attributes.streams;
     let add = |&(sector, corner): &Parted| {
-        let blends = blends(plan, sector, corner, placement.share[sector]);
-        let row = row(plan, placement, streams, sector, blends);
-        streams.add_moved(plan.topology.cluster_at[corner], &row, blends)
+        let blends = blends(surface.view, placement, sector, corner);
+        let row = row(surface.view, placement, streams, sector, blends);
+        streams.add_moved(surface.topology.cluster_at[corner], &row, blends)
     };
     let added: Vec<u32> = parted.iter().map(add).collect();
-    let sources = plan.view.mesh.positions.len() as u32;
+    let sources = surface.view.mesh.positions.len() as u32;
     for vertex in attributes.vertex_at.iter_mut().filter(|vertex| **vertex >= sources) {
         *vertex = added[(*vertex - sources) as usize];
     }
@@ -140,43 +161,42 @@ fn add_parted(plan: &Plan, placement: &Placement, parted: &[Parted], attributes:
 /// The values of a corner's vertex where its sector stands: the normal of the surface there, and all
 /// else of its chart.
 fn row(
-    plan: &Plan,
+    view: &View,
     placement: &Placement,
     streams: &Streams,
     sector: Sector,
     [surface, chart]: [Blend; 2],
 ) -> Row {
-    let normal = blended_normal(plan, &surface);
-    streams.blended(plan, (placement.point[sector], normal), &chart)
+    let normal = blended_normal(view, &surface);
+    streams.blended(view, (placement.point[sector], normal), &chart)
 }
 
 /// Where a corner's vertex comes from when its sector takes a share of the offset: on the surface,
 /// and in its chart.
-fn blends(plan: &Plan, sector: Sector, corner: Corner, share: f64) -> [Blend; 2] {
-    let own = plan.view.vertex_at(corner).0;
-    let chart = chart_foot(plan, sector, corner);
+fn blends(view: &View, placement: &Placement, sector: Sector, corner: Corner) -> [Blend; 2] {
+    let share = placement.share[sector];
+    let own = view.vertex_at(corner).0;
+    let chart = placement.chart_foot(sector, corner);
     // Where the way begins at the vertex itself, that is the one to begin with.
     let from_own = |blend: Blend| match chart.start {
         [0.0, 0.0] => Blend { vertices: [own, blend.vertices[1], blend.vertices[2]], ..blend },
         _ => blend,
     };
 
-    let surface = surface_foot(plan, sector, corner).blend(&plan.view, share);
-    [surface, from_own(chart.blend(&plan.view, share))]
+    let surface = placement.surface_foot(sector, corner).blend(view, share);
+    [surface, from_own(chart.blend(view, share))]
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::limits::limits;
     use crate::mesh::MeshBuffers;
-    use crate::options::Verify;
-    use crate::plan::tests::plan_of;
     use crate::shapes;
+    use crate::stages::stages_of;
 
     fn attributes_of(mesh: &MeshBuffers, width: f32) -> Attributes {
-        let plan = plan_of(mesh, width);
-        attributes(&plan, &limits(&plan, Verify::Fast).unwrap().placement)
+        let stages = stages_of(mesh, width);
+        stages.attributes(&stages.placement())
     }
 
     #[test]

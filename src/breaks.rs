@@ -43,20 +43,20 @@ pub fn uv_at<'a>(uv: &Uv<'a>, vertex: usize) -> &'a [f32] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plan::tests::plan_of;
     use crate::shapes;
+    use crate::stages::stages_of;
 
     #[test]
     fn the_two_sides_of_a_seam_are_two_charts() {
         let cylinder = shapes::cylinder(6);
-        let plan = plan_of(&cylinder, 0.1);
+        let stages = stages_of(&cylinder, 0.1);
         let side = |v: &usize| cylinder.normals[*v][1] == 0.0;
         let at = |v: usize| cylinder.positions[v] == [0.0, 1.0, 0.5];
         let seam: Vec<usize> =
             (0..cylinder.positions.len()).filter(|&v| at(v)).filter(side).collect();
         let [one, other] = [0, 1].map(|place| Vertex::new(seam[place]));
-        assert!(!same_chart(&plan.view, one, other));
-        assert!(same_chart(&plan.view, one, one));
+        assert!(!same_chart(&stages.view, one, other));
+        assert!(same_chart(&stages.view, one, one));
     }
 
     #[test]

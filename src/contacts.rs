@@ -16,6 +16,7 @@ use crate::ids::{Corner, Few};
 use crate::memory;
 use crate::mesh::Mesh;
 use crate::options::{Options, Width};
+use crate::threads::Threads;
 use crate::tolerance::BACK_TO_BACK_COSINE;
 use crate::topology::{Topology, topology};
 use crate::view::{View, view, wide};
@@ -80,7 +81,7 @@ pub fn border_lines(mesh: &Mesh) -> Vec<[DVec3; 2]> {
     let Ok(view) = view(mesh, &none) else { return Vec::new() };
     let topology = topology(&view, &weld(&view.mesh));
     let line = |border: Corner| [border, border.next()].map(|corner| view.position_at(corner));
-    let faces = faces(&view, &topology);
+    let faces = faces(&view, &topology, &Threads::default());
     open_borders(&topology).chain(sheet_rims(&topology, &faces)).map(line).collect()
 }
 

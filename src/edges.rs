@@ -130,8 +130,9 @@ mod tests {
     use crate::faces::faces;
     use crate::mesh::Mesh;
     use crate::options::Options;
-    use crate::plan::tests::plan_of;
     use crate::shapes;
+    use crate::stages::stages_of;
+    use crate::threads::Threads;
     use crate::topology::topology;
     use crate::view::view;
     use crate::weld::weld;
@@ -162,7 +163,7 @@ mod tests {
         };
         let view = view(&mesh, &Options::default()).unwrap();
         let topology = topology(&view, &weld(&mesh));
-        let faces = faces(&view, &topology);
+        let faces = faces(&view, &topology, &Threads::default());
         let contacts = contacts(&view, &topology, &faces).unwrap();
         let edges = edges(&view, &topology, &faces, &contacts);
         edges.hard.iter().map(|edge| edge.skipped).collect()
@@ -193,8 +194,8 @@ mod tests {
     fn a_channel_that_differs_across_an_edge_is_a_seam_there() {
         let (seamed, plain) = (shapes::cube(1.0), shapes::plain_cube(1.0));
         let channels = |mesh| {
-            let plan = plan_of(mesh, 0.1);
-            plan.edges.hard.iter().map(|edge| edge.seams).collect::<Vec<_>>()
+            let stages = stages_of(mesh, 0.1);
+            stages.edges.hard.iter().map(|edge| edge.seams).collect::<Vec<_>>()
         };
         assert_eq!(channels(&seamed), [1; 12]);
         assert_eq!(channels(&plain), [0; 12]);

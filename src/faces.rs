@@ -9,6 +9,7 @@ use glam::DVec3;
 use crate::breaks::is_hard;
 use crate::ids::{Corner, IdVec, Triangle};
 use crate::math::{area_vector, unit};
+use crate::threads::Threads;
 use crate::topology::Topology;
 use crate::view::View;
 
@@ -34,10 +35,10 @@ impl Faces {
     }
 }
 
-pub fn faces(view: &View, topology: &Topology) -> Faces {
+pub fn faces(view: &View, topology: &Topology, threads: &Threads) -> Faces {
     let triangles = view.corner_count() / 3;
     let mut faces = Faces {
-        normal: view.threads.map(triangles, |triangle| own_normal(view, triangle)),
+        normal: threads.map(triangles, |triangle| own_normal(view, triangle)),
         lender: IdVec::filled(Corner::NONE, triangles),
     };
     let is_unknown = |&triangle: &Triangle| faces.normal[triangle] == DVec3::ZERO;
@@ -106,7 +107,7 @@ mod tests {
             ..Mesh::default()
         };
         let view = view(&mesh, &Options::default()).unwrap();
-        let faces = faces(&view, &topology(&view, &weld(&mesh)));
+        let faces = faces(&view, &topology(&view, &weld(&mesh)), &Threads::default());
         assert_eq!(faces.normal[Triangle(2)], DVec3::Z);
         assert_eq!(faces.lender[Triangle(2)], Corner(0));
         assert!(!faces.is_line(Triangle(0)));

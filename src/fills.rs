@@ -10,8 +10,9 @@ use std::cmp::Ordering;
 use glam::DVec3;
 use smallvec::{SmallVec, smallvec};
 
-use crate::ids::Few;
+use crate::ids::{Few, Sector};
 use crate::math::unit;
+use crate::placement::Placement;
 use crate::validity::{faces_out, facing};
 
 /// From so many points on, a loop gets a vertex in its middle.
@@ -56,6 +57,16 @@ pub fn fill(points: &[DVec3], normals: &[DVec3], resolution: f64) -> Option<Fill
         }
     }
     Some(fill)
+}
+
+/// The fill of a ring where its sectors stand now; none if every way to fill it folds.
+pub fn ring_fill(placement: &Placement, sectors: &[Sector], resolution: f64) -> Option<Fill> {
+    if sectors.len() < 3 {
+        return Some(Fill::default());
+    }
+    let points: Few<_> = sectors.iter().map(|&sector| placement.point[sector]).collect();
+    let normals: Few<_> = sectors.iter().map(|&sector| placement.normals[sector][0]).collect();
+    fill(&points, &normals, resolution)
 }
 
 /// As [`fill`], for most holes by far, and without the triangles.

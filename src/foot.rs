@@ -71,15 +71,15 @@ pub fn locate(view: &View, corner: Corner, from: DVec3, vector: DVec3) -> Option
 mod tests {
     use super::*;
     use crate::ids::Id;
-    use crate::plan::tests::plan_of;
     use crate::shapes;
+    use crate::stages::stages_of;
 
     #[test]
     fn a_foot_blends_the_corners_of_its_triangle() {
         let cube = shapes::plain_cube(1.0);
-        let plan = plan_of(&cube, 0.1);
-        let blend =
-            Foot { corner: Corner(1), start: [0.0; 2], along: [0.5, 0.25] }.blend(&plan.view, 0.5);
+        let stages = stages_of(&cube, 0.1);
+        let blend = Foot { corner: Corner(1), start: [0.0; 2], along: [0.5, 0.25] }
+            .blend(&stages.view, 0.5);
         assert_eq!(blend.vertices, [cube.indices[1], cube.indices[2], cube.indices[0]]);
         assert_eq!(blend.weights, [0.625, 0.25, 0.125]);
     }
@@ -87,19 +87,19 @@ mod tests {
     #[test]
     fn a_vector_is_projected_onto_the_plane_of_a_triangle() {
         let cube = shapes::plain_cube(1.0);
-        let plan = plan_of(&cube, 0.1);
+        let stages = stages_of(&cube, 0.1);
         let corner = Corner(0);
-        let [a, b, _] = plan.view.triangle(corner.triangle());
-        let normal = plan.faces.normal[corner.triangle()];
-        let foot = locate(&plan.view, corner, a, (b - a) * 0.5 + normal).unwrap();
+        let [a, b, _] = stages.view.triangle(corner.triangle());
+        let normal = stages.faces.normal[corner.triangle()];
+        let foot = locate(&stages.view, corner, a, (b - a) * 0.5 + normal).unwrap();
         assert!((foot.along[0] - 0.5).abs() < 1e-12 && foot.along[1].abs() < 1e-12);
     }
 
     #[test]
     fn far_past_a_sliver_a_vertex_keeps_its_own_values() {
         let cube = shapes::plain_cube(1.0);
-        let plan = plan_of(&cube, 0.1);
+        let stages = stages_of(&cube, 0.1);
         let far = Foot { corner: Corner::new(0), start: [0.0; 2], along: [1e7, -1e7] };
-        assert_eq!(far.blend(&plan.view, 1.0), Blend::one(plan.view.vertex_at(far.corner).0));
+        assert_eq!(far.blend(&stages.view, 1.0), Blend::one(stages.view.vertex_at(far.corner).0));
     }
 }

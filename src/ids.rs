@@ -78,6 +78,11 @@ id!(
     Ring
 );
 
+id!(
+    /// A strip or a fill.
+    Patch
+);
+
 impl Corner {
     /// The corner that follows in the triangle: where the half-edge ends.
     #[inline]

@@ -52,6 +52,8 @@ pub mod shapes;
 mod attributes;
 mod breaks;
 mod bvh;
+mod chamfers;
+mod charts;
 mod contacts;
 mod edges;
 mod error;
@@ -72,17 +74,19 @@ mod mesh;
 mod offsets;
 mod options;
 mod output;
+mod patches;
 mod pipeline;
 mod placement;
-mod plan;
 mod report;
 mod resample;
 mod rests;
 mod scene;
-mod seams;
 mod sectors;
 mod smoothing;
+#[cfg(test)]
+mod stages;
 mod strips;
+mod surface;
 mod threads;
 mod tolerance;
 mod topology;
@@ -94,7 +98,7 @@ mod weld;
 pub use error::{Error, Stream};
 pub use mesh::{Held, Mesh, MeshBuffers, UV_CHANNELS, Uv, UvBuffer};
 pub use options::{ChamferSubmesh, Options, Verify, Width};
-pub use pipeline::{Prepared, chamfer, chamfer_with_progress};
+pub use pipeline::{chamfer, chamfer_with_progress};
 pub use report::{
     Blend, ByReason, Chamfered, EdgeVerdict, Outcome, Reason, Totals, TriangleKind, TriangleSource,
     VertexSource, VertexSources,

@@ -8,23 +8,27 @@
 mod breadth;
 mod collisions;
 mod crowds;
+mod elements;
+mod given;
 mod room;
+mod valid;
 
 use std::cmp::Ordering;
 
-use glam::DVec3;
-
-use crate::contacts::Wedge;
+use crate::chamfers::Chamfers;
 use crate::error::Error;
-use crate::fills;
-use crate::ids::{Corner, Edge, Few, IdVec, Ring, Sector, Triangle};
-use crate::math::{area_vector, unit};
+use crate::ids::{IdVec, Ring, Sector};
+use crate::offsets::Offset;
 use crate::options::Verify;
 use crate::placement::Placement;
-use crate::plan::Plan;
 use crate::report::Reason;
-use crate::strips;
-use crate::validity::{opens_along, stays_line, survives};
+use crate::rests::Rests;
+use crate::surface::Surface;
+use crate::threads::Threads;
+
+use elements::{Element, around, elements_of, sectors_of};
+use given::Given;
+use valid::{bad_elements, contacts_are_kept, is_valid};
 
 /// How much a sector that takes part in something bad keeps in each round.
 const SHRINK: f64 = 0.5;
@@ -44,98 +48,87 @@ const GROW_PASSES: usize = 2;
 const LONGEST_GROWN: usize = 64;
 
 /// What each sector gets.
-pub struct Limits {
-    pub placement: Placement,
+pub struct Limits<'a> {
+    pub placement: Placement<'a>,
     /// `#sectors`: why it did not get all.
     pub reason: IdVec<Sector, Reason>,
 }
 
 /// # Errors
 /// [`Error::OutOfMemory`] where what collisions need is not to be had.
-pub fn limits(plan: &Plan, verify: Verify) -> Result<Limits, Error> {
-    let room = room::room(plan);
-    let mut limits = bounded(plan, &room);
-    let bad = bad_elements(plan, &limits.placement);
-    shrink(plan, &mut limits, bad);
+pub fn limits<'a>(
+    surface: Surface<'a>,
+    chamfers: Chamfers<'a>,
+    offsets: &'a IdVec<Sector, Offset>,
+    rests: &'a Rests,
+    verify: Verify,
+    threads: &'a Threads,
+) -> Result<Limits<'a>, Error> {
+    let deep = given::deep(surface.topology, chamfers.sectors);
+    let given = &Given { surface, chamfers, offsets, rests, deep, threads };
+    let room = room::room(given);
+    let mut limits = bounded(given, &room);
+    let bad = bad_elements(given, &limits.placement);
+    shrink(given, &mut limits, bad);
     for _ in 0..GROW_PASSES {
-        grow(plan, &room, &mut limits);
+        grow(given, &room, &mut limits);
     }
     if verify != Verify::Fast {
-        collisions::resolve(plan, &mut limits)?;
+        collisions::resolve(given, &mut limits)?;
     }
     Ok(limits)
 }
 
 /// Every sector at the width that its own triangles leave room for.
-fn bounded(plan: &Plan, shares: &IdVec<Sector, f64>) -> Limits {
+fn bounded<'a>(given: &Given<'a>, shares: &IdVec<Sector, f64>) -> Limits<'a> {
     let reason = |sector: Sector| {
-        let is_narrow = plan.offsets[sector].moves() && shares[sector] < 1.0;
+        let is_narrow = given.offsets[sector].moves() && shares[sector] < 1.0;
         if is_narrow { Reason::NoRoom } else { Reason::None }
     };
     Limits {
-        placement: Placement::at(plan, shares),
-        reason: plan.view.threads.map(shares.len(), reason),
-    }
-}
-
-/// Anything that can go bad.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Element {
-    Surface(Triangle),
-    Strip(Edge),
-    Fill(Ring),
-}
-
-impl Element {
-    /// Orders elements, by kind and number, with a single comparison.
-    fn key(self) -> u64 {
-        let (kind, number) = match self {
-            Element::Surface(triangle) => (0, triangle.0),
-            Element::Strip(edge) => (1, edge.0),
-            Element::Fill(ring) => (2, ring.0),
-        };
-        kind << 32 | u64::from(number)
+        placement: given.placement(shares.clone()),
+        reason: given.threads.map(shares.len(), reason),
     }
 }
 
 /// Shrinks what is bad, and then what is bad around what has shrunk; tells all that has.
-fn shrink(plan: &Plan, limits: &mut Limits, mut bad: Vec<Element>) -> Vec<Sector> {
+fn shrink(given: &Given, limits: &mut Limits, mut bad: Vec<Element>) -> Vec<Sector> {
     let mut all = Vec::new();
     for round in 0.. {
         let mut shrunk = Vec::new();
         for element in bad {
             let reason = match element {
                 Element::Surface(_) => Reason::NoRoom,
-                Element::Strip(edge) if !contacts_are_kept(plan, &limits.placement, edge) => {
+                Element::Strip(edge) if !contacts_are_kept(given, &limits.placement, edge) => {
                     Reason::Contact
                 }
                 Element::Strip(_) | Element::Fill(_) => Reason::Folds,
             };
-            blame(plan, limits, element, reason, &mut shrunk);
+            blame(given, limits, element, reason, &mut shrunk);
         }
         if shrunk.is_empty() {
             break;
         }
-        apply(plan, limits, round, &mut shrunk);
-        bad = bad_around(plan, &limits.placement, &shrunk);
+        apply(given, limits, round, &mut shrunk);
+        bad = bad_around(given, &limits.placement, &shrunk);
         all.extend(shrunk);
     }
     all
 }
 
 /// All that depends on the sectors and is bad.
-fn bad_around(plan: &Plan, placement: &Placement, sectors: &[Sector]) -> Vec<Element> {
-    let suspects = around(plan, sectors).into_iter();
-    suspects.filter(|&element| !is_valid(plan, placement, element)).collect()
+fn bad_around(given: &Given, placement: &Placement, sectors: &[Sector]) -> Vec<Element> {
+    let suspects = around(given, sectors).into_iter();
+    suspects.filter(|&element| !is_valid(given, placement, element)).collect()
 }
 
 /// Shrinks sectors, each once; after some rounds together with their whole rings: to one share for
 /// all, and then to nothing.
-fn apply(plan: &Plan, limits: &mut Limits, round: usize, shrunk: &mut Vec<Sector>) {
+fn apply(given: &Given, limits: &mut Limits, round: usize, shrunk: &mut Vec<Sector>) {
     shrunk.sort_unstable();
     shrunk.dedup();
     if round >= SHRINK_ROUNDS {
-        spread_over_rings(plan, limits, shrunk);
+        spread_over_rings(given, limits, shrunk);
     }
     let mut least = (Ring::NONE, 0.0);
     for &sector in shrunk.iter() {
@@ -145,35 +138,35 @@ fn apply(plan: &Plan, limits: &mut Limits, round: usize, shrunk: &mut Vec<Sector
             Ordering::Equal => {
                 // They come ring by ring. Anew for each sector, a large ring would take quadratic
                 // time.
-                let ring = plan.sectors.fans[sector].ring;
+                let ring = given.chamfers.sectors.fans[sector].ring;
                 if least.0 != ring {
-                    least = (ring, least_in_ring(plan, &limits.placement, ring));
+                    least = (ring, least_in_ring(given, &limits.placement, ring));
                 }
                 least.1
             }
             Ordering::Greater => 0.0,
         };
-        limits.placement.set(plan, sector, smaller);
+        limits.placement.set(sector, smaller);
     }
 }
 
 /// The smallest share in a ring, of those that moved.
-fn least_in_ring(plan: &Plan, placement: &Placement, ring: Ring) -> f64 {
-    let shares = plan.sectors.ring(ring).iter().map(|&sector| placement.share[sector]);
+fn least_in_ring(given: &Given, placement: &Placement, ring: Ring) -> f64 {
+    let shares = given.chamfers.sectors.ring(ring).iter().map(|&sector| placement.share[sector]);
     shares.filter(|&share| share > 0.0).fold(1.0, f64::min)
 }
 
 /// Adds to the sectors all others of their rings that have moved, for the same reason.
-fn spread_over_rings(plan: &Plan, limits: &mut Limits, shrunk: &mut Vec<Sector>) {
+fn spread_over_rings(given: &Given, limits: &mut Limits, shrunk: &mut Vec<Sector>) {
     let mut rings: Vec<(Ring, Reason)> = shrunk
         .iter()
-        .map(|&sector| (plan.sectors.fans[sector].ring, limits.reason[sector]))
+        .map(|&sector| (given.chamfers.sectors.fans[sector].ring, limits.reason[sector]))
         .collect();
     rings.sort_unstable();
     rings.dedup_by_key(|(ring, _)| *ring);
     shrunk.clear();
     for (ring, reason) in rings {
-        for &sector in plan.sectors.ring(ring) {
+        for &sector in given.chamfers.sectors.ring(ring) {
             if limits.placement.share[sector] > 0.0 {
                 limits.reason[sector] = reason;
                 shrunk.push(sector);
@@ -182,35 +175,15 @@ fn spread_over_rings(plan: &Plan, limits: &mut Limits, shrunk: &mut Vec<Sector>)
     }
 }
 
-/// Everything that is bad where the sectors stand now.
-fn bad_elements(plan: &Plan, placement: &Placement) -> Vec<Element> {
-    let threads = &plan.view.threads;
-    let is_bad = |element| !is_valid(plan, placement, element);
-    let triangles = threads.filter(plan.faces.normal.len(), |triangle| {
-        is_touched(plan, triangle) && is_bad(Element::Surface(triangle))
-    });
-    let edges = threads.filter(plan.edges.hard.len(), |edge| {
-        plan.edges.hard[edge].skipped.is_none() && is_bad(Element::Strip(edge))
-    });
-    let rings = threads.filter(plan.sectors.rings.len(), |ring| is_bad(Element::Fill(ring)));
-    let surface = triangles.into_iter().map(Element::Surface);
-    let strips = edges.into_iter().map(Element::Strip);
-    surface.chain(strips).chain(rings.into_iter().map(Element::Fill)).collect()
-}
-
-fn is_touched(plan: &Plan, triangle: Triangle) -> bool {
-    triangle.corners().iter().any(|&corner| plan.sectors.sector_of[corner].is_some())
-}
-
 /// Notes the sectors that a bad element depends on.
 fn blame(
-    plan: &Plan,
+    given: &Given,
     limits: &mut Limits,
     element: Element,
     reason: Reason,
     shrunk: &mut Vec<Sector>,
 ) {
-    for sector in sectors_of(plan, element) {
+    for sector in sectors_of(given, element) {
         if limits.placement.share[sector] > 0.0 {
             limits.reason[sector] = reason;
             shrunk.push(sector);
@@ -218,180 +191,59 @@ fn blame(
     }
 }
 
-/// The sectors that an element's corners stand on.
-fn sectors_of(plan: &Plan, element: Element) -> Few<Sector> {
-    let sector_of = |corner: Corner| plan.sectors.sector_of[corner];
-    match element {
-        Element::Surface(triangle) => {
-            triangle.corners().into_iter().map(sector_of).filter(|s| s.is_some()).collect()
-        }
-        Element::Strip(edge) => {
-            strips::corners(&plan.edges.hard[edge]).into_iter().map(sector_of).collect()
-        }
-        Element::Fill(ring) => Few::from_slice(plan.sectors.ring(ring)),
-    }
-}
-
-/// Everything that depends on the sectors, each once.
-fn around(plan: &Plan, sectors: &[Sector]) -> Vec<Element> {
-    let mut elements: Vec<Element> =
-        sectors.iter().flat_map(|&sector| elements_of(plan, sector)).collect();
-    elements.sort_unstable_by_key(|element| element.key());
-    elements.dedup();
-    elements
-}
-
-/// Everything that depends on one sector.
-fn elements_of<'a>(plan: &'a Plan, sector: Sector) -> impl Iterator<Item = Element> + 'a {
-    let fan = &plan.sectors.fans[sector];
-    let surface = plan.sectors.corners(&plan.topology, sector);
-    let sides = [fan.first, fan.last.prev()].map(|side| plan.edges.chamfered_at[side]);
-    surface
-        .map(|corner| Element::Surface(corner.triangle()))
-        .chain(sides.into_iter().filter(|edge| edge.is_some()).map(Element::Strip))
-        .chain(std::iter::once(Element::Fill(fan.ring)))
-}
-
-fn is_valid(plan: &Plan, placement: &Placement, element: Element) -> bool {
-    match element {
-        Element::Surface(triangle) => surface_is_valid(plan, placement, triangle),
-        Element::Strip(edge) => {
-            strip_is_valid(plan, placement, edge) && contacts_are_kept(plan, placement, edge)
-        }
-        Element::Fill(ring) => fill_is_valid(plan, placement, ring),
-    }
-}
-
-fn surface_is_valid(plan: &Plan, placement: &Placement, triangle: Triangle) -> bool {
-    let old = plan.view.triangle(triangle);
-    let new = triangle.corners().map(|corner| placement.position_at(plan, corner));
-    let faces = &plan.faces;
-    if old == new {
-        true
-    } else if faces.normal[triangle] == DVec3::ZERO || faces.is_line(triangle) {
-        let resolution = plan.view.resolution;
-        stays_line(old, new, faces.normal[triangle], resolution)
-            && opens_along(old, new, facing(plan, placement, triangle).map(unit), resolution)
-    } else {
-        survives(old, new)
-            && breadth::is_kept(plan, triangle, [old, new])
-            && still_faces_out(plan, placement, triangle, [old, new])
-    }
-}
-
-/// Whether a triangle that faced the way its vertex normals point still does.
-fn still_faces_out(
-    plan: &Plan,
-    placement: &Placement,
-    triangle: Triangle,
-    [old, new]: [[DVec3; 3]; 2],
-) -> bool {
-    let [before, after] = facing(plan, placement, triangle);
-    area_vector(new).dot(after) > 0.0 || area_vector(old).dot(before) <= 0.0
-}
-
-/// The sums of a triangle's vertex normals, before and after.
-fn facing(plan: &Plan, placement: &Placement, triangle: Triangle) -> [DVec3; 2] {
-    let sum = |normals: [DVec3; 3]| normals[0] + normals[1] + normals[2];
-    let corners = triangle.corners();
-    let before = corners.map(|corner| plan.view.normal_at(corner));
-    [sum(before), sum(corners.map(|corner| placement.normal_at(plan, corner)))]
-}
-
-fn strip_is_valid(plan: &Plan, placement: &Placement, edge: Edge) -> bool {
-    let edge = &plan.edges.hard[edge];
-    let quad = strips::quad(plan, placement, edge);
-    let [from, to] = [edge.sides[0], edge.sides[0].next()].map(|c| plan.view.position_at(c));
-    strips::is_valid(&quad, strips::cut(&quad), unit(to - from), plan.view.resolution)
-}
-
-/// Whether a strip leaves everything covered that rests beside its edge.
-fn contacts_are_kept(plan: &Plan, placement: &Placement, edge: Edge) -> bool {
-    // Beside most edges nothing rests.
-    if plan.rests.of(edge).is_empty() {
-        return true;
-    }
-    let [b1, a1, a2, b2] =
-        strips::corners(&plan.edges.hard[edge]).map(|corner| placement.position_at(plan, corner));
-    let wedge = Wedge::new(&plan.view, &plan.faces, plan.edges.hard[edge].sides);
-    wedge.is_none_or(|wedge| plan.rests.are_kept(edge, &wedge, [[a1, b1], [a2, b2]]))
-}
-
-fn fill_is_valid(plan: &Plan, placement: &Placement, ring: Ring) -> bool {
-    match *plan.sectors.ring(ring) {
-        [a, b, c] => {
-            let sectors = [a, b, c];
-            let points = sectors.map(|sector| placement.point[sector]);
-            let normals = sectors.map(|sector| placement.normals[sector][0]);
-            fills::can_fill(points, normals, plan.view.resolution)
-        }
-        _ => fill(plan, placement, ring).is_some(),
-    }
-}
-
-/// The fill of a ring where its sectors stand now; none if every way to fill it folds.
-pub fn fill(plan: &Plan, placement: &Placement, ring: Ring) -> Option<fills::Fill> {
-    let sectors = plan.sectors.ring(ring);
-    if sectors.len() < 3 {
-        return Some(fills::Fill::default());
-    }
-    let points: Few<_> = sectors.iter().map(|&sector| placement.point[sector]).collect();
-    let normals: Few<_> = sectors.iter().map(|&sector| placement.normals[sector][0]).collect();
-    fills::fill(&points, &normals, plan.view.resolution)
-}
-
 /// Gives back to every sector that was shrunk, up to its room, as much as it can take with all
 /// others where they are.
-fn grow(plan: &Plan, room: &IdVec<Sector, f64>, limits: &mut Limits) {
+fn grow(given: &Given, room: &IdVec<Sector, f64>, limits: &mut Limits) {
     for sector in room.ids() {
         let (mut good, mut bad) = (limits.placement.share[sector], room[sector]);
-        let ring = plan.sectors.fans[sector].ring;
-        if good == bad || plan.sectors.ring(ring).len() > LONGEST_GROWN {
+        let ring = given.chamfers.sectors.fans[sector].ring;
+        if good == bad || given.chamfers.sectors.ring(ring).len() > LONGEST_GROWN {
             continue;
         }
-        let mut found = obstacle(plan, &mut limits.placement, sector, bad, None);
+        let mut found = obstacle(given, &mut limits.placement, sector, bad, None);
         if found.is_none() {
             limits.reason[sector] = if bad < 1.0 { Reason::NoRoom } else { Reason::None };
             continue;
         }
         for _ in 0..GROW_STEPS {
             let middle = (good + bad) / 2.0;
-            match obstacle(plan, &mut limits.placement, sector, middle, found) {
+            match obstacle(given, &mut limits.placement, sector, middle, found) {
                 None => good = middle,
                 other => (bad, found) = (middle, other),
             }
         }
-        limits.placement.set(plan, sector, good);
+        limits.placement.set(sector, good);
     }
 }
 
 /// What is bad of all that depends on the sector at this share, which it gets; none if nothing is.
 /// What was bad at another share is looked at first.
 fn obstacle(
-    plan: &Plan,
+    given: &Given,
     placement: &mut Placement,
     sector: Sector,
     share: f64,
     before: Option<Element>,
 ) -> Option<Element> {
-    placement.set(plan, sector, share);
-    let mut suspects = before.into_iter().chain(elements_of(plan, sector));
-    suspects.find(|&element| !is_valid(plan, placement, element))
+    placement.set(sector, share);
+    let mut suspects = before.into_iter().chain(elements_of(given, sector));
+    suspects.find(|&element| !is_valid(given, placement, element))
 }
 
 #[cfg(test)]
 mod tests {
+    use super::given::tests::given_of;
     use super::*;
     use crate::mesh::MeshBuffers;
-    use crate::plan::tests::plan_of;
     use crate::shapes;
+    use crate::stages::stages_of;
 
     /// The shares of all sectors that can move.
     fn shares(mesh: &MeshBuffers, width: f32) -> Vec<f64> {
-        let plan = plan_of(mesh, width);
-        let limits = limits(&plan, Verify::Fast).unwrap();
-        assert!(bad_elements(&plan, &limits.placement).is_empty());
-        let movable = plan.sectors.fans.ids().filter(|&sector| plan.offsets[sector].moves());
+        let stages = stages_of(mesh, width);
+        let limits = stages.limits(Verify::Fast);
+        assert!(bad_elements(&given_of(&stages), &limits.placement).is_empty());
+        let movable = stages.sectors.fans.ids().filter(|&sector| stages.offsets[sector].moves());
         movable.map(|sector| limits.placement.share[sector]).collect()
     }
 
@@ -421,38 +273,23 @@ mod tests {
         assert!(shares[24..].iter().any(|&share| share < 1.0), "{shares:?}");
     }
 
-    #[test]
-    fn a_triangle_may_not_turn_from_its_vertex_normals() {
-        let mut cube = shapes::plain_cube(1.0);
-        let plan = plan_of(&cube, 0.1);
-        let placement = Placement::unmoved(&plan);
-        let old = plan.view.triangle(Triangle(0));
-        let turned = [old[0], old[2], old[1]];
-        assert!(still_faces_out(&plan, &placement, Triangle(0), [old, old]));
-        assert!(!still_faces_out(&plan, &placement, Triangle(0), [old, turned]));
-        cube.normals.iter_mut().for_each(|normal| *normal = normal.map(|part| -part));
-        let plan = plan_of(&cube, 0.1);
-        let placement = Placement::unmoved(&plan);
-        assert!(still_faces_out(&plan, &placement, Triangle(0), [old, turned]), "it never did");
-    }
-
     /// A corner that three unlike shares fold, and equal ones do not.
     #[test]
     fn a_ring_that_folds_gets_one_share_before_none() {
         let cube = shapes::plain_cube(1.0);
-        let plan = plan_of(&cube, 0.1);
-        let mut placement = Placement::unmoved(&plan);
-        let ring = plan.sectors.ring(Ring(0)).to_vec();
+        let stages = stages_of(&cube, 0.1);
+        let mut placement = stages.placed(0.0);
+        let ring = stages.sectors.ring(Ring(0)).to_vec();
         for (&sector, share) in ring.iter().zip([0.5, 0.25, 0.0]) {
-            placement.set(&plan, sector, share);
+            placement.set(sector, share);
         }
-        let reason = IdVec::filled(Reason::Folds, plan.offsets.len());
+        let reason = IdVec::filled(Reason::Folds, stages.offsets.len());
         let mut limits = Limits { placement, reason };
         let shares = |limits: &Limits| ring.iter().map(|&s| limits.placement.share[s]).collect();
-        apply(&plan, &mut limits, SHRINK_ROUNDS, &mut ring.clone());
+        apply(&given_of(&stages), &mut limits, SHRINK_ROUNDS, &mut ring.clone());
         let even: Vec<f64> = shares(&limits);
         assert_eq!(even, [0.25, 0.25, 0.0]);
-        apply(&plan, &mut limits, SHRINK_ROUNDS + 1, &mut ring.clone());
+        apply(&given_of(&stages), &mut limits, SHRINK_ROUNDS + 1, &mut ring.clone());
         let none: Vec<f64> = shares(&limits);
         assert_eq!(none, [0.0; 3]);
     }

@@ -19,6 +19,7 @@ use crate::ids::{Corner, Id, IdVec, Sector};
 use crate::math::{Turn, area_vector, unit};
 use crate::mesh::UV_CHANNELS;
 use crate::sectors::{Fan, Sectors};
+use crate::threads::Threads;
 use crate::topology::Topology;
 use crate::view::View;
 
@@ -82,8 +83,9 @@ pub fn offsets(
     topology: &Topology,
     faces: &Faces,
     sectors: &Sectors,
+    threads: &Threads,
 ) -> IdVec<Sector, Offset> {
-    let mut offsets = view.threads.map_with(sectors.fans.len(), Vec::new, |spread, sector| {
+    let mut offsets = threads.map_with(sectors.fans.len(), Vec::new, |spread, sector| {
         unfold(view, topology, sectors, sector, spread);
         let fan = &sectors.fans[sector];
         let chosen = course(view, topology, faces, fan, spread)
@@ -416,17 +418,17 @@ mod tests {
     use super::*;
     use crate::ids::Id;
     use crate::mesh::MeshBuffers;
-    use crate::plan::tests::plan_of;
     use crate::shapes;
+    use crate::stages::stages_of;
 
     /// The offsets of the sectors whose vertex stands at a point and has a normal.
     fn offsets_at(mesh: &MeshBuffers, width: f32, at: [f32; 3], normal: [f32; 3]) -> Vec<Offset> {
-        let plan = plan_of(mesh, width);
+        let stages = stages_of(mesh, width);
         let is_meant = |sector: &Sector| {
-            let vertex = plan.view.vertex_at(plan.sectors.fans[*sector].first).index();
+            let vertex = stages.view.vertex_at(stages.sectors.fans[*sector].first).index();
             mesh.positions[vertex] == at && mesh.normals[vertex] == normal
         };
-        plan.sectors.fans.ids().filter(is_meant).map(|sector| plan.offsets[sector]).collect()
+        stages.sectors.fans.ids().filter(is_meant).map(|sector| stages.offsets[sector]).collect()
     }
 
     #[track_caller]
@@ -501,17 +503,17 @@ mod tests {
         }
         indices.extend([6, 9, 8, 6, 8, 7]);
         let box_ = split(&points, indices);
-        let plan = plan_of(&box_, 0.1);
+        let stages = stages_of(&box_, 0.1);
         let at_corner = |sector: &Sector| {
-            let fan = &plan.sectors.fans[*sector];
-            plan.view.position_at(fan.first) == DVec3::ONE
-                && plan.faces.normal[fan.first.triangle()].y > 0.5
+            let fan = &stages.sectors.fans[*sector];
+            stages.view.position_at(fan.first) == DVec3::ONE
+                && stages.faces.normal[fan.first.triangle()].y > 0.5
         };
-        let sector = plan.sectors.fans.ids().find(at_corner).unwrap();
-        let offset = &plan.offsets[sector];
+        let sector = stages.sectors.fans.ids().find(at_corner).unwrap();
+        let offset = &stages.offsets[sector];
         assert!(offset.vector.y.abs() < 1e-9, "{}", offset.vector);
-        let blend = offset.foot.blend(&plan.view, 1.0);
-        let corners = blend.vertices.map(|v| plan.view.position(crate::ids::Vertex(v)));
+        let blend = offset.foot.blend(&stages.view, 1.0);
+        let corners = blend.vertices.map(|v| stages.view.position(crate::ids::Vertex(v)));
         let rebuilt = crate::resample::weighted_sum(&blend, corners);
         assert!(rebuilt.distance(DVec3::ONE + offset.vector) < 1e-6, "{rebuilt}");
     }
@@ -557,8 +559,8 @@ mod tests {
     #[test]
     fn no_vertex_goes_farther_than_three_widths() {
         let cone = shapes::pyramid(16);
-        let plan = plan_of(&cone, 0.01);
-        let ways = plan.offsets.iter().map(|offset| offset.vector.length());
+        let stages = stages_of(&cone, 0.01);
+        let ways = stages.offsets.iter().map(|offset| offset.vector.length());
         let longest = ways.fold(0.0, f64::max);
         assert!((longest - 0.03).abs() < 1e-6, "{longest}");
     }

@@ -1,4 +1,4 @@
-//! Output: the mesh, its provenance, and the verdicts.
+//! Output: the mesh and its provenance.
 //!
 //! Source vertices keep their indices and source triangles their order, though a triangle may use
 //! an equal vertex in place of its own. What is new is appended, per submesh: strips in the order
@@ -6,18 +6,15 @@
 
 mod submeshes;
 
-use crate::attributes::{Attributes, middles};
-use crate::fills::MIDDLE_FROM;
-use crate::ids::{Edge, IdVec, Ring};
-use crate::limits::{self, Limits};
+use crate::attributes::Attributes;
+use crate::charts::Charts;
+use crate::ids::{Cluster, Corner, Id, Patch};
 use crate::mesh::MeshBuffers;
 use crate::options::ChamferSubmesh;
-use crate::plan::Plan;
+use crate::patches::Patches;
 use crate::report::{Chamfered, TriangleKind, TriangleSource, VertexSources};
-use crate::seams::{self, Joint, Middle, Owners, Parts, Patches};
-use crate::strips::Cut;
-use crate::verdicts::{totals, verdicts};
 use crate::view::View;
+use crate::weld::Weld;
 
 use submeshes::{Submeshes, Triangles};
 
@@ -37,123 +34,84 @@ pub fn unchanged(view: &View, target: ChamferSubmesh) -> Chamfered {
     }
 }
 
-/// The result of all stages.
+/// The source with its moved vertices, and all patches; without verdicts.
 pub fn output(
-    plan: &Plan,
-    limits: &Limits,
-    cuts: &IdVec<Edge, Cut>,
+    view: &View,
+    weld: &Weld,
+    patches: &Patches,
+    charts: &Charts,
     attributes: Attributes,
     target: ChamferSubmesh,
 ) -> Chamfered {
-    let owners = seams::owners(plan, &limits.placement, cuts, &attributes);
-    let room = most_new_triangles(plan, cuts);
-    let submeshes = Submeshes::of_source(plan, target, &attributes, room);
-    let mut surface = Surface { plan, limits, cuts, owners, attributes, submeshes };
-    surface.add_strips();
-    surface.add_fills();
-    surface.finish()
+    let submeshes = Submeshes::of_source(view, target, &attributes, patches.triangle_count());
+    let mut result = Result { view, weld, attributes, submeshes, vertices: Vec::new() };
+    for patch in (0..patches.len()).map(Patch::new) {
+        if !patches.parts(patch).triangles.is_empty() {
+            result.add(patches, charts, patch);
+        }
+    }
+    result.finish()
 }
 
-/// How many triangles strips and fills have at most.
-fn most_new_triangles(plan: &Plan, cuts: &IdVec<Edge, Cut>) -> usize {
-    let of_strips: usize = cuts.iter().map(|cut| cut.triangles().len()).sum();
-    let of_fill = |ring: Ring| match plan.sectors.ring(ring).len() {
-        0..=2 => 0,
-        sectors if sectors < MIDDLE_FROM => sectors - 2,
-        sectors => sectors,
-    };
-    of_strips + plan.sectors.rings.ids().map(of_fill).sum::<usize>()
-}
-
-struct Surface<'a> {
-    plan: &'a Plan<'a>,
-    limits: &'a Limits,
-    cuts: &'a IdVec<Edge, Cut>,
-    owners: Owners,
+/// The result in the making.
+struct Result<'a> {
+    view: &'a View<'a>,
+    weld: &'a Weld,
     attributes: Attributes,
     submeshes: Submeshes,
+    /// Those of the points of the patch that is being added.
+    vertices: Vec<u32>,
 }
 
-impl Surface<'_> {
-    fn add_strips(&mut self) {
-        let (threads, count) = (&self.plan.view.threads, self.cuts.len());
-        threads.blocks_then(count, self, Surface::lay_strip, Surface::add);
-    }
-
-    fn add_fills(&mut self) {
-        let (threads, count) = (&self.plan.view.threads, self.plan.sectors.rings.len());
-        threads.blocks_then(count, self, Surface::lay_fill, Surface::add);
-    }
-
-    fn lay_strip(&self, edge: Edge, patches: &mut Patches) {
-        let cut = self.cuts[edge];
-        if cut != Cut::Closed {
-            let (placement, attributes) = (&self.limits.placement, &self.attributes);
-            let strip = (edge, cut);
-            seams::add_strip(self.plan, placement, attributes, &self.owners, strip, patches);
+impl Result<'_> {
+    fn add(&mut self, patches: &Patches, charts: &Charts, patch: Patch) {
+        self.find_vertices(patches, charts, patch);
+        let parts = patches.parts(patch);
+        let (kind, index) = match patches.edge_or_ring(patch) {
+            Ok(edge) => (TriangleKind::Edge, edge.0),
+            Err(_) => (TriangleKind::Corner, self.view.vertex_at(parts.joints[0]).0),
+        };
+        let face = charts.of(patch).face;
+        for triangle in parts.triangles {
+            let vertices = triangle.map(|place| self.vertices[place as usize]);
+            self.submeshes.add(face, vertices, TriangleSource { kind, index });
         }
     }
 
-    fn lay_fill(&self, ring: Ring, patches: &mut Patches) {
-        let (placement, attributes) = (&self.limits.placement, &self.attributes);
-        // Limits end with fills that are valid, or with rings that did not move.
-        if let Some(fill) = limits::fill(self.plan, placement, ring)
-            && !fill.triangles.is_empty()
-        {
-            let fill = (ring, &fill);
-            seams::add_fill(self.plan, placement, attributes, &self.owners, fill, patches);
-        }
-    }
-
-    fn add(&mut self, patches: &mut Patches) {
-        let mut vertices = Vec::new();
-        for parts in patches.iter() {
-            let own = |joint: &Joint| self.attributes.vertex_at[joint.corner];
-            vertices.clear();
-            vertices.extend(parts.joints.iter().map(own));
-            self.copy(&parts, &mut vertices);
-            for middle in parts.middles {
-                vertices.push(self.add_middle(&parts, middle));
-            }
-            for triangle in parts.triangles {
-                let vertices = triangle.map(|place| vertices[place as usize]);
-                self.submeshes.add(parts.patch.face, vertices, parts.patch.source);
+    /// Each joint has the vertex of its corner, or a copy of it that takes something from another
+    /// chart; middles have vertices of their own.
+    fn find_vertices(&mut self, patches: &Patches, charts: &Charts, patch: Patch) {
+        let (parts, chart) = (patches.parts(patch), charts.of(patch));
+        let (view, joints) = (self.view, parts.joints);
+        self.vertices.clear();
+        self.vertices.extend(joints.iter().map(|&joint| self.attributes.vertex_at[joint]));
+        for point in (chart.begin..joints.len()).chain(0..chart.begin) {
+            if let Some(taken) = chart.taken_at(point) {
+                let (cluster, own) = (self.cluster_at(joints[point]), self.vertices[point]);
+                let streams = &mut self.attributes.streams;
+                self.vertices[point] = streams.add_copy(view, cluster, own, taken);
             }
         }
-        patches.clear();
-    }
-
-    /// Puts copies in the place of vertices that take something from another chart.
-    fn copy(&mut self, Parts { patch, joints, .. }: &Parts, vertices: &mut [u32]) {
-        let begin = patch.begin as usize;
-        for place in (begin..joints.len()).chain(0..begin) {
-            if let Joint { corner, taken: Some(taken) } = &joints[place] {
-                let cluster = self.plan.topology.cluster_at[*corner];
-                let (streams, own) = (&mut self.attributes.streams, vertices[place]);
-                vertices[place] = streams.add_copy(self.plan, cluster, own, taken);
-            }
+        for (middle, point) in parts.middles.iter().zip(joints.len()..) {
+            let (cluster, taken) = (self.cluster_at(joints[0]), chart.taken_at(point));
+            let (at, streams) = ((middle.position, middle.normal), &mut self.attributes.streams);
+            self.vertices.push(streams.add_between(view, cluster, at, (middle.near, taken)));
         }
     }
 
-    fn add_middle(&mut self, parts: &Parts, middle: &Middle) -> u32 {
-        let (plan, streams) = (self.plan, &mut self.attributes.streams);
-        let corner = parts.joints[0].corner;
-        let sectors = plan.sectors.ring(plan.sectors.fans[plan.sectors.sector_of[corner]].ring);
-        let (placement, taken) = (&self.limits.placement, middle.taken.as_ref());
-        middles::add(plan, placement, streams, sectors, &middle.joints, taken)
+    fn cluster_at(&self, corner: Corner) -> Cluster {
+        self.weld.cluster_of[self.view.vertex_at(corner)]
     }
 
     fn finish(self) -> Chamfered {
-        let verdicts = verdicts(self.plan, self.limits, self.cuts);
         let Triangles { indices, sources, index_counts } = self.submeshes.joined();
         let streams = self.attributes.streams;
         Chamfered {
             mesh: MeshBuffers { indices, submesh_index_counts: index_counts, ..streams.vertices },
             vertex_sources: streams.sources,
             triangle_sources: sources,
-            totals: totals(self.plan, &verdicts),
-            verdicts,
-            width: self.plan.view.width as f32,
+            width: self.view.width as f32,
+            ..Chamfered::default()
         }
     }
 }

@@ -2,13 +2,20 @@
 
 use glam::DVec3;
 
+use crate::foot::Foot;
 use crate::ids::{Corner, IdVec, Sector};
-use crate::plan::Plan;
-use crate::resample::{blended_normal, surface_foot};
+use crate::offsets::Offset;
+use crate::resample::{blended_normal, chart_foot, surface_foot};
+use crate::sectors::Sectors;
+use crate::surface::Surface;
+use crate::threads::Threads;
 
 /// Positions as they will be stored, so that what is checked is what comes out.
 #[derive(Clone)]
-pub struct Placement {
+pub struct Placement<'a> {
+    surface: Surface<'a>,
+    sectors: &'a Sectors,
+    offsets: &'a IdVec<Sector, Offset>,
     /// `#sectors`: 0 (stays) to 1 (full width).
     pub share: IdVec<Sector, f64>,
     /// `#sectors`: the position of the sector's vertices.
@@ -17,81 +24,96 @@ pub struct Placement {
     pub normals: IdVec<Sector, [DVec3; 2]>,
 }
 
-impl Placement {
-    /// Every sector where it was.
-    #[cfg(test)]
-    pub fn unmoved(plan: &Plan) -> Placement {
-        Placement::at(plan, &IdVec::filled(0.0, plan.sectors.fans.len()))
-    }
-
+impl<'a> Placement<'a> {
     /// Every sector at a share of its offset; `share: #sectors`.
-    pub fn at(plan: &Plan, share: &IdVec<Sector, f64>) -> Placement {
-        let (threads, count) = (&plan.view.threads, share.len());
-        let point = threads.map(count, |sector| point_at(plan, sector, share[sector]));
-        let normals = threads.map(count, |sector| {
-            let has_moved = point[sector] != base(plan, sector);
-            normals_at(plan, sector, share[sector], has_moved)
-        });
-        Placement { share: share.clone(), point, normals }
+    pub fn new(
+        surface: Surface<'a>,
+        sectors: &'a Sectors,
+        offsets: &'a IdVec<Sector, Offset>,
+        share: IdVec<Sector, f64>,
+        threads: &Threads,
+    ) -> Placement<'a> {
+        let (point, normals) = (IdVec::default(), IdVec::default());
+        let mut placement = Placement { surface, sectors, offsets, share, point, normals };
+        let count = placement.share.len();
+        placement.point = threads.map(count, |s| placement.point_at(s, placement.share[s]));
+        placement.normals = threads.map(count, |sector| placement.normals_of(sector));
+        placement
     }
 
     /// Moves a sector's vertex to a share of its offset.
-    pub fn set(&mut self, plan: &Plan, sector: Sector, share: f64) {
+    pub fn set(&mut self, sector: Sector, share: f64) {
         self.share[sector] = share;
-        self.point[sector] = point_at(plan, sector, share);
-        self.normals[sector] = normals_at(plan, sector, share, self.has_moved(plan, sector));
+        self.point[sector] = self.point_at(sector, share);
+        self.normals[sector] = self.normals_of(sector);
     }
 
     /// Whether the sector's vertices stand elsewhere than in the source.
     #[inline]
-    pub fn has_moved(&self, plan: &Plan, sector: Sector) -> bool {
-        self.point[sector] != base(plan, sector)
+    pub fn has_moved(&self, sector: Sector) -> bool {
+        self.point[sector] != self.base(sector)
+    }
+
+    /// Where the sector's vertices stand in the source.
+    #[inline]
+    pub fn base(&self, sector: Sector) -> DVec3 {
+        self.surface.view.position_at(self.sectors.fans[sector].first)
     }
 
     /// Where a corner of the source mesh stands now.
     #[inline]
-    pub fn position_at(&self, plan: &Plan, corner: Corner) -> DVec3 {
-        let sector = plan.sectors.sector_of[corner];
-        if sector.is_none() { plan.view.position_at(corner) } else { self.point[sector] }
+    pub fn position_at(&self, corner: Corner) -> DVec3 {
+        let sector = self.sectors.sector_of[corner];
+        if sector.is_none() { self.surface.view.position_at(corner) } else { self.point[sector] }
     }
 
     /// The normal at a corner; between the first and the last corner of a sector, the last one's.
     #[inline]
-    pub fn normal_at(&self, plan: &Plan, corner: Corner) -> DVec3 {
-        let sector = plan.sectors.sector_of[corner];
+    pub fn normal_at(&self, corner: Corner) -> DVec3 {
+        let sector = self.sectors.sector_of[corner];
         if sector.is_none() {
-            return plan.view.normal_at(corner);
+            return self.surface.view.normal_at(corner);
         }
-        let is_first = plan.sectors.fans[sector].first == corner;
+        let is_first = self.sectors.fans[sector].first == corner;
         self.normals[sector][usize::from(!is_first)]
     }
-}
 
-/// Where a sector's vertices stand at a share of its offset.
-fn point_at(plan: &Plan, sector: Sector, share: f64) -> DVec3 {
-    narrow(base(plan, sector) + plan.offsets[sector].vector * share)
-}
+    /// Where a sector goes at full width.
+    pub fn offset(&self, sector: Sector) -> &Offset {
+        &self.offsets[sector]
+    }
 
-/// The normals there, at the sector's first and at its last corner.
-fn normals_at(plan: &Plan, sector: Sector, share: f64, has_moved: bool) -> [DVec3; 2] {
-    let fan = &plan.sectors.fans[sector];
-    let at = |corner: Corner| {
-        // A move that rounding swallows leaves the vertex, and so its normal, as it was.
-        if !has_moved {
-            plan.view.normal_at(corner)
-        } else {
-            blended_normal(plan, &surface_foot(plan, sector, corner).blend(&plan.view, share))
-        }
-    };
-    let first = at(fan.first);
-    let is_one = plan.view.vertex_at(fan.first) == plan.view.vertex_at(fan.last);
-    [first, if is_one { first } else { at(fan.last) }]
-}
+    /// The way that a corner of a sector goes at full width, on the surface: see [`surface_foot`].
+    pub fn surface_foot(&self, sector: Sector, corner: Corner) -> Foot {
+        surface_foot(self.surface, self.sectors, &self.offsets[sector], corner)
+    }
 
-/// Where the sector's vertices stand in the source.
-#[inline]
-pub fn base(plan: &Plan, sector: Sector) -> DVec3 {
-    plan.view.position_at(plan.sectors.fans[sector].first)
+    /// The same in the corner's own texture chart: see [`chart_foot`].
+    pub fn chart_foot(&self, sector: Sector, corner: Corner) -> Foot {
+        chart_foot(self.surface, self.sectors, &self.offsets[sector], corner)
+    }
+
+    fn point_at(&self, sector: Sector, share: f64) -> DVec3 {
+        narrow(self.base(sector) + self.offsets[sector].vector * share)
+    }
+
+    /// The normals where a sector stands, at its first and at its last corner.
+    fn normals_of(&self, sector: Sector) -> [DVec3; 2] {
+        let (view, fan) = (self.surface.view, &self.sectors.fans[sector]);
+        let has_moved = self.has_moved(sector);
+        let at = |corner: Corner| {
+            // A move that rounding swallows leaves the vertex, and so its normal, as it was.
+            if !has_moved {
+                view.normal_at(corner)
+            } else {
+                let foot = self.surface_foot(sector, corner);
+                blended_normal(view, &foot.blend(view, self.share[sector]))
+            }
+        };
+        let first = at(fan.first);
+        let is_one = view.vertex_at(fan.first) == view.vertex_at(fan.last);
+        [first, if is_one { first } else { at(fan.last) }]
+    }
 }
 
 /// Rounded to single precision.

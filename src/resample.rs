@@ -7,78 +7,83 @@ use glam::DVec3;
 
 use crate::breaks::{is_hard, same_chart};
 use crate::foot::{Foot, locate};
-use crate::ids::{Corner, Few, Sector, Triangle, Vertex};
+use crate::ids::{Corner, Few, Triangle, Vertex};
 use crate::math::unit;
-use crate::plan::Plan;
+use crate::offsets::Offset;
 use crate::report::Blend;
+use crate::sectors::Sectors;
+use crate::surface::Surface;
 use crate::tolerance::HARD_COSINE;
+use crate::view::View;
 
 /// Where a sector's full offset takes one of its corners on the surface: the triangle that the
 /// offset lies on, or one of the corner's own vertex if the surface breaks between the two and that
 /// has a plane.
-pub fn surface_foot(plan: &Plan, sector: Sector, corner: Corner) -> Foot {
+pub fn surface_foot(surface: Surface, sectors: &Sectors, offset: &Offset, corner: Corner) -> Foot {
     let agree = |one: Vertex, other: Vertex| {
-        let (one, other) = (plan.view.normal(one), plan.view.normal(other));
+        let (one, other) = (surface.view.normal(one), surface.view.normal(other));
         one.dot(other) >= HARD_COSINE * (one.length_squared() * other.length_squared()).sqrt()
     };
-    let usual = foot(plan, sector, corner, agree).unwrap_or(plan.offsets[sector].foot);
-    let normal = plan.view.normal_at(corner);
+    let usual = foot(surface, sectors, offset, corner, agree).unwrap_or(offset.foot);
+    let normal = surface.view.normal_at(corner);
     let mut corners = usual.corner.triangle().corners().into_iter();
-    if corners.all(|corner| plan.view.normal_at(corner) == normal) {
+    if corners.all(|corner| surface.view.normal_at(corner) == normal) {
         return usual;
     }
-    even_foot(plan, sector, corner).unwrap_or(usual)
+    even_foot(surface, sectors, offset, corner).unwrap_or(usual)
 }
 
 /// As [`surface_foot`], within the corner's own texture chart; where that has no plane, the corner
 /// itself.
-pub fn chart_foot(plan: &Plan, sector: Sector, corner: Corner) -> Foot {
-    let agree = |one, other| same_chart(&plan.view, one, other);
-    foot(plan, sector, corner, agree).unwrap_or(Foot::at(corner))
+pub fn chart_foot(surface: Surface, sectors: &Sectors, offset: &Offset, corner: Corner) -> Foot {
+    let agree = |one, other| same_chart(surface.view, one, other);
+    foot(surface, sectors, offset, corner, agree).unwrap_or(Foot::at(corner))
 }
 
 fn foot(
-    plan: &Plan,
-    sector: Sector,
+    surface: Surface,
+    sectors: &Sectors,
+    offset: &Offset,
     corner: Corner,
     agree: impl Fn(Vertex, Vertex) -> bool,
 ) -> Option<Foot> {
-    let offset = &plan.offsets[sector];
-    let vertex = plan.view.vertex_at(corner);
-    let at_offset = plan.view.vertex_at(offset.within);
+    let vertex = surface.view.vertex_at(corner);
+    let at_offset = surface.view.vertex_at(offset.within);
     // A line's way lies on its neighbour, which may belong to something else.
-    let is_carried =
-        !plan.faces.is_line(offset.within.triangle()) || lends_chart(plan, offset.within, &agree);
+    let is_carried = !surface.faces.is_line(offset.within.triangle())
+        || lends_chart(surface, offset.within, &agree);
     if (vertex == at_offset || agree(vertex, at_offset)) && is_carried {
         return Some(offset.foot);
     }
-    let own = nearest_own(plan, sector, vertex, &agree)?;
-    locate(&plan.view, own, plan.view.position_at(own), offset.vector)
+    let own = nearest_own(surface, sectors, offset, corner, &agree)?;
+    locate(surface.view, own, surface.view.position_at(own), offset.vector)
 }
 
 /// Whether a line's neighbour agrees with it at both ends of the side between them.
-fn lends_chart(plan: &Plan, line: Corner, agree: &impl Fn(Vertex, Vertex) -> bool) -> bool {
-    let lender = plan.faces.lender[line.triangle()];
-    let side = plan.topology.twin[lender];
+fn lends_chart(surface: Surface, line: Corner, agree: &impl Fn(Vertex, Vertex) -> bool) -> bool {
+    let lender = surface.faces.lender[line.triangle()];
+    let side = surface.topology.twin[lender];
     let ends = [(lender, side.next()), (lender.next(), side)];
-    let vertices = |(one, other)| (plan.view.vertex_at(one), plan.view.vertex_at(other));
+    let vertices = |(one, other)| (surface.view.vertex_at(one), surface.view.vertex_at(other));
     ends.map(vertices).into_iter().all(|(one, other)| one == other || agree(one, other))
 }
 
 /// The corner of the sector, of those that have a plane and agree with the vertex, that is fewest
 /// steps round the fan from the one that the offset lies on; of two, the earlier.
 fn nearest_own(
-    plan: &Plan,
-    sector: Sector,
-    vertex: Vertex,
+    surface: Surface,
+    sectors: &Sectors,
+    offset: &Offset,
+    corner: Corner,
     agree: &impl Fn(Vertex, Vertex) -> bool,
 ) -> Option<Corner> {
-    let corners = || plan.sectors.corners(&plan.topology, sector).enumerate();
-    let within = plan.offsets[sector].within;
+    let (sector, vertex) = (sectors.sector_of[corner], surface.view.vertex_at(corner));
+    let corners = || sectors.corners(surface.topology, sector).enumerate();
+    let within = offset.within;
     let middle = corners().find(|(_, corner)| *corner == within)?.0;
     let is_own = |(_, corner): &(usize, Corner)| {
-        let own = plan.view.vertex_at(*corner);
-        has_plane(plan, corner.triangle()) && (own == vertex || agree(vertex, own))
+        let own = surface.view.vertex_at(*corner);
+        has_plane(surface, corner.triangle()) && (own == vertex || agree(vertex, own))
     };
     let nearest = corners().filter(is_own).min_by_key(|(step, _)| step.abs_diff(middle));
     nearest.map(|(_, corner)| corner)
@@ -87,43 +92,43 @@ fn nearest_own(
 /// The way over a face of the corner's own where the offset leads over one beyond it, as it does
 /// from a line, and the faces around the corner have one normal all over: they keep it. None where
 /// the offset leads out of that face's plane, as then it is not the place that the vertex comes to.
-fn even_foot(plan: &Plan, sector: Sector, corner: Corner) -> Option<Foot> {
-    let offset = &plan.offsets[sector];
+fn even_foot(surface: Surface, sectors: &Sectors, offset: &Offset, corner: Corner) -> Option<Foot> {
     let mut ways = [corner, offset.within].into_iter();
-    let leaves = ways.any(|corner| !has_plane(plan, corner.triangle()));
-    if !leaves || !is_even(plan, sector, corner) {
+    let leaves = ways.any(|corner| !has_plane(surface, corner.triangle()));
+    if !leaves || !is_even(surface, sectors, corner) {
         return None;
     }
-    let is_same = |one, other| plan.view.normal(one) == plan.view.normal(other);
-    let own = nearest_own(plan, sector, plan.view.vertex_at(corner), &is_same)?;
-    let rise = offset.vector.dot(plan.faces.normal[own.triangle()]).abs();
-    if rise > plan.view.resolution {
+    let is_same = |one, other| surface.view.normal(one) == surface.view.normal(other);
+    let own = nearest_own(surface, sectors, offset, corner, &is_same)?;
+    let rise = offset.vector.dot(surface.faces.normal[own.triangle()]).abs();
+    if rise > surface.view.resolution {
         return None;
     }
-    locate(&plan.view, own, plan.view.position_at(own), offset.vector)
+    locate(surface.view, own, surface.view.position_at(own), offset.vector)
 }
 
 /// Whether a triangle is more than a line.
-fn has_plane(plan: &Plan, triangle: Triangle) -> bool {
-    plan.faces.normal[triangle] != DVec3::ZERO && !plan.faces.is_line(triangle)
+fn has_plane(surface: Surface, triangle: Triangle) -> bool {
+    surface.faces.normal[triangle] != DVec3::ZERO && !surface.faces.is_line(triangle)
 }
 
 /// Whether the triangles around one of a sector's corners, from one hard edge to the next, have the
 /// very same normal at all their corners.
-fn is_even(plan: &Plan, sector: Sector, corner: Corner) -> bool {
-    let normal = plan.view.normal_at(corner);
+fn is_even(surface: Surface, sectors: &Sectors, corner: Corner) -> bool {
+    let normal = surface.view.normal_at(corner);
     let is_even = |corner: &Corner| {
         let corners = corner.triangle().corners();
-        corners.into_iter().all(|corner| plan.view.normal_at(corner) == normal)
+        corners.into_iter().all(|corner| surface.view.normal_at(corner) == normal)
     };
-    let corners: Few<Corner> = plan.sectors.corners(&plan.topology, sector).collect();
-    let mut fans = corners.chunk_by(|&one, &other| !is_hard(&plan.view, other, one.prev()));
+    let sector = sectors.sector_of[corner];
+    let corners: Few<Corner> = sectors.corners(surface.topology, sector).collect();
+    let mut fans = corners.chunk_by(|&one, &other| !is_hard(surface.view, other, one.prev()));
     fans.find(|fan| fan.contains(&corner)).is_some_and(|fan| fan.iter().all(is_even))
 }
 
 /// The unit normal of a blend of source vertices; exactly theirs where they are all equal.
-pub fn blended_normal(plan: &Plan, blend: &Blend) -> DVec3 {
-    let normals = blend.vertices.map(|vertex| plan.view.normal(Vertex(vertex)));
+pub fn blended_normal(view: &View, blend: &Blend) -> DVec3 {
+    let normals = blend.vertices.map(|vertex| view.normal(Vertex(vertex)));
     if normals[0] == normals[1] && normals[0] == normals[2] {
         return normals[0];
     }
@@ -139,15 +144,15 @@ pub fn weighted_sum(blend: &Blend, values: [DVec3; 3]) -> DVec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plan::tests::plan_of;
     use crate::shapes;
+    use crate::stages::stages_of;
 
     #[test]
     fn equal_normals_blend_to_the_very_same() {
         let sphere = shapes::sphere(5, 7);
-        let plan = plan_of(&sphere, 0.1);
-        let normal = plan.view.normal(Vertex(9));
+        let stages = stages_of(&sphere, 0.1);
+        let normal = stages.view.normal(Vertex(9));
         let blend = Blend { vertices: [9; 3], weights: [0.3, 0.3, 0.4] };
-        assert_eq!(blended_normal(&plan, &blend), normal);
+        assert_eq!(blended_normal(&stages.view, &blend), normal);
     }
 }

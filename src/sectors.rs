@@ -7,7 +7,7 @@
 use crate::breaks::is_hard;
 use crate::contacts::Contacts;
 use crate::edges::Edges;
-use crate::ids::{Cluster, Corner, Id, IdVec, Ring, Sector, Triangle};
+use crate::ids::{Cluster, Corner, Id, IdVec, Ring, Sector};
 use crate::topology::{Hidden, Topology};
 use crate::view::View;
 
@@ -275,24 +275,11 @@ fn add_ring(sectors: &mut Sectors, first: Sector) {
     sectors.rings.push(RingRange { start, end: sectors.members.len() as u32, closed });
 }
 
-/// `#clusters`: whether a face goes on for at least a row of triangles behind a vertex inside of
-/// it. No chamfer reaches these, so the first row may be given away.
-pub fn deep(topology: &Topology, sectors: &Sectors, clusters: usize) -> IdVec<Cluster, bool> {
-    let mut deep = IdVec::filled(false, clusters);
-    for triangle in (0..topology.twin.len() / 3).map(|triangle| Triangle(triangle as u32)) {
-        let corners = triangle.corners();
-        if corners.iter().all(|&corner| sectors.sector_of[corner].is_none()) {
-            corners.iter().for_each(|&corner| deep[topology.cluster_at[corner]] = true);
-        }
-    }
-    deep
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plan::tests::plan_of;
     use crate::shapes;
+    use crate::stages::stages_of;
 
     /// For each ring, how many sectors it has and whether it closes; sorted.
     fn rings(sectors: &Sectors) -> Vec<(usize, bool)> {
@@ -305,15 +292,15 @@ mod tests {
     #[test]
     fn around_each_corner_of_a_cube_three_sectors_close_a_ring() {
         let cube = shapes::plain_cube(1.0);
-        let plan = plan_of(&cube, 0.1);
-        assert_eq!(rings(&plan.sectors), [(3, true); 8]);
-        assert!(plan.sectors.sector_of.iter().all(|sector| sector.is_some()));
+        let stages = stages_of(&cube, 0.1);
+        assert_eq!(rings(&stages.sectors), [(3, true); 8]);
+        assert!(stages.sectors.sector_of.iter().all(|sector| sector.is_some()));
     }
 
     #[test]
     fn at_a_border_a_ring_stays_open() {
         let open = shapes::open_box();
-        let sectors = plan_of(&open, 0.1).sectors;
+        let sectors = stages_of(&open, 0.1).sectors;
         let expected = [[(2, false); 4], [(3, true); 4]].concat();
         assert_eq!(rings(&sectors), expected);
         for ring in sectors.rings.ids().filter(|&ring| !sectors.rings[ring].closed) {
@@ -325,25 +312,25 @@ mod tests {
     #[test]
     fn a_sector_is_a_fan_over_soft_edges() {
         let cylinder = shapes::cylinder(8);
-        let plan = plan_of(&cylinder, 0.1);
+        let stages = stages_of(&cylinder, 0.1);
         // A vertex of the side has one or two corners in each of the two quads beside it.
-        for sector in plan.sectors.fans.ids() {
-            let corners: Vec<_> = plan.sectors.corners(&plan.topology, sector).collect();
+        for sector in stages.sectors.fans.ids() {
+            let corners: Vec<_> = stages.sectors.corners(&stages.topology, sector).collect();
             let [first, last] = [corners[0], corners[corners.len() - 1]];
-            assert!(plan.edges.chamfered_at[first].is_some());
-            assert!(plan.edges.chamfered_at[last.prev()].is_some());
-            assert!(corners.iter().all(|&corner| plan.sectors.sector_of[corner] == sector));
+            assert!(stages.edges.chamfered_at[first].is_some());
+            assert!(stages.edges.chamfered_at[last.prev()].is_some());
+            assert!(corners.iter().all(|&corner| stages.sectors.sector_of[corner] == sector));
         }
     }
 
     #[test]
     fn the_corners_of_one_vertex_may_lie_in_two_sectors() {
         let cubes = shapes::extruding_cubes();
-        let plan = plan_of(&cubes, 0.1);
+        let stages = stages_of(&cubes, 0.1);
         let vertex = cubes.positions.iter().position(|&at| at == [1.0; 3]).unwrap();
-        let at_vertex = |corner: &Corner| plan.view.vertex_at(*corner).index() == vertex;
-        let corners = plan.sectors.sector_of.ids().filter(at_vertex);
-        let mut sectors: Vec<_> = corners.map(|corner| plan.sectors.sector_of[corner]).collect();
+        let at_vertex = |corner: &Corner| stages.view.vertex_at(*corner).index() == vertex;
+        let corners = stages.sectors.sector_of.ids().filter(at_vertex);
+        let mut sectors: Vec<_> = corners.map(|corner| stages.sectors.sector_of[corner]).collect();
         sectors.dedup();
         assert_eq!(sectors.len(), 2);
     }
@@ -351,6 +338,6 @@ mod tests {
     #[test]
     fn without_hard_edges_there_are_no_sectors() {
         let sphere = shapes::sphere(4, 6);
-        assert_eq!(plan_of(&sphere, 0.1).sectors.fans.len(), 0);
+        assert_eq!(stages_of(&sphere, 0.1).sectors.fans.len(), 0);
     }
 }

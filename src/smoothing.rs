@@ -52,11 +52,9 @@ pub fn split_by_angle(positions: &[[f32; 3]], indices: &[u32], angle_degrees: f3
         submesh_index_counts: &counts,
         ..Mesh::default()
     };
-    let threads = Threads::default();
-    let view =
-        View { mesh, width: 0.0, least_breadth: 0.0, resolution: resolution(&mesh), threads };
+    let view = View { mesh, width: 0.0, least_breadth: 0.0, resolution: resolution(&mesh) };
     let topology = topology(&view, &weld(&mesh));
-    let faces = faces(&view, &topology).normal;
+    let faces = faces(&view, &topology, &Threads::default()).normal;
     let cosine = libm::cos(f64::from(angle_degrees).to_radians());
     let is_smooth = |side: Corner| {
         let twin = topology.twin[side];

@@ -9,10 +9,9 @@
 use glam::DVec3;
 
 use crate::edges::HardEdge;
-use crate::ids::{Corner, Edge, IdVec};
+use crate::ids::Corner;
 use crate::math::area_vector;
 use crate::placement::Placement;
-use crate::plan::Plan;
 use crate::validity::faces_out;
 
 /// Two diagonals fold alike if their cosines differ by less than rounding can explain.
@@ -61,22 +60,12 @@ impl Cut {
     }
 }
 
-/// `#hard edges`: how each strip is cut where the sectors stand now.
-pub fn strips(plan: &Plan, placement: &Placement) -> IdVec<Edge, Cut> {
-    plan.view.threads.map(plan.edges.hard.len(), |edge| {
-        let edge = &plan.edges.hard[edge];
-        match edge.skipped {
-            Some(_) => Cut::Closed,
-            None => cut(&quad(plan, placement, edge)),
-        }
-    })
-}
-
-pub fn quad(plan: &Plan, placement: &Placement, edge: &HardEdge) -> Quad {
+/// The strip of an edge where the sectors stand now.
+pub fn quad(placement: &Placement, edge: &HardEdge) -> Quad {
     let corners = corners(edge);
     Quad {
-        points: corners.map(|corner| placement.position_at(plan, corner)),
-        normals: corners.map(|corner| placement.normal_at(plan, corner)),
+        points: corners.map(|corner| placement.position_at(corner)),
+        normals: corners.map(|corner| placement.normal_at(corner)),
     }
 }
 

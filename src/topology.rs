@@ -18,6 +18,8 @@ use crowded::Crowd;
 
 /// Half-edges over clusters.
 pub struct Topology {
+    /// How many clusters there are.
+    pub clusters: usize,
     /// `#corners`: the cluster of each corner's vertex.
     pub cluster_at: IdVec<Corner, Cluster>,
     /// `#corners`: the opposite half-edge, or none at a border and in collapsed triangles.
@@ -64,6 +66,7 @@ pub fn topology(view: &View, weld: &Weld) -> Topology {
         corners.map(|corner| weld.cluster_of[view.vertex_at(corner)]).collect::<Vec<_>>(),
     );
     let mut joined = Topology {
+        clusters: weld.first_vertex.len(),
         cluster_at,
         twin: IdVec::filled(Corner::NONE, view.corner_count()),
         doubled: Vec::new(),
@@ -71,7 +74,7 @@ pub fn topology(view: &View, weld: &Weld) -> Topology {
         contacts: Vec::new(),
         touching: Vec::new(),
     };
-    join_all(view, weld.first_vertex.len(), &mut joined);
+    join_all(view, &mut joined);
     joined.doubled.sort_unstable();
     joined.hidden.sort_unstable();
     joined.contacts.sort_unstable();
@@ -92,8 +95,8 @@ struct Spoke {
     half_edge: Corner,
 }
 
-fn join_all(view: &View, clusters: usize, joined: &mut Topology) {
-    let (starts, mut spokes) = buckets(view, &joined.cluster_at, clusters);
+fn join_all(view: &View, joined: &mut Topology) {
+    let (starts, mut spokes) = buckets(view, joined);
     let mut crowds = Vec::new();
     for bounds in starts.windows(2) {
         let bucket = &mut spokes[bounds[0] as usize..bounds[1] as usize];
@@ -124,11 +127,8 @@ fn parts(joined: &Topology) -> Groups {
 }
 
 /// All half-edges, sorted by the lower of their two clusters (counting sort).
-fn buckets(
-    view: &View,
-    cluster_at: &IdVec<Corner, Cluster>,
-    clusters: usize,
-) -> (Vec<u32>, Vec<Spoke>) {
+fn buckets(view: &View, joined: &Topology) -> (Vec<u32>, Vec<Spoke>) {
+    let cluster_at = &joined.cluster_at;
     let half_edges = || {
         let whole = view.triangles().filter(|&triangle| !is_collapsed(cluster_at, triangle));
         whole.flat_map(|triangle| triangle.corners()).map(|corner| {
@@ -136,7 +136,7 @@ fn buckets(
             (from.min(to), Spoke { far: from.max(to), half_edge: corner })
         })
     };
-    let mut starts = vec![0_u32; clusters + 1];
+    let mut starts = vec![0_u32; joined.clusters + 1];
     half_edges().for_each(|(near, _)| starts[near.index()] += 1);
     let mut total = 0;
     for start in &mut starts {

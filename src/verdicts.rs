@@ -1,43 +1,60 @@
 //! Verdicts: what became of each hard edge, measured on the result.
 
+use crate::chamfers::Chamfers;
 use crate::edges::HardEdge;
-use crate::ids::{Edge, IdVec, Sector};
+use crate::ids::Sector;
 use crate::limits::Limits;
 use crate::math::unit;
-use crate::plan::Plan;
+use crate::patches::Patches;
 use crate::report::{EdgeVerdict, Outcome, Reason, Totals};
-use crate::strips::{self, Cut};
+use crate::sectors::Sectors;
+use crate::strips;
+use crate::view::View;
 
-/// `#hard edges`.
-pub fn verdicts(plan: &Plan, limits: &Limits, cuts: &IdVec<Edge, Cut>) -> Vec<EdgeVerdict> {
-    let of_edge = |edge| verdict(plan, limits, &plan.edges.hard[edge], cuts[edge]);
-    plan.edges.hard.ids().map(of_edge).collect()
+/// `#hard edges`, and their sum.
+pub fn verdicts(
+    view: &View,
+    chamfers: Chamfers,
+    limits: &Limits,
+    patches: &Patches,
+) -> (Vec<EdgeVerdict>, Totals) {
+    let Chamfers { edges, sectors } = chamfers;
+    let is_open = |edge| !patches.strip(edge).triangles.is_empty();
+    let of_edge = |edge| verdict(view, sectors, limits, (&edges.hard[edge], is_open(edge)));
+    let verdicts: Vec<EdgeVerdict> = edges.hard.ids().map(of_edge).collect();
+    let totals = totals(view, chamfers, limits, &verdicts);
+    (verdicts, totals)
 }
 
-fn verdict(plan: &Plan, limits: &Limits, edge: &HardEdge, cut: Cut) -> EdgeVerdict {
+fn verdict(
+    view: &View,
+    sectors: &Sectors,
+    limits: &Limits,
+    (edge, is_open): (&HardEdge, bool),
+) -> EdgeVerdict {
     let ends = [edge.sides[0], edge.sides[0].next()];
     let left = |reason| (Outcome::Skipped, reason, [0.0; 2]);
     let (outcome, reason, widths) = match edge.skipped {
         Some(reason) => left(reason),
         None => {
-            let sectors = strips::corners(edge).map(|corner| plan.sectors.sector_of[corner]);
-            let reason = worst_reason(plan, limits, sectors);
-            if cut == Cut::Closed {
-                left(reason.unwrap_or(unopened(plan, sectors)))
+            let at = strips::corners(edge).map(|corner| sectors.sector_of[corner]);
+            let reason = worst_reason(limits, at);
+            if !is_open {
+                left(reason.unwrap_or(unopened(view, sectors, at)))
             } else {
                 let outcome = if reason.is_some() { Outcome::Narrowed } else { Outcome::Full };
-                (outcome, reason.unwrap_or(Reason::None), widths(plan, limits, edge))
+                (outcome, reason.unwrap_or(Reason::None), widths(view, limits, edge))
             }
         }
     };
-    EdgeVerdict { vertices: ends.map(|end| plan.view.vertex_at(end).0), outcome, reason, widths }
+    EdgeVerdict { vertices: ends.map(|end| view.vertex_at(end).0), outcome, reason, widths }
 }
 
 /// Why an edge did not open though nothing limited it.
-fn unopened(plan: &Plan, sectors: [Sector; 4]) -> Reason {
-    if plan.view.width <= plan.view.resolution {
+fn unopened(view: &View, sectors: &Sectors, at: [Sector; 4]) -> Reason {
+    if view.width <= view.resolution {
         Reason::TooFine
-    } else if sectors.into_iter().any(|sector| plan.sectors.fans[sector].stays_with_rim()) {
+    } else if at.into_iter().any(|sector| sectors.fans[sector].stays_with_rim()) {
         Reason::Contact
     } else {
         Reason::NoEnd
@@ -45,41 +62,43 @@ fn unopened(plan: &Plan, sectors: [Sector; 4]) -> Reason {
 }
 
 /// What limited the sector that got least of its offset; none if all got everything.
-fn worst_reason(plan: &Plan, limits: &Limits, sectors: [Sector; 4]) -> Option<Reason> {
+fn worst_reason(limits: &Limits, sectors: [Sector; 4]) -> Option<Reason> {
     let share = |sector: &Sector| limits.placement.share[*sector];
     let limited = sectors
         .into_iter()
-        .filter(|&sector| plan.offsets[sector].moves() && share(&sector) < 1.0)
+        .filter(|&sector| limits.placement.offset(sector).moves() && share(&sector) < 1.0)
         .min_by(|one, other| share(one).total_cmp(&share(other)));
-    let is_capped = sectors.into_iter().any(|sector| plan.offsets[sector].is_capped);
+    let is_capped = sectors.into_iter().any(|sector| limits.placement.offset(sector).is_capped);
     limited.map(|sector| limits.reason[sector]).or(is_capped.then_some(Reason::Miter))
 }
 
 /// At each end, the mean distance of the two pulled vertices from the line of the old edge.
-fn widths(plan: &Plan, limits: &Limits, edge: &HardEdge) -> [f32; 2] {
-    let [from, to] = [edge.sides[0], edge.sides[0].next()].map(|c| plan.view.position_at(c));
+fn widths(view: &View, limits: &Limits, edge: &HardEdge) -> [f32; 2] {
+    let [from, to] = [edge.sides[0], edge.sides[0].next()].map(|c| view.position_at(c));
     let along = unit(to - from);
     let corners = strips::corners(edge);
-    let [b1, a1, a2, b2] = corners.map(|corner| limits.placement.position_at(plan, corner));
+    let [b1, a1, a2, b2] = corners.map(|corner| limits.placement.position_at(corner));
     let distance = |point: glam::DVec3| (point - from).cross(along).length();
     [(a1, a2), (b1, b2)].map(|(one, two)| ((distance(one) + distance(two)) / 2.0) as f32)
 }
 
-pub fn totals(plan: &Plan, verdicts: &[EdgeVerdict]) -> Totals {
+fn totals(view: &View, chamfers: Chamfers, limits: &Limits, verdicts: &[EdgeVerdict]) -> Totals {
     let mut totals = Totals { hard_edges: verdicts.len() as u32, ..Totals::default() };
     let (mut whole, mut got) = (0.0, 0.0);
-    for (verdict, edge) in verdicts.iter().zip(plan.edges.hard.iter()) {
+    for (verdict, edge) in verdicts.iter().zip(chamfers.edges.hard.iter()) {
         match verdict.outcome {
             Outcome::Full => totals.chamfered += 1,
             Outcome::Narrowed => totals.narrowed += 1,
             Outcome::Skipped => totals.skipped[verdict.reason] += 1,
         }
-        let [from, to] = [edge.sides[0], edge.sides[0].next()].map(|c| plan.view.position_at(c));
+        let [from, to] = [edge.sides[0], edge.sides[0].next()].map(|c| view.position_at(c));
         let length = from.distance(to);
-        for (width, counts) in verdict.widths.into_iter().zip(counting_ends(plan, verdict, edge)) {
+        for (width, counts) in
+            verdict.widths.into_iter().zip(counting_ends(chamfers.sectors, limits, (verdict, edge)))
+        {
             if counts {
                 whole += length;
-                got += length * (f64::from(width) / plan.view.width).min(1.0);
+                got += length * (f64::from(width) / view.width).min(1.0);
             }
         }
     }
@@ -89,10 +108,14 @@ pub fn totals(plan: &Plan, verdicts: &[EdgeVerdict]) -> Totals {
 
 /// The ends of an edge at which a width was asked for: not those at which its chamfer tapers to a
 /// point because it ends there.
-fn counting_ends(plan: &Plan, verdict: &EdgeVerdict, edge: &HardEdge) -> [bool; 2] {
+fn counting_ends(
+    sectors: &Sectors,
+    limits: &Limits,
+    (verdict, edge): (&EdgeVerdict, &HardEdge),
+) -> [bool; 2] {
     let moves = strips::corners(edge).map(|corner| {
-        let sector = plan.sectors.sector_of[corner];
-        sector.is_some() && plan.offsets[sector].moves()
+        let sector = sectors.sector_of[corner];
+        sector.is_some() && limits.placement.offset(sector).moves()
     });
     let is_skipped = verdict.outcome == Outcome::Skipped;
     [moves[1] || moves[2], moves[0] || moves[3]].map(|moves| moves || is_skipped)
@@ -101,18 +124,16 @@ fn counting_ends(plan: &Plan, verdict: &EdgeVerdict, edge: &HardEdge) -> [bool; 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::limits::limits;
     use crate::mesh::MeshBuffers;
     use crate::options::Verify;
-    use crate::plan::tests::plan_of;
     use crate::shapes;
+    use crate::stages::stages_of;
 
     fn judge(mesh: &MeshBuffers, width: f32) -> (Vec<EdgeVerdict>, Totals) {
-        let plan = plan_of(mesh, width);
-        let limits = limits(&plan, Verify::Fast).unwrap();
-        let verdicts = verdicts(&plan, &limits, &strips::strips(&plan, &limits.placement));
-        let totals = totals(&plan, &verdicts);
-        (verdicts, totals)
+        let stages = stages_of(mesh, width);
+        let limits = stages.limits(Verify::Fast);
+        let patches = stages.patches(&limits.placement);
+        verdicts(&stages.view, stages.chamfers(), &limits, &patches)
     }
 
     #[test]

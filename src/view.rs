@@ -9,7 +9,6 @@ use crate::ids::{Corner, Id, Triangle, Vertex};
 use crate::memory;
 use crate::mesh::{Held, Mesh, UV_CHANNELS, Uv};
 use crate::options::{ChamferSubmesh, Options, Width};
-use crate::threads::Threads;
 
 /// New elements are fewer than eight for each source corner, so ids stay within 32 bits.
 pub const MAX_CORNERS: usize = u32::MAX as usize / 8;
@@ -30,8 +29,6 @@ pub struct View<'a> {
     pub least_breadth: f64,
     /// The shortest length that single precision can tell from zero on this mesh.
     pub resolution: f64,
-    /// Who does the work.
-    pub threads: Threads,
 }
 
 /// Validates a mesh and the options that go with it.
@@ -53,8 +50,7 @@ pub fn view_of_checked<'a>(mesh: &Mesh<'a>, options: &Options) -> Result<View<'a
     }
     let width = width_in_units(mesh, options.width)?;
     let least_breadth = checked_share(options.least_breadth)?;
-    let threads = Threads::new(options.threads, mesh.indices.len());
-    Ok(View { mesh: *mesh, width, least_breadth, resolution: resolution(mesh), threads })
+    Ok(View { mesh: *mesh, width, least_breadth, resolution: resolution(mesh) })
 }
 
 impl View<'_> {

@@ -6,20 +6,20 @@
 use std::collections::BTreeMap;
 
 use crate::ids::{Cluster, Corner, IdVec, Triangle};
-use crate::plan::Plan;
+use crate::topology::Topology;
+use crate::view::View;
 
 /// Moves the corners of collapsed triangles along.
-pub fn close(plan: &Plan, vertex_at: &mut IdVec<Corner, u32>) {
-    let topology = &plan.topology;
+pub fn close(view: &View, topology: &Topology, vertex_at: &mut IdVec<Corner, u32>) {
     let is_collapsed = |triangle: &Triangle| topology.is_collapsed(*triangle);
-    let collapsed: Vec<Triangle> = plan.view.triangles().filter(is_collapsed).collect();
+    let collapsed: Vec<Triangle> = view.triangles().filter(is_collapsed).collect();
     if collapsed.is_empty() {
         return;
     }
-    let first_on = first_half_edges(plan, &collapsed);
+    let first_on = first_half_edges(view, topology, &collapsed);
     for triangle in collapsed {
         let corners = triangle.corners();
-        let line = line_of(plan, triangle);
+        let line = line_of(topology, triangle);
         for corner in corners {
             let at = topology.cluster_at[corner];
             let own = corners.into_iter().find(|&other| topology.cluster_at[other] == at);
@@ -33,20 +33,23 @@ pub fn close(plan: &Plan, vertex_at: &mut IdVec<Corner, u32>) {
 }
 
 /// The two clusters that a collapsed triangle spans, lower first; one twice if it is a point.
-fn line_of(plan: &Plan, triangle: Triangle) -> [Cluster; 2] {
-    let clusters = triangle.corners().map(|corner| plan.topology.cluster_at[corner]);
+fn line_of(topology: &Topology, triangle: Triangle) -> [Cluster; 2] {
+    let clusters = triangle.corners().map(|corner| topology.cluster_at[corner]);
     [clusters.into_iter().min(), clusters.into_iter().max()].map(|c| c.unwrap_or(Cluster::NONE))
 }
 
 /// For each line of a collapsed triangle, the first half-edge of a real triangle there.
-fn first_half_edges(plan: &Plan, collapsed: &[Triangle]) -> BTreeMap<[Cluster; 2], Option<Corner>> {
-    let topology = &plan.topology;
+fn first_half_edges(
+    view: &View,
+    topology: &Topology,
+    collapsed: &[Triangle],
+) -> BTreeMap<[Cluster; 2], Option<Corner>> {
     let mut first: BTreeMap<[Cluster; 2], Option<Corner>> =
-        collapsed.iter().map(|&triangle| (line_of(plan, triangle), None)).collect();
+        collapsed.iter().map(|&triangle| (line_of(topology, triangle), None)).collect();
     // Most half-edges do not start where one of these lines ends.
-    let mut is_end = IdVec::filled(false, plan.weld.first_vertex.len());
+    let mut is_end = IdVec::filled(false, topology.clusters);
     first.keys().flatten().for_each(|&cluster| is_end[cluster] = true);
-    let real = plan.view.triangles().filter(|&triangle| !topology.is_collapsed(triangle));
+    let real = view.triangles().filter(|&triangle| !topology.is_collapsed(triangle));
     for half_edge in real.flat_map(Triangle::corners) {
         let ends = [half_edge, half_edge.next()].map(|corner| topology.cluster_at[corner]);
         if !ends.iter().all(|&cluster| is_end[cluster]) {

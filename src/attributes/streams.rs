@@ -11,10 +11,10 @@ use super::index::Index;
 use crate::ids::{Cluster, Id, Vertex};
 use crate::math::unit;
 use crate::mesh::{MeshBuffers, Uv, UvBuffer};
-use crate::plan::Plan;
 use crate::report::{Blend, VertexSource, VertexSources};
 use crate::resample::{blended_normal, weighted_sum};
 use crate::view::{View, wide};
+use crate::weld::Weld;
 
 /// UV channels as bits.
 pub type Channels = u8;
@@ -171,8 +171,8 @@ impl Streams {
     }
 
     /// From here on, what is appended is looked up first. No vertex moves any more.
-    pub fn look_up(&mut self, plan: &Plan) {
-        self.index = Index::of_source(&plan.weld, &self.vertices.positions);
+    pub fn look_up(&mut self, weld: &Weld) {
+        self.index = Index::of_source(weld, &self.vertices.positions);
     }
 
     /// A vertex of a cluster that has moved away from others of its source vertex.
@@ -181,9 +181,9 @@ impl Streams {
     }
 
     /// A vertex of a cluster like another one, but for what it takes from another chart.
-    pub fn add_copy(&mut self, plan: &Plan, cluster: Cluster, of: u32, taken: &Taken) -> u32 {
+    pub fn add_copy(&mut self, view: &View, cluster: Cluster, of: u32, taken: &Taken) -> u32 {
         let mut row = self.row(of);
-        self.take(plan, &mut row, taken);
+        self.take(view, &mut row, taken);
         self.add(cluster, &row, |sources| {
             sources.push_copy(of as usize, taken.place, taken.channels);
         })
@@ -193,15 +193,15 @@ impl Streams {
     /// from another chart.
     pub fn add_between(
         &mut self,
-        plan: &Plan,
+        view: &View,
         cluster: Cluster,
         (position, normal): (DVec3, DVec3),
         (near, taken): (Blend, Option<&Taken>),
     ) -> u32 {
-        let mut row = self.blended(plan, (position, normal), &near);
+        let mut row = self.blended(view, (position, normal), &near);
         let mut source = VertexSource::new(near, near);
         if let Some(taken) = taken {
-            self.take(plan, &mut row, taken);
+            self.take(view, &mut row, taken);
             (source.owner, source.owner_channels) = (taken.place, u32::from(taken.channels));
         }
         self.add(cluster, &row, |sources| sources.push(source))
@@ -237,27 +237,27 @@ impl Streams {
     }
 
     /// A row at a position, with a normal, and all else blended in a chart.
-    pub fn blended(&self, plan: &Plan, (position, normal): (DVec3, DVec3), chart: &Blend) -> Row {
+    pub fn blended(&self, view: &View, (position, normal): (DVec3, DVec3), chart: &Blend) -> Row {
         let mut row = Row([0.0; MOST_VALUES]);
         row.0[POSITION..NORMAL].copy_from_slice(&position.as_vec3().to_array());
         row.0[NORMAL..NORMAL + 3].copy_from_slice(&normal.as_vec3().to_array());
         if let Some(column) = self.columns.iter().find(|column| column.stream == Stream::Color) {
-            row.set(column, &self.color(plan, chart));
+            row.set(column, &self.color(view, chart));
         }
-        self.take(plan, &mut row, &Taken { channels: Channels::MAX, place: *chart });
+        self.take(view, &mut row, &Taken { channels: Channels::MAX, place: *chart });
         row
     }
 
     /// Takes UV channels from another place, and the tangent along with the first of them.
-    fn take(&self, plan: &Plan, row: &mut Row, Taken { channels, place }: &Taken) {
+    fn take(&self, view: &View, row: &mut Row, Taken { channels, place }: &Taken) {
         for column in &self.columns {
             match column.stream {
                 Stream::Tangent if channels & 1 == 1 => {
-                    row.set(column, &tangent(plan, place, wide(row.at(NORMAL))));
+                    row.set(column, &tangent(view, place, wide(row.at(NORMAL))));
                 }
                 Stream::Uv(channel) if channels >> channel & 1 == 1 => {
                     for k in 0..column.width {
-                        row.0[column.start + k] = blended_uv(plan, place, channel, k);
+                        row.0[column.start + k] = blended_uv(view, place, channel, k);
                     }
                 }
                 _ => {}
@@ -265,8 +265,8 @@ impl Streams {
         }
     }
 
-    fn color(&self, plan: &Plan, chart: &Blend) -> [f32; 4] {
-        let colors = chart.vertices.map(|vertex| plan.view.mesh.colors[vertex as usize]);
+    fn color(&self, view: &View, chart: &Blend) -> [f32; 4] {
+        let colors = chart.vertices.map(|vertex| view.mesh.colors[vertex as usize]);
         std::array::from_fn(|k| {
             let [least, greatest] = self.color_range[k];
             blend_value(chart, colors.map(|color| color[k])).clamp(least, greatest)
@@ -302,8 +302,8 @@ fn copied<T: Copy>(values: &[T], room: usize) -> Vec<T> {
 }
 
 /// One component of a UV channel at a place.
-fn blended_uv(plan: &Plan, chart: &Blend, channel: usize, component: usize) -> f32 {
-    let uv = &plan.view.mesh.uvs[channel];
+fn blended_uv(view: &View, chart: &Blend, channel: usize, component: usize) -> f32 {
+    let uv = &view.mesh.uvs[channel];
     let at = |vertex: u32| uv.values[vertex as usize * uv.components as usize + component];
     blend_value(chart, chart.vertices.map(at))
 }
@@ -332,8 +332,8 @@ fn color_range(colors: &[[f32; 4]]) -> [[f32; 2]; 4] {
 
 /// Unit, orthogonal to the normal, with the handedness of the chart. Where the chart goes on over
 /// an edge, its tangent is turned along from its own normal.
-fn tangent(plan: &Plan, chart: &Blend, normal: DVec3) -> [f32; 4] {
-    let tangents = plan.view.mesh.tangents;
+fn tangent(view: &View, chart: &Blend, normal: DVec3) -> [f32; 4] {
+    let tangents = view.mesh.tangents;
     let own = tangents[chart.vertices[0] as usize];
     let is_constant = chart.vertices.iter().all(|&vertex| tangents[vertex as usize] == own);
     let is_orthogonal = wide([own[0], own[1], own[2]]).dot(normal).abs() < ORTHOGONAL;
@@ -344,7 +344,7 @@ fn tangent(plan: &Plan, chart: &Blend, normal: DVec3) -> [f32; 4] {
         let [x, y, z, _] = tangents[vertex as usize];
         wide([x, y, z])
     });
-    let mixed = turned(weighted_sum(chart, directions), blended_normal(plan, chart), normal);
+    let mixed = turned(weighted_sum(chart, directions), blended_normal(view, chart), normal);
     let across = |direction: DVec3| {
         let rest = direction - normal * direction.dot(normal);
         if rest.length() > LEAST_REST * direction.length() { unit(rest) } else { DVec3::ZERO }

@@ -6,6 +6,7 @@ use crate::options::Verify;
 use crate::pipeline::chamfer;
 use crate::report::{Chamfered, EdgeVerdict, Outcome, Reason};
 use crate::shapes;
+use crate::threads::Threads;
 
 /// A cube of side 2 around the origin.
 fn cube() -> MeshBuffers {
@@ -111,7 +112,7 @@ fn a_concave_edge_loses_nothing() {
     let is_concave = |v: &&EdgeVerdict| {
         let topology = topology_of(&steps);
         let view = view(&steps.as_mesh(), &Options::default()).unwrap();
-        let faces = faces(&view, &topology);
+        let faces = faces(&view, &topology, &Threads::default());
         let ends = v.vertices.map(at);
         let side = topology.twin.ids().find(|&corner| {
             let [from, to] =

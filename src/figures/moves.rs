@@ -6,13 +6,10 @@ use super::drawing::{BLUE, Drawing, FAINT, GREEN, INK, ORANGE, PALETTE, Pen, RED
 use super::models::{add_block, nothing};
 use super::scene::{Camera, FRONT, Scene};
 use crate::ids::{Corner, Sector};
-use crate::limits::limits as stage_limits;
 use crate::mesh::MeshBuffers;
-use crate::options::Verify;
-use crate::placement::base;
-use crate::plan::Plan;
-use crate::plan::tests::plan_of;
 use crate::shapes;
+use crate::stages::Stages;
+use crate::stages::stages_of;
 
 /// Numbers nearer to each other than this could not be read.
 const LABEL_SPACE: f64 = 40.0;
@@ -37,14 +34,14 @@ pub fn sectors() -> Drawing {
 
 /// Hard edges, and a fan of the given radius for each sector.
 fn draw_sectors(drawing: &mut Drawing, mesh: &MeshBuffers, camera: Camera, radius: f64) {
-    let plan = plan_of(mesh, 0.01);
+    let stages = stages_of(mesh, 0.01);
     let scene = Scene::of_mesh(camera, mesh);
     scene.paint(drawing);
-    soft_edges(drawing, &scene, &plan);
-    for ring in plan.sectors.rings.ids() {
-        for (place, &sector) in plan.sectors.ring(ring).iter().enumerate() {
-            for corner in plan.sectors.corners(&plan.topology, sector) {
-                let blade = blade(&plan, corner, radius);
+    soft_edges(drawing, &scene, &stages);
+    for ring in stages.sectors.rings.ids() {
+        for (place, &sector) in stages.sectors.ring(ring).iter().enumerate() {
+            for corner in stages.sectors.corners(&stages.topology, sector) {
+                let blade = blade(&stages, corner, radius);
                 let middle = blade.iter().sum::<DVec3>() / 3.0;
                 if scene.shows(middle) {
                     let flat = blade.map(|point| scene.camera.flat(point));
@@ -53,33 +50,33 @@ fn draw_sectors(drawing: &mut Drawing, mesh: &MeshBuffers, camera: Camera, radiu
             }
         }
     }
-    hard_edges(drawing, &scene, &plan, Pen::new(RED, 2.2));
+    hard_edges(drawing, &scene, &stages, Pen::new(RED, 2.2));
 }
 
 /// The tip of a triangle at one of its corners.
-fn blade(plan: &Plan, corner: Corner, radius: f64) -> [DVec3; 3] {
-    let at = plan.view.position_at(corner);
+fn blade(stages: &Stages, corner: Corner, radius: f64) -> [DVec3; 3] {
+    let at = stages.view.position_at(corner);
     let tip = |other: Corner| {
-        let way = plan.view.position_at(other) - at;
+        let way = stages.view.position_at(other) - at;
         at + way * (radius / way.length()).min(0.45)
     };
     [at, tip(corner.next()), tip(corner.prev())]
 }
 
-fn ends(plan: &Plan, corner: Corner) -> [DVec3; 2] {
-    [corner, corner.next()].map(|end| plan.view.position_at(end))
+fn ends(stages: &Stages, corner: Corner) -> [DVec3; 2] {
+    [corner, corner.next()].map(|end| stages.view.position_at(end))
 }
 
-fn hard_edges(drawing: &mut Drawing, scene: &Scene, plan: &Plan, pen: Pen) {
-    for edge in plan.edges.hard.iter() {
-        scene.line(drawing, ends(plan, edge.sides[0]), pen);
+fn hard_edges(drawing: &mut Drawing, scene: &Scene, stages: &Stages, pen: Pen) {
+    for edge in stages.edges.hard.iter() {
+        scene.line(drawing, ends(stages, edge.sides[0]), pen);
     }
 }
 
-fn soft_edges(drawing: &mut Drawing, scene: &Scene, plan: &Plan) {
-    for corner in plan.topology.twin.ids() {
-        if plan.edges.chamfered_at[corner].is_none() {
-            scene.line(drawing, ends(plan, corner), Pen::new(FAINT, 0.8));
+fn soft_edges(drawing: &mut Drawing, scene: &Scene, stages: &Stages) {
+    for corner in stages.topology.twin.ids() {
+        if stages.edges.chamfered_at[corner].is_none() {
+            scene.line(drawing, ends(stages, corner), Pen::new(FAINT, 0.8));
         }
     }
 }
@@ -103,19 +100,19 @@ pub fn offsets() -> Drawing {
 
 /// Arrows for the offsets, and the hard edges as they would be pulled.
 fn draw_offsets(drawing: &mut Drawing, mesh: &MeshBuffers, width: f32, camera: Camera) {
-    let plan = plan_of(mesh, width);
+    let stages = stages_of(mesh, width);
     let scene = Scene::of_mesh(camera, mesh);
     scene.paint(drawing);
-    hard_edges(drawing, &scene, &plan, Pen::new(RED, 1.6));
+    hard_edges(drawing, &scene, &stages, Pen::new(RED, 1.6));
     let pulled = |corner: Corner| {
-        let sector = plan.sectors.sector_of[corner];
-        plan.view.position_at(corner) + plan.offsets[sector].vector
+        let sector = stages.sectors.sector_of[corner];
+        stages.view.position_at(corner) + stages.offsets[sector].vector
     };
-    for side in plan.edges.hard.iter().flat_map(|edge| edge.sides) {
+    for side in stages.edges.hard.iter().flat_map(|edge| edge.sides) {
         scene.line(drawing, [pulled(side), pulled(side.next())], Pen::new(BLUE, 1.6));
     }
-    for sector in plan.sectors.fans.ids() {
-        let (at, offset) = (base(&plan, sector), &plan.offsets[sector]);
+    for sector in stages.sectors.fans.ids() {
+        let (at, offset) = (stages.placed(0.0).base(sector), &stages.offsets[sector]);
         if scene.shows(at + offset.vector) {
             scene.arrow(drawing, [at, at + offset.vector], Pen::new(INK, 1.6));
             if !offset.moves() {
@@ -149,24 +146,24 @@ pub fn limits() -> Drawing {
 
 /// The pulled edges as limited, and the share of each sector.
 fn draw_shares(drawing: &mut Drawing, mesh: &MeshBuffers, width: f32, camera: Camera) {
-    let plan = plan_of(mesh, width);
-    let placement = stage_limits(&plan, Verify::Fast).unwrap().placement;
+    let stages = stages_of(mesh, width);
+    let placement = stages.placement();
     let scene = Scene::of_mesh(camera, mesh);
     scene.paint(drawing);
-    hard_edges(drawing, &scene, &plan, Pen::new(INK, 0.8));
-    for side in plan.edges.hard.iter().flat_map(|edge| edge.sides) {
+    hard_edges(drawing, &scene, &stages, Pen::new(INK, 0.8));
+    for side in stages.edges.hard.iter().flat_map(|edge| edge.sides) {
         let full = |corner: Corner| {
-            let sector = plan.sectors.sector_of[corner];
-            plan.view.position_at(corner) + plan.offsets[sector].vector
+            let sector = stages.sectors.sector_of[corner];
+            stages.view.position_at(corner) + stages.offsets[sector].vector
         };
         let ends = [side, side.next()];
         scene.line(drawing, ends.map(full), Pen::dashed(FAINT, 1.0));
-        let limited = ends.map(|end| placement.position_at(&plan, end));
+        let limited = ends.map(|end| placement.position_at(end));
         scene.line(drawing, limited, Pen::new(BLUE, 1.4));
     }
     let mut labels: Vec<(DVec2, String)> = Vec::new();
-    let moved = |sector: &Sector| plan.offsets[*sector].moves();
-    for sector in plan.sectors.fans.ids().filter(moved) {
+    let moved = |sector: &Sector| stages.offsets[*sector].moves();
+    for sector in stages.sectors.fans.ids().filter(moved) {
         let (share, at) = (placement.share[sector], placement.point[sector]);
         scene.dot(drawing, at, 4.0, if share < 1.0 { ORANGE } else { GREEN });
         let beside = scene.camera.flat(at) + DVec2::new(0.0, -12.0);

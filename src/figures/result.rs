@@ -5,12 +5,10 @@ use glam::{DVec2, DVec3};
 use super::drawing::{Anchor, Drawing, GREEN, INK, ORANGE, Pen, RED};
 use super::models::{add_block, add_card, chamfered, nothing};
 use super::scene::{CLAY, Camera, FILL, FRONT, Facet, Paint, STRIP, Scene, triangles};
-use crate::limits::limits;
 use crate::mesh::MeshBuffers;
-use crate::options::Verify;
-use crate::plan::tests::plan_of;
 use crate::report::{Chamfered, Outcome, TriangleKind};
 use crate::shapes;
+use crate::stages::stages_of;
 use crate::strips as stage_strips;
 use crate::view::wide;
 
@@ -58,14 +56,14 @@ fn name_corners(
     width: f32,
     edge: [DVec3; 2],
 ) {
-    let plan = plan_of(mesh, width);
-    let placement = limits(&plan, Verify::Fast).unwrap().placement;
-    for hard in plan.edges.hard.iter() {
-        let ends = [hard.sides[0], hard.sides[0].next()].map(|end| plan.view.position_at(end));
+    let stages = stages_of(mesh, width);
+    let placement = stages.placement();
+    for hard in stages.edges.hard.iter() {
+        let ends = [hard.sides[0], hard.sides[0].next()].map(|end| stages.view.position_at(end));
         if edge != ends && edge != [ends[1], ends[0]] {
             continue;
         }
-        let points = stage_strips::quad(&plan, &placement, hard).points;
+        let points = stage_strips::quad(&placement, hard).points;
         let flat = edge.map(|end| scene.camera.flat(end));
         drawing.line(flat[0], flat[1], Pen::dashed(RED, 1.6));
         let middle = points.iter().sum::<DVec3>() / 4.0;

@@ -7,9 +7,9 @@ use super::scene::{Camera, FRONT, Scene, exploded};
 use crate::ids::{Corner, Id, Triangle, Vertex};
 use crate::mesh::MeshBuffers;
 use crate::options::Options;
-use crate::plan::Plan;
-use crate::plan::tests::plan_of;
 use crate::shapes::{self, Touch};
+use crate::stages::Stages;
+use crate::stages::stages_of;
 use crate::view::wide;
 use crate::{view as stage_view, weld as stage_weld};
 
@@ -99,17 +99,17 @@ pub fn weld() -> Drawing {
 pub fn topology() -> Drawing {
     let mut drawing = Drawing::new(720, 340);
     let open = shapes::open_box();
-    let plan = plan_of(&open, 0.1);
+    let stages = stages_of(&open, 0.1);
     let camera = Camera::new(FRONT, [0.0, 0.5, 0.0], 88.0, [185.0, 170.0]);
     let scene = Scene::of_mesh(camera, &open);
     drawing.title(185.0, "half-edges and their twins");
     scene.paint(&mut drawing);
-    for corner in plan.topology.twin.ids() {
-        let twin = plan.topology.twin[corner];
+    for corner in stages.topology.twin.ids() {
+        let twin = stages.topology.twin[corner];
         let color = if twin.is_none() { ORANGE } else { BLUE };
-        half_edge(&mut drawing, &scene, &plan, corner, color);
+        half_edge(&mut drawing, &scene, &stages, corner, color);
         if twin.is_some() && corner < twin {
-            link(&mut drawing, &scene, &plan, [corner, twin], INK);
+            link(&mut drawing, &scene, &stages, [corner, twin], INK);
         }
     }
     touching_cubes(&mut drawing);
@@ -126,25 +126,25 @@ pub fn topology() -> Drawing {
 /// Four half-edges on one edge: who is whose twin.
 fn touching_cubes(drawing: &mut Drawing) {
     let cubes = shapes::two_cubes_touching(Touch::Edge);
-    let plan = plan_of(&cubes, 0.1);
+    let stages = stages_of(&cubes, 0.1);
     let camera = Camera::new([1.0, 1.6, 6.0], [1.0, 1.0, 0.5], 86.0, [540.0, 175.0]);
     let scene = Scene::of_mesh(camera, &cubes);
     drawing.title(540.0, "parts that touch keep to themselves");
     scene.paint(drawing);
     scene.outline(drawing, Pen::new(FAINT, 0.8));
     let is_shared = |corner: &Corner| {
-        let ends = [*corner, corner.next()].map(|end| plan.view.position_at(end));
+        let ends = [*corner, corner.next()].map(|end| stages.view.position_at(end));
         ends.iter().all(|end| end.x == 1.0 && end.y == 1.0)
     };
-    let shared: Vec<Corner> = plan.topology.twin.ids().filter(is_shared).collect();
+    let shared: Vec<Corner> = stages.topology.twin.ids().filter(is_shared).collect();
     for &corner in &shared {
-        let twin = plan.topology.twin[corner];
+        let twin = stages.topology.twin[corner];
         let color = if corner.min(twin) == shared[0] { GREEN } else { PURPLE };
         let middle = |c: Corner| {
-            let points = plan.view.triangle(c.triangle());
+            let points = stages.view.triangle(c.triangle());
             points.iter().sum::<DVec3>() / 3.0
         };
-        let edge = (plan.view.position_at(corner) + plan.view.position_at(corner.next())) / 2.0;
+        let edge = (stages.view.position_at(corner) + stages.view.position_at(corner.next())) / 2.0;
         let ends = [edge + (middle(corner) - edge) * 0.9, edge];
         drawing.line(scene.camera.flat(ends[0]), scene.camera.flat(ends[1]), Pen::new(color, 2.0));
         drawing.dot(scene.camera.flat(ends[0]), 5.0, color);
@@ -152,10 +152,10 @@ fn touching_cubes(drawing: &mut Drawing) {
 }
 
 /// An arrow inside the triangle, along the half-edge.
-fn inset(plan: &Plan, corner: Corner) -> [DVec3; 2] {
-    let points = plan.view.triangle(corner.triangle());
+fn inset(stages: &Stages, corner: Corner) -> [DVec3; 2] {
+    let points = stages.view.triangle(corner.triangle());
     let middle = points.iter().sum::<DVec3>() / 3.0;
-    let ends = [corner, corner.next()].map(|end| plan.view.position_at(end));
+    let ends = [corner, corner.next()].map(|end| stages.view.position_at(end));
     let [from, to] = ends.map(|end| end + (middle - end) * 0.18);
     [from + (to - from) * 0.08, to - (to - from) * 0.08]
 }
@@ -163,11 +163,11 @@ fn inset(plan: &Plan, corner: Corner) -> [DVec3; 2] {
 fn half_edge(
     drawing: &mut Drawing,
     scene: &Scene,
-    plan: &Plan,
+    stages: &Stages,
     corner: Corner,
     color: &'static str,
 ) {
-    let [from, to] = inset(plan, corner);
+    let [from, to] = inset(stages, corner);
     if [from, (from + to) / 2.0, to].into_iter().all(|point| scene.shows(point)) {
         scene.arrow(drawing, [from, to], Pen::new(color, 1.6));
     }
@@ -176,15 +176,15 @@ fn half_edge(
 fn link(
     drawing: &mut Drawing,
     scene: &Scene,
-    plan: &Plan,
+    stages: &Stages,
     sides: [Corner; 2],
     color: &'static str,
 ) {
     let [one, other] = sides.map(|side| {
-        let [from, to] = inset(plan, side);
+        let [from, to] = inset(stages, side);
         (from + to) / 2.0
     });
-    let [from, to] = [sides[0], sides[0].next()].map(|end| plan.view.position_at(end));
+    let [from, to] = [sides[0], sides[0].next()].map(|end| stages.view.position_at(end));
     let edge = (from + to) / 2.0;
     if scene.shows(one) && scene.shows(other) {
         for end in [one, other] {
@@ -196,26 +196,36 @@ fn link(
 pub fn faces() -> Drawing {
     let mut drawing = Drawing::new(720, 300);
     let shape = shapes::l_shape();
-    let plan = plan_of(&shape, 0.1);
+    let stages = stages_of(&shape, 0.1);
     let scene = Scene::of_mesh(Camera::new(FRONT, [1.0, 1.0, 0.5], 78.0, [185.0, 165.0]), &shape);
     drawing.title(185.0, "a normal for each triangle");
     scene.paint(&mut drawing);
     scene.outline(&mut drawing, Pen::new(FAINT, 1.0));
-    for triangle in plan.view.triangles() {
-        normal_arrow(&mut drawing, &scene, &plan, triangle, 0.45);
+    for triangle in stages.view.triangles() {
+        normal_arrow(&mut drawing, &scene, &stages, triangle, 0.45);
     }
     borrowed_normal(&mut drawing);
     drawing.legend(&[(BLUE, "normal"), (RED, "a line, and where its normal comes from")]);
     drawing
 }
 
-fn middle_of(plan: &Plan, triangle: Triangle) -> DVec3 {
-    plan.view.triangle(triangle).iter().sum::<DVec3>() / 3.0
+fn middle_of(stages: &Stages, triangle: Triangle) -> DVec3 {
+    stages.view.triangle(triangle).iter().sum::<DVec3>() / 3.0
 }
 
-fn normal_arrow(drawing: &mut Drawing, scene: &Scene, plan: &Plan, triangle: Triangle, by: f64) {
-    let middle = middle_of(plan, triangle);
-    scene.arrow(drawing, [middle, middle + plan.faces.normal[triangle] * by], Pen::new(BLUE, 1.8));
+fn normal_arrow(
+    drawing: &mut Drawing,
+    scene: &Scene,
+    stages: &Stages,
+    triangle: Triangle,
+    by: f64,
+) {
+    let middle = middle_of(stages, triangle);
+    scene.arrow(
+        drawing,
+        [middle, middle + stages.faces.normal[triangle] * by],
+        Pen::new(BLUE, 1.8),
+    );
 }
 
 /// Two squares below one of twice their width; a triangle without height closes the gap between.
@@ -238,22 +248,22 @@ fn borrowed_normal(drawing: &mut Drawing) {
         indices,
         ..MeshBuffers::default()
     };
-    let plan = plan_of(&mesh, 0.1);
+    let stages = stages_of(&mesh, 0.1);
     let camera = Camera::new([-1.0, 1.2, 3.0], [1.0, 1.0, 0.0], 92.0, [530.0, 165.0]);
     let scene = Scene::of_mesh(camera, &mesh);
     drawing.title(530.0, "a line borrows its normal");
     scene.paint(drawing);
     scene.outline(drawing, Pen::new(FAINT, 1.0));
-    for triangle in plan.view.triangles().filter(|&triangle| !plan.faces.is_line(triangle)) {
-        normal_arrow(drawing, &scene, &plan, triangle, 0.3);
+    for triangle in stages.view.triangles().filter(|&triangle| !stages.faces.is_line(triangle)) {
+        normal_arrow(drawing, &scene, &stages, triangle, 0.3);
     }
-    for line in plan.view.triangles().filter(|&triangle| plan.faces.is_line(triangle)) {
-        let corners = plan.view.triangle(line);
+    for line in stages.view.triangles().filter(|&triangle| stages.faces.is_line(triangle)) {
+        let corners = stages.view.triangle(line);
         for k in 0..3 {
             scene.line(drawing, [corners[k], corners[(k + 1) % 3]], Pen::new(RED, 3.0));
         }
-        let lender = middle_of(&plan, plan.faces.lender[line].triangle());
-        let place = lender + (middle_of(&plan, line) - lender) * 0.95;
+        let lender = middle_of(&stages, stages.faces.lender[line].triangle());
+        let place = lender + (middle_of(&stages, line) - lender) * 0.95;
         scene.arrow(drawing, [lender, place], Pen::new(RED, 1.8));
     }
 }
@@ -278,25 +288,25 @@ pub fn edges() -> Drawing {
 }
 
 fn draw_edges(drawing: &mut Drawing, mesh: &MeshBuffers, camera: Camera) {
-    let plan = plan_of(mesh, 0.01);
+    let stages = stages_of(mesh, 0.01);
     let scene = Scene::of_mesh(camera, mesh);
     scene.paint(drawing);
-    let hard = &plan.edges.chamfered_at;
+    let hard = &stages.edges.chamfered_at;
     let mut lines = Vec::new();
-    for corner in plan.topology.twin.ids() {
-        let twin = plan.topology.twin[corner];
+    for corner in stages.topology.twin.ids() {
+        let twin = stages.topology.twin[corner];
         let pen = if twin.is_none() {
             Pen::new(ORANGE, 2.6)
         } else if twin < corner {
             continue;
         } else if hard[corner].is_some() {
             Pen::new(RED, 2.6)
-        } else if plan.view.vertex_at(corner) != plan.view.vertex_at(twin.next()) {
+        } else if stages.view.vertex_at(corner) != stages.view.vertex_at(twin.next()) {
             Pen::new(BLUE, 2.6)
         } else {
             Pen::new(FAINT, 1.0)
         };
-        let ends = [corner, corner.next()].map(|end| plan.view.position_at(end));
+        let ends = [corner, corner.next()].map(|end| stages.view.position_at(end));
         lines.push((ends, pen));
     }
     lines.sort_by(|one: &([DVec3; 2], Pen), other| one.1.width.total_cmp(&other.1.width));

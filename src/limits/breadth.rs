@@ -9,7 +9,8 @@ use glam::DVec3;
 
 use crate::ids::{Corner, Triangle};
 use crate::math::area_vector;
-use crate::plan::Plan;
+
+use super::given::Given;
 
 /// A rim that runs along a side within a tenth of a degree does not lead away from it.
 const LEAST_LEAN: f64 = 0.002;
@@ -17,12 +18,12 @@ const LEAST_LEAN: f64 = 0.002;
 /// What has to stay of a triangle: for each of its sides at which the face ends, the least area
 /// for each unit of the side's length, along the old side; zero for the others. Areas are counted
 /// along the old area vector. Where the face [`goes_on`] behind, it does not count.
-pub fn least(plan: &Plan, triangle: Triangle, old: [DVec3; 3], share: f64) -> [DVec3; 3] {
+pub fn least(given: &Given, triangle: Triangle, old: [DVec3; 3], share: f64) -> [DVec3; 3] {
     let corners = triangle.corners();
     let whole = share * area_vector(old).length_squared();
     [0, 1, 2].map(|k| {
         let side = old[(k + 1) % 3] - old[k];
-        if ends_face(plan, corners[k]) {
+        if ends_face(given, corners[k]) {
             side * (whole / side.length_squared())
         } else {
             DVec3::ZERO
@@ -31,46 +32,47 @@ pub fn least(plan: &Plan, triangle: Triangle, old: [DVec3; 3], share: f64) -> [D
 }
 
 /// Whether a triangle is still as broad as it has to be, but for what rounding does.
-pub fn is_kept(plan: &Plan, triangle: Triangle, [old, new]: [[DVec3; 3]; 2]) -> bool {
+pub fn is_kept(given: &Given, triangle: Triangle, [old, new]: [[DVec3; 3]; 2]) -> bool {
     let whole = area_vector(old);
     let area = whole.dot(area_vector(new));
-    let least = plan.view.least_breadth * whole.length_squared();
+    let least = given.surface.view.least_breadth * whole.length_squared();
     let side = |points: [DVec3; 3], k: usize| points[(k + 1) % 3] - points[k];
     let rounding = || {
         let longest = (0..3).map(|k| side(new, k).length_squared()).fold(0.0, f64::max).sqrt();
-        whole.length() * longest * plan.view.resolution
+        whole.length() * longest * given.surface.view.resolution
     };
     (0..3).all(|k| {
         let (before, after) = (side(old, k), side(new, k));
         let (square, asked) = (before.length_squared(), least * before.dot(after));
         area * square >= asked
-            || !ends_face(plan, triangle.corners()[k])
+            || !ends_face(given, triangle.corners()[k])
             || (area + rounding()) * square >= asked
-            || goes_on(plan, triangle, k, old)
+            || goes_on(given, triangle, k, old)
     })
 }
 
 /// Whether a face ends at a half-edge: at a chamfer, or at a border.
-fn ends_face(plan: &Plan, side: Corner) -> bool {
-    plan.edges.chamfered_at[side].is_some() || plan.topology.twin[side].is_none()
+fn ends_face(given: &Given, side: Corner) -> bool {
+    given.chamfers.edges.chamfered_at[side].is_some() || given.surface.topology.twin[side].is_none()
 }
 
 /// Whether a face goes on behind the corner that lies across from a side of a triangle: there are
 /// more rows inside of it, or its rim leads on that way, to a vertex that does not come back.
-pub fn goes_on(plan: &Plan, triangle: Triangle, side: usize, old: [DVec3; 3]) -> bool {
+pub fn goes_on(given: &Given, triangle: Triangle, side: usize, old: [DVec3; 3]) -> bool {
     let corner = triangle.corners()[(side + 2) % 3];
-    let sector = plan.sectors.sector_of[corner];
+    let sector = given.chamfers.sectors.sector_of[corner];
     if sector.is_none() {
-        return plan.deep[plan.topology.cluster_at[corner]];
+        return given.deep[given.surface.topology.cluster_at[corner]];
     }
     let inward = area_vector(old).cross(old[(side + 1) % 3] - old[side]);
     let leads =
         |way: DVec3, along: DVec3| way.dot(along) > LEAST_LEAN * way.length() * along.length();
-    let fan = &plan.sectors.fans[sector];
+    let fan = &given.chamfers.sectors.fans[sector];
     [fan.first.next(), fan.last.prev()].into_iter().any(|along_rim| {
-        let way = plan.view.position_at(along_rim) - plan.view.position_at(corner);
-        let moves = plan.sectors.sector_of[along_rim];
-        let comes_back = moves.is_some() && leads(plan.offsets[moves].vector, -inward);
+        let way =
+            given.surface.view.position_at(along_rim) - given.surface.view.position_at(corner);
+        let moves = given.chamfers.sectors.sector_of[along_rim];
+        let comes_back = moves.is_some() && leads(given.offsets[moves].vector, -inward);
         leads(way, inward) && !comes_back
     })
 }
@@ -78,22 +80,21 @@ pub fn goes_on(plan: &Plan, triangle: Triangle, side: usize, old: [DVec3; 3]) ->
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::limits::limits;
+    use crate::limits::given::tests::given_of;
     use crate::mesh::MeshBuffers;
-    use crate::options::{Options, Verify, Width};
-    use crate::plan::tests::plan_with;
+    use crate::options::{Options, Width};
     use crate::shapes;
+    use crate::stages::stages_with;
 
     /// The faces of an upright box: how much of each stays along each of its sides, as a share.
     fn shares_kept(mesh: &MeshBuffers, options: &Options) -> Vec<f64> {
-        let plan = plan_with(mesh, options);
-        let placement = limits(&plan, Verify::Fast).unwrap().placement;
+        let stages = stages_with(mesh, options);
+        let placement = stages.placement();
         let kept = |face: DVec3, axis: DVec3| {
-            let on_face = |t: &Triangle| plan.faces.normal[*t].dot(face) > 0.9;
-            let corners = || plan.view.triangles().filter(on_face).flat_map(|t| t.corners());
-            let old = extent(corners().map(|corner| plan.view.position_at(corner).dot(axis)));
-            let new =
-                extent(corners().map(|corner| placement.position_at(&plan, corner).dot(axis)));
+            let on_face = |t: &Triangle| stages.faces.normal[*t].dot(face) > 0.9;
+            let corners = || stages.view.triangles().filter(on_face).flat_map(|t| t.corners());
+            let old = extent(corners().map(|corner| stages.view.position_at(corner).dot(axis)));
+            let new = extent(corners().map(|corner| placement.position_at(corner).dot(axis)));
             new / old
         };
         let faces = DVec3::AXES.into_iter().flat_map(|axis| [axis, -axis]);
@@ -187,10 +188,10 @@ mod tests {
     fn pulled(cells: u32) -> f64 {
         let mesh = box_under_grid(cells);
         let options = Options { least_breadth: 0.2, ..asking(1.9, 0.2) };
-        let plan = plan_with(&mesh, &options);
-        let placement = limits(&plan, Verify::Fast).unwrap().placement;
-        let lid = plan.view.triangles().filter(|&t| plan.faces.normal[t].y > 0.9);
-        let depth = |corner: Corner| placement.position_at(&plan, corner).x.min(9.0);
+        let stages = stages_with(&mesh, &options);
+        let placement = stages.placement();
+        let lid = stages.view.triangles().filter(|&t| stages.faces.normal[t].y > 0.9);
+        let depth = |corner: Corner| placement.position_at(corner).x.min(9.0);
         lid.flat_map(|t| t.corners()).map(depth).fold(9.0, f64::min)
     }
 
@@ -213,11 +214,11 @@ mod tests {
     #[test]
     fn a_triangle_below_its_breadth_is_not_kept() {
         let cube = shapes::plain_cube(1.0);
-        let plan = plan_with(&cube, &asking(0.1, 0.2));
-        let old = plan.view.triangle(Triangle(0));
+        let stages = stages_with(&cube, &asking(0.1, 0.2));
+        let old = stages.view.triangle(Triangle(0));
         let middle = (old[0] + old[1] + old[2]) / 3.0;
         let at = |share: f64| old.map(|point| middle + (point - middle) * share);
-        assert!(is_kept(&plan, Triangle(0), [old, at(0.21)]));
-        assert!(!is_kept(&plan, Triangle(0), [old, at(0.19)]));
+        assert!(is_kept(&given_of(&stages), Triangle(0), [old, at(0.21)]));
+        assert!(!is_kept(&given_of(&stages), Triangle(0), [old, at(0.19)]));
     }
 }

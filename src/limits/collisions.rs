@@ -11,18 +11,19 @@ use glam::DVec3;
 
 use crate::bvh::Kin;
 use crate::error::Error;
-use crate::fills::middle;
+use crate::fills::{middle, ring_fill};
 use crate::ids::{Corner, Few, Id, IdVec, Ring, Sector};
 use crate::intersect::{self, Triangle, cutting_pairs};
 use crate::memory;
 use crate::placement::Placement;
-use crate::plan::Plan;
 use crate::report::Reason;
 use crate::strips;
 use crate::topology::solids;
 
 use super::crowds::{Crowd, Crowds, crowds};
-use super::{Element, Limits, apply, around, bad_around, blame, fill, sectors_of, shrink};
+use super::elements::{Element, around, sectors_of};
+use super::given::Given;
+use super::{Limits, apply, bad_around, blame, shrink};
 
 /// Rounds in which width is given back: the rest is within an eighth of what would fit.
 const GIVE_BACK_ROUNDS: usize = 3;
@@ -32,30 +33,30 @@ const GIVE_BACK_ROUNDS: usize = 3;
 ///
 /// # Errors
 /// [`Error::OutOfMemory`] where what searching the parts needs is not to be had.
-pub fn resolve(plan: &Plan, limits: &mut Limits) -> Result<(), Error> {
-    let parts = parts(plan);
-    memory::ask(memory::of_collisions(most_searched(plan, &parts)))?;
+pub fn resolve(given: &Given, limits: &mut Limits) -> Result<(), Error> {
+    let parts = parts(given);
+    memory::ask(memory::of_collisions(most_searched(given, &parts)))?;
     // Most parts are clean, and no part has a say in another: so all can be searched at once.
     let cuts = |(): &mut (), part: &Part| part.new_cuts(&limits.placement, &part.elements);
-    let cuts = plan.view.threads.map_large(&parts, || (), cuts);
+    let cuts = given.threads.map_large(&parts, || (), cuts);
     let free = limits.placement.share.clone();
     for (part, cuts) in parts.iter().zip(cuts).filter(|(_, cuts)| !cuts.is_empty()) {
-        let shrunk = shrink_cuts(plan, limits, part, cuts);
-        give_back(plan, limits, part, &shrunk, &free);
+        let shrunk = shrink_cuts(given, limits, part, cuts);
+        give_back(given, limits, part, &shrunk, &free);
     }
     Ok(())
 }
 
 /// How many triangles are searched at a time, at most: each thread has a part.
-fn most_searched(plan: &Plan, parts: &[Part]) -> usize {
+fn most_searched(given: &Given, parts: &[Part]) -> usize {
     let sizes = || parts.iter().map(Part::most_triangles);
     let largest = sizes().max().unwrap_or(0);
-    sizes().sum::<usize>().min(largest.saturating_mul(plan.view.threads.count()))
+    sizes().sum::<usize>().min(largest.saturating_mul(given.threads.count()))
 }
 
 /// Shrinks until nothing in a part cuts; tells what has shrunk, in order.
 fn shrink_cuts(
-    plan: &Plan,
+    given: &Given,
     limits: &mut Limits,
     part: &Part,
     mut cutting: Vec<Element>,
@@ -64,14 +65,14 @@ fn shrink_cuts(
     for round in 0.. {
         let mut shrunk = Vec::new();
         for &element in &cutting {
-            blame(plan, limits, element, Reason::Intersects, &mut shrunk);
+            blame(given, limits, element, Reason::Intersects, &mut shrunk);
         }
         if shrunk.is_empty() {
             break;
         }
-        apply(plan, limits, round, &mut shrunk);
-        let bad = bad_around(plan, &limits.placement, &shrunk);
-        shrunk.extend(shrink(plan, limits, bad));
+        apply(given, limits, round, &mut shrunk);
+        let bad = bad_around(given, &limits.placement, &shrunk);
+        shrunk.extend(shrink(given, limits, bad));
         cutting = part.cuts_now(&limits.placement, cutting, &shrunk);
         all.extend(shrunk);
     }
@@ -83,7 +84,7 @@ fn shrink_cuts(
 /// Bisects the shares of all sectors that lost some, together: whatever takes part in a cut goes
 /// back to what was safe.
 fn give_back(
-    plan: &Plan,
+    given: &Given,
     limits: &mut Limits,
     part: &Part,
     shrunk: &[Sector],
@@ -101,17 +102,17 @@ fn give_back(
     }
     for _ in 0..GIVE_BACK_ROUNDS {
         for each in &tries {
-            limits.placement.set(plan, each.sector, (each.safe + each.unsafe_from) / 2.0);
+            limits.placement.set(each.sector, (each.safe + each.unsafe_from) / 2.0);
         }
         let mut cutting = part.cuts_now(&limits.placement, Vec::new(), &sectors);
         loop {
             let mut bad = cutting.clone();
-            bad.extend(bad_around(plan, &limits.placement, &sectors));
-            let mut back: Vec<Sector> = bad.iter().flat_map(|&e| sectors_of(plan, e)).collect();
+            bad.extend(bad_around(given, &limits.placement, &sectors));
+            let mut back: Vec<Sector> = bad.iter().flat_map(|&e| sectors_of(given, e)).collect();
             // Each once: the second time, what was safe would be taken for what was not.
             back.sort_unstable();
             back.dedup();
-            back.retain(|&sector| take_back(plan, limits, &mut tries, sector));
+            back.retain(|&sector| take_back(limits, &mut tries, sector));
             if back.is_empty() {
                 break;
             }
@@ -131,20 +132,20 @@ struct Try {
 }
 
 /// Sets a sector back to what is safe, if it has more.
-fn take_back(plan: &Plan, limits: &mut Limits, tries: &mut [Try], sector: Sector) -> bool {
+fn take_back(limits: &mut Limits, tries: &mut [Try], sector: Sector) -> bool {
     let Ok(place) = tries.binary_search_by_key(&sector, |each| each.sector) else { return false };
     let (each, share) = (&mut tries[place], limits.placement.share[sector]);
     if share <= each.safe {
         return false;
     }
     each.unsafe_from = share.min(each.unsafe_from);
-    limits.placement.set(plan, sector, each.safe);
+    limits.placement.set(sector, each.safe);
     true
 }
 
 /// A solid, or what else is joined by edges, if some of it is chamfered.
 struct Part<'a> {
-    plan: &'a Plan<'a>,
+    given: &'a Given<'a>,
     /// In order.
     elements: Vec<Element>,
     /// `#elements`: the crowd of each; none at all where there are none.
@@ -169,7 +170,7 @@ impl Part<'_> {
         let of = |element: &Element| match element {
             Element::Surface(_) => 1,
             Element::Strip(_) => 2,
-            Element::Fill(ring) => self.plan.sectors.ring(*ring).len(),
+            Element::Fill(ring) => self.given.chamfers.sectors.ring(*ring).len(),
         };
         self.elements.iter().map(of).sum()
     }
@@ -182,7 +183,7 @@ impl Part<'_> {
         moved: &[Sector],
     ) -> Vec<Element> {
         let mut open = before;
-        open.extend(around(self.plan, moved));
+        open.extend(around(self.given, moved));
         open.sort_unstable_by_key(|element| element.key());
         self.new_cuts(placement, &open)
     }
@@ -229,7 +230,7 @@ impl Part<'_> {
         }
         let kin = |each: &Laid| match self.crowds[each.element as usize] {
             Some(crowd) => {
-                let around = crowd.around(self.plan, placement);
+                let around = crowd.around(self.given, placement);
                 Kin::new(crowd.name(), around.seen(&each.corners))
             }
             None => Kin::NONE,
@@ -238,7 +239,7 @@ impl Part<'_> {
     }
 
     fn source(&self, corner: Corner) -> [f32; 3] {
-        self.plan.view.mesh.positions[self.plan.view.vertex_at(corner).index()]
+        self.given.surface.view.mesh.positions[self.given.surface.view.vertex_at(corner).index()]
     }
 
     /// All triangles of the part where the sectors stand now.
@@ -261,8 +262,8 @@ impl Part<'_> {
     fn is_changed(&self, placement: &Placement, element: Element) -> bool {
         let Element::Surface(triangle) = element else { return true };
         triangle.corners().into_iter().any(|corner| {
-            let sector = self.plan.sectors.sector_of[corner];
-            sector.is_some() && placement.has_moved(self.plan, sector)
+            let sector = self.given.chamfers.sectors.sector_of[corner];
+            sector.is_some() && placement.has_moved(sector)
         })
     }
 
@@ -272,13 +273,13 @@ impl Part<'_> {
         element: Element,
         add: &mut dyn FnMut([DVec3; 3]),
     ) {
-        let plan = self.plan;
+        let given = self.given;
         match element {
             Element::Surface(triangle) => {
-                add(triangle.corners().map(|corner| placement.position_at(plan, corner)));
+                add(triangle.corners().map(|corner| placement.position_at(corner)));
             }
             Element::Strip(edge) => {
-                let quad = strips::quad(plan, placement, &plan.edges.hard[edge]);
+                let quad = strips::quad(placement, &given.chamfers.edges.hard[edge]);
                 let triangles = strips::cut(&quad).triangles().iter();
                 triangles.for_each(|corners| add(corners.map(|place| quad.points[place])));
             }
@@ -287,8 +288,9 @@ impl Part<'_> {
     }
 
     fn each_of_fill(&self, placement: &Placement, ring: Ring, add: &mut dyn FnMut([DVec3; 3])) {
-        let sectors = self.plan.sectors.ring(ring);
-        let fill = fill(self.plan, placement, ring).unwrap_or_default();
+        let sectors = self.given.chamfers.sectors.ring(ring);
+        let fill =
+            ring_fill(placement, sectors, self.given.surface.view.resolution).unwrap_or_default();
         let mut points: Few<_> = sectors.iter().map(|&sector| placement.point[sector]).collect();
         for places in &fill.middles {
             points.push(middle(&points[..sectors.len()], places));
@@ -298,20 +300,33 @@ impl Part<'_> {
 }
 
 /// The parts with chamfered edges.
-fn parts<'a>(plan: &'a Plan<'a>) -> Vec<Part<'a>> {
-    let label_of = solids(&plan.topology);
+fn parts<'a>(given: &'a Given<'a>) -> Vec<Part<'a>> {
+    let label_of = solids(given.surface.topology);
     let label = |corner: Corner| label_of[corner.triangle().index()];
     let mut is_chamfered = vec![false; label_of.len()];
-    let chamfered =
-        || plan.edges.hard.ids().filter(|&edge| plan.edges.hard[edge].skipped.is_none());
+    let chamfered = || {
+        given
+            .chamfers
+            .edges
+            .hard
+            .ids()
+            .filter(|&edge| given.chamfers.edges.hard[edge].skipped.is_none())
+    };
     chamfered().for_each(|edge| {
-        is_chamfered[label(plan.edges.hard[edge].sides[0]) as usize] = true;
+        is_chamfered[label(given.chamfers.edges.hard[edge].sides[0]) as usize] = true;
     });
-    let triangles = plan.view.triangles().map(|t| (label_of[t.index()], Element::Surface(t)));
-    let strips =
-        chamfered().map(|edge| (label(plan.edges.hard[edge].sides[0]), Element::Strip(edge)));
-    let first = |ring: Ring| plan.sectors.fans[plan.sectors.ring(ring)[0]].first;
-    let fills = plan.sectors.rings.ids().filter(|&ring| plan.sectors.ring(ring).len() >= 3);
+    let triangles =
+        given.surface.view.triangles().map(|t| (label_of[t.index()], Element::Surface(t)));
+    let strips = chamfered()
+        .map(|edge| (label(given.chamfers.edges.hard[edge].sides[0]), Element::Strip(edge)));
+    let first =
+        |ring: Ring| given.chamfers.sectors.fans[given.chamfers.sectors.ring(ring)[0]].first;
+    let fills = given
+        .chamfers
+        .sectors
+        .rings
+        .ids()
+        .filter(|&ring| given.chamfers.sectors.ring(ring).len() >= 3);
     let fills = fills.map(|ring| (label(first(ring)), Element::Fill(ring)));
     let mut all: Vec<(u32, Element)> = triangles
         .chain(strips)
@@ -320,15 +335,15 @@ fn parts<'a>(plan: &'a Plan<'a>) -> Vec<Part<'a>> {
         .collect();
     // They stand in the order of their keys.
     all.sort_by_key(|(label, _)| *label);
-    let crowds = crowds(plan);
+    let crowds = crowds(given);
     let part = |group: &[(u32, Element)]| {
         let elements: Vec<Element> = group.iter().map(|(_, element)| *element).collect();
         let of = |crowds: &Crowds| -> Vec<Option<Crowd>> {
-            elements.iter().map(|&element| crowds.of(plan, element)).collect()
+            elements.iter().map(|&element| crowds.of(given, element)).collect()
         };
         let crowds = crowds.as_ref().map(of).filter(|all| all.iter().any(Option::is_some));
         let (crowds, was_cut) = (crowds.unwrap_or_default(), OnceLock::new());
-        Part { plan, elements, crowds, was_cut }
+        Part { given, elements, crowds, was_cut }
     };
     all.chunk_by(|one, other| one.0 == other.0).map(part).collect()
 }
@@ -337,13 +352,14 @@ fn parts<'a>(plan: &'a Plan<'a>) -> Vec<Part<'a>> {
 mod tests {
     use super::*;
     use crate::intersect::cut_each_other;
+    use crate::limits::given::tests::given_of;
     use crate::mesh::MeshBuffers;
-    use crate::plan::tests::plan_of;
     use crate::shapes;
+    use crate::stages::stages_of;
 
     /// For each part, how many elements it has.
     fn sizes(mesh: &MeshBuffers) -> Vec<usize> {
-        parts(&plan_of(mesh, 0.1)).iter().map(|part| part.elements.len()).collect()
+        parts(&given_of(&stages_of(mesh, 0.1))).iter().map(|part| part.elements.len()).collect()
     }
 
     #[test]
@@ -356,9 +372,10 @@ mod tests {
     /// The elements that cut where every sector stands at a share of its full width, whether there
     /// is room or not.
     fn cutting(mesh: &MeshBuffers, width: f32, share: f64) -> usize {
-        let plan = plan_of(mesh, width);
-        let placement = Placement::at(&plan, &IdVec::filled(share, plan.sectors.fans.len()));
-        let parts = parts(&plan);
+        let stages = stages_of(mesh, width);
+        let placement = stages.placed(share);
+        let given = given_of(&stages);
+        let parts = parts(&given);
         let found = parts[0].new_cuts(&placement, &parts[0].elements);
         assert_eq!(found, each_with_each(&parts[0], &placement));
         found.len()

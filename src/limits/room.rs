@@ -11,9 +11,10 @@ use std::collections::BinaryHeap;
 use glam::DVec3;
 
 use crate::ids::{Corner, Few, IdVec, Sector, Triangle};
-use crate::limits::breadth;
 use crate::math::area_vector;
-use crate::plan::Plan;
+
+use super::breadth;
+use super::given::Given;
 
 /// A triangle may give away all but this share of its area. Somewhat more than what validity asks
 /// for, so that rounding does not undo it.
@@ -23,11 +24,11 @@ const LEAST_SHARE: f64 = 0.02;
 const SAFETY: f64 = 1.01;
 
 /// `#sectors`: the largest share, up to 1, that leaves room in all triangles of the sector.
-pub fn room(plan: &Plan) -> IdVec<Sector, f64> {
-    let share = |sector: Sector| if plan.offsets[sector].moves() { GROWING } else { 0.0 };
-    let share = plan.view.threads.map(plan.offsets.len(), share);
-    let mut filling = Filling { plan, share, first: Vec::new(), later: BinaryHeap::new() };
-    filling.first = plan.view.triangles().filter_map(|t| filling.event(t, 0.0)).collect();
+pub fn room(given: &Given) -> IdVec<Sector, f64> {
+    let share = |sector: Sector| if given.offsets[sector].moves() { GROWING } else { 0.0 };
+    let share = given.threads.map(given.offsets.len(), share);
+    let mut filling = Filling { given, share, first: Vec::new(), later: BinaryHeap::new() };
+    filling.first = given.surface.view.triangles().filter_map(|t| filling.event(t, 0.0)).collect();
     filling.first.sort_unstable();
     while let Some(event) = filling.next_event() {
         filling.stop_around(&event);
@@ -64,7 +65,7 @@ impl PartialEq for Event {
 impl Eq for Event {}
 
 struct Filling<'a> {
-    plan: &'a Plan<'a>,
+    given: &'a Given<'a>,
     /// `#sectors`: the share at which each stopped.
     share: IdVec<Sector, f64>,
     /// What is known from the beginning, the earliest last. Nearly all events are: sorting them
@@ -94,7 +95,7 @@ struct Moving {
 
 impl Filling<'_> {
     fn sectors(&self, triangle: Triangle) -> [Sector; 3] {
-        triangle.corners().map(|corner| self.plan.sectors.sector_of[corner])
+        triangle.corners().map(|corner| self.given.chamfers.sectors.sector_of[corner])
     }
 
     /// The earliest event that is left.
@@ -104,12 +105,12 @@ impl Filling<'_> {
     }
 
     fn moving(&self, triangle: Triangle) -> Moving {
-        let old = self.plan.view.triangle(triangle);
+        let old = self.given.surface.view.triangle(triangle);
         let growth = [DVec3::ZERO; 3];
         let mut moving = Moving { start: old, growth, ..self.allowance(triangle, old) };
         for (k, sector) in self.sectors(triangle).into_iter().enumerate() {
             if sector.is_some() {
-                let (vector, share) = (self.plan.offsets[sector].vector, self.share[sector]);
+                let (vector, share) = (self.given.offsets[sector].vector, self.share[sector]);
                 if share == GROWING {
                     moving.growth[k] = vector;
                 } else {
@@ -122,17 +123,18 @@ impl Filling<'_> {
 
     /// A triangle that does not move, with what has to be left of it.
     fn allowance(&self, triangle: Triangle, start: [DVec3; 3]) -> Moving {
-        let (faces, area, growth) = (&self.plan.faces, area_vector(start), [DVec3::ZERO; 3]);
+        let (faces, area, growth) =
+            (&self.given.surface.faces, area_vector(start), [DVec3::ZERO; 3]);
         if !faces.is_line(triangle) {
             let whole = area.length_squared();
             let (least, slack) = (LEAST_SHARE * whole, EXHAUSTED * whole);
-            let share = (self.plan.view.least_breadth * SAFETY).min(1.0);
-            let over = breadth::least(self.plan, triangle, start, share);
+            let share = (self.given.surface.view.least_breadth * SAFETY).min(1.0);
+            let over = breadth::least(self.given, triangle, start, share);
             return Moving { start, growth, normal: area, least, over, slack };
         }
         // A line may not fold over, but for what rounding does.
         let longest = (0..3).map(|k| start[k].distance(start[(k + 1) % 3])).fold(0.0, f64::max);
-        let rounding = longest * self.plan.view.resolution / 2.0;
+        let rounding = longest * self.given.surface.view.resolution / 2.0;
         let normal = faces.normal[triangle];
         let least = area.dot(normal).min(0.0) - rounding;
         let slack = rounding * EXHAUSTED;
@@ -155,7 +157,7 @@ impl Filling<'_> {
     }
 
     fn goes_on(&self, triangle: Triangle, side: usize) -> bool {
-        breadth::goes_on(self.plan, triangle, side, self.plan.view.triangle(triangle))
+        breadth::goes_on(self.given, triangle, side, self.given.surface.view.triangle(triangle))
     }
 
     /// When the triangle will have given away all it can, from a share on.
@@ -185,7 +187,8 @@ impl Filling<'_> {
                 let around = self.sectors(triangle);
                 (0..k).any(|seen| pressing[seen] && around.contains(&sectors[seen]))
             };
-            let corners = self.plan.sectors.corners(&self.plan.topology, sectors[k]);
+            let corners =
+                self.given.chamfers.sectors.corners(self.given.surface.topology, sectors[k]);
             let triangles = corners.map(Corner::triangle).filter(|&triangle| !is_seen(triangle));
             let events = triangles.filter_map(|triangle| self.event(triangle, event.share));
             self.later.extend(events.collect::<Few<Event>>());

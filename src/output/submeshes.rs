@@ -5,8 +5,8 @@ use std::ops::Range;
 use crate::attributes::Attributes;
 use crate::ids::Triangle;
 use crate::options::ChamferSubmesh;
-use crate::plan::Plan;
 use crate::report::{TriangleKind, TriangleSource};
+use crate::view::View;
 
 /// The triangles of each submesh: its source triangles, then new ones in the order of their coming.
 pub struct Submeshes {
@@ -50,13 +50,13 @@ impl Submeshes {
     /// Those of the source, with the vertices that their corners have now, and room for new
     /// triangles.
     pub fn of_source(
-        plan: &Plan,
+        view: &View,
         target: ChamferSubmesh,
         attributes: &Attributes,
         room: usize,
     ) -> Submeshes {
         let mut starts = vec![0];
-        for count in plan.view.mesh.submesh_index_counts {
+        for count in view.mesh.submesh_index_counts {
             starts.push(starts[starts.len() - 1] + count / 3);
         }
         let only = match target {
@@ -109,17 +109,14 @@ impl Submeshes {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::attributes::attributes;
-    use crate::limits::limits;
     use crate::mesh::MeshBuffers;
-    use crate::options::Verify;
-    use crate::plan::tests::plan_of;
     use crate::shapes;
+    use crate::stages::stages_of;
 
     fn submeshes(mesh: &MeshBuffers, target: ChamferSubmesh) -> Submeshes {
-        let plan = plan_of(mesh, 0.02);
-        let placement = limits(&plan, Verify::Fast).unwrap().placement;
-        Submeshes::of_source(&plan, target, &attributes(&plan, &placement), 0)
+        let stages = stages_of(mesh, 0.02);
+        let attributes = stages.attributes(&stages.placement());
+        Submeshes::of_source(&stages.view, target, &attributes, 0)
     }
 
     #[test]

@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use crate::breaks::seam_between;
 use crate::ids::{Corner, Few, Triangle};
-use crate::plan::Plan;
+use crate::surface::Surface;
 
 use super::density::{longest_square, size, texture_area, uv_point};
 
@@ -56,7 +56,7 @@ impl Face {
 /// The source triangles around some corners that lie in the corners' own chart of a channel, and
 /// what follows on these.
 pub struct Ground<'a> {
-    plan: &'a Plan<'a>,
+    surface: Surface<'a>,
     channel: usize,
     /// Corners of chamfered edges.
     corners: &'a [Corner],
@@ -65,8 +65,8 @@ pub struct Ground<'a> {
 }
 
 impl<'a> Ground<'a> {
-    pub fn new(plan: &'a Plan, channel: usize, corners: &'a [Corner]) -> Self {
-        Ground { plan, channel, corners, around: OnceCell::new() }
+    pub fn new(surface: Surface<'a>, channel: usize, corners: &'a [Corner]) -> Self {
+        Ground { surface, channel, corners, around: OnceCell::new() }
     }
 
     /// Whether a triangle on the texture lies on it.
@@ -135,7 +135,7 @@ impl<'a> Ground<'a> {
         let mut visited = 0;
         while visited < found.len() && found.len() < MOST_FACES {
             for side in found[visited].corners().into_iter().filter(|&side| self.runs_on(side)) {
-                add(&mut found, self.plan.topology.twin[side].triangle());
+                add(&mut found, self.surface.topology.twin[side].triangle());
             }
             visited += 1;
         }
@@ -157,7 +157,7 @@ impl<'a> Ground<'a> {
                 return true;
             }
             let side = corner.prev();
-            corner = self.plan.topology.twin[side];
+            corner = self.surface.topology.twin[side];
             if corner == at || !self.runs_on(side) {
                 break;
             }
@@ -172,7 +172,7 @@ impl<'a> Ground<'a> {
             if !self.runs_on(corner) {
                 break;
             }
-            corner = self.plan.topology.twin[corner].next();
+            corner = self.surface.topology.twin[corner].next();
             if corner == at {
                 break;
             }
@@ -185,14 +185,14 @@ impl<'a> Ground<'a> {
 
     /// Whether the chart goes on beyond a half-edge.
     fn runs_on(&self, side: Corner) -> bool {
-        let twin = self.plan.topology.twin[side];
-        let meet = |one, other| !seam_between(&self.plan.view, self.channel, one, other);
+        let twin = self.surface.topology.twin[side];
+        let meet = |one, other| !seam_between(self.surface.view, self.channel, one, other);
         twin.is_some() && meet(side, twin.next()) && meet(side.next(), twin)
     }
 
     fn points(&self, face: Triangle) -> [DVec2; 3] {
-        let uv = &self.plan.view.mesh.uvs[self.channel];
-        face.corners().map(|corner| uv_point(uv, self.plan.view.vertex_at(corner).0))
+        let uv = &self.surface.view.mesh.uvs[self.channel];
+        face.corners().map(|corner| uv_point(uv, self.surface.view.vertex_at(corner).0))
     }
 }
 
@@ -224,8 +224,8 @@ fn is_on(triangle: [DVec2; 3], point: DVec2, near: f64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plan::tests::plan_of;
     use crate::shapes;
+    use crate::stages::stages_of;
 
     #[test]
     fn a_point_is_as_far_from_a_triangle_as_from_its_nearest_side() {
@@ -244,9 +244,9 @@ mod tests {
     #[test]
     fn the_ground_at_a_corner_of_a_seamed_cube_is_one_square_of_the_atlas() {
         let cube = shapes::cube(1.0);
-        let plan = plan_of(&cube, 0.1);
+        let stages = stages_of(&cube, 0.1);
         let corners = [Corner(0)];
-        let ground = Ground::new(&plan, 0, &corners);
+        let ground = Ground::new(stages.surface(), 0, &corners);
         let uv = |corner: u32| {
             let vertex = cube.indices[corner as usize] as usize;
             let at = [cube.uvs[0].values[2 * vertex], cube.uvs[0].values[2 * vertex + 1]];
@@ -264,9 +264,9 @@ mod tests {
     #[test]
     fn the_ground_goes_on_over_all_of_the_chart_that_a_triangle_lies_on() {
         let cylinder = shapes::cylinder(12);
-        let plan = plan_of(&cylinder, 0.1);
+        let stages = stages_of(&cylinder, 0.1);
         let corners = [Corner(0)];
-        let ground = Ground::new(&plan, 0, &corners);
+        let ground = Ground::new(stages.surface(), 0, &corners);
         let across = ground.spread(|_| true);
         let [low, high] = across
             .iter()
@@ -285,12 +285,12 @@ mod tests {
         let mut cube = shapes::plain_cube(1.0);
         let values = cube.positions.iter().flat_map(|[x, y, z]| [x + 0.3 * z, y + 0.1 * z]);
         cube.uvs[0] = crate::mesh::UvBuffer { components: 2, values: values.collect() };
-        let plan = plan_of(&cube, 0.1);
+        let stages = stages_of(&cube, 0.1);
         let corners = [Corner(0)];
-        let ground = Ground::new(&plan, 0, &corners);
+        let ground = Ground::new(stages.surface(), 0, &corners);
         let roomiest = ground.roomiest();
         let most = texture_area(ground.points(roomiest)).abs();
-        let all = plan.view.triangles().map(|face| texture_area(ground.points(face)).abs());
+        let all = stages.view.triangles().map(|face| texture_area(ground.points(face)).abs());
         assert!((most - all.fold(0.0, f64::max)).abs() < 1e-9 && most > 0.4);
     }
 }

@@ -3,10 +3,13 @@
 use super::feet::is_pair;
 use super::strip_map::StripMap;
 use crate::attributes::Attributes;
+use crate::chamfers::Chamfers;
+use crate::edges::Edges;
 use crate::ids::{Corner, Edge, IdVec, Triangle};
+use crate::patches::Patches;
 use crate::placement::Placement;
-use crate::plan::Plan;
-use crate::strips::Cut;
+use crate::surface::Surface;
+use crate::threads::Threads;
 
 /// Who owns the chamfers.
 pub struct Owners {
@@ -30,22 +33,24 @@ const UNDECIDED: u8 = u8::MAX;
 /// zigzag: the region whose band fits more of the strips, or else the one that comes first in the
 /// mesh. Where its band does not fit at all but the other side's does, an edge has the other.
 pub fn owners(
-    plan: &Plan,
+    surface: Surface,
+    chamfers: Chamfers,
     placement: &Placement,
-    cuts: &IdVec<Edge, Cut>,
+    patches: &Patches,
     attributes: &Attributes,
+    threads: &Threads,
 ) -> Owners {
-    let threads = &plan.view.threads;
     let band = |edge: Edge, side: u8| {
-        let hard = &plan.edges.hard[edge];
-        let map = StripMap::new(plan, placement, attributes, hard, cuts[edge]);
+        let hard = &chamfers.edges.hard[edge];
+        let map =
+            StripMap::new(surface, placement, attributes, hard, patches.strip(edge).triangles);
         map.band(side.into())
     };
-    let region = regions(plan);
-    let side = sides_in_order(plan, &region);
+    let region = regions(surface, chamfers.edges);
+    let side = sides_in_order(chamfers, &region);
     let own = threads.map(side.len(), |edge| band(edge, side[edge]));
     let mut owners = Owners { side, band: own };
-    let contested = contested(plan, &region, &owners.band);
+    let contested = contested(chamfers.edges, &region, &owners.band);
     let claims = threads.map_each(&contested, |&(between, edge)| Claim {
         between,
         edge,
@@ -57,14 +62,14 @@ pub fn owners(
 }
 
 /// The region that comes first in the mesh, or the side that the chain keeps to.
-fn sides_in_order(plan: &Plan, region: &IdVec<Triangle, Triangle>) -> IdVec<Edge, u8> {
-    let mut side = IdVec::filled(UNDECIDED, plan.edges.hard.len());
-    for edge in plan.edges.hard.ids() {
-        let [one, two] = plan.edges.hard[edge].sides.map(|side| region[side.triangle()]);
+fn sides_in_order(chamfers: Chamfers, region: &IdVec<Triangle, Triangle>) -> IdVec<Edge, u8> {
+    let mut side = IdVec::filled(UNDECIDED, chamfers.edges.hard.len());
+    for edge in chamfers.edges.hard.ids() {
+        let [one, two] = chamfers.edges.hard[edge].sides.map(|side| region[side.triangle()]);
         if one != two {
             side[edge] = u8::from(two < one);
         } else if side[edge] == UNDECIDED {
-            follow_chain(plan, region, edge, &mut side);
+            follow_chain(chamfers, region, edge, &mut side);
         }
     }
     side
@@ -73,12 +78,12 @@ fn sides_in_order(plan: &Plan, region: &IdVec<Triangle, Triangle>) -> IdVec<Edge
 /// All edges between two regions that have a strip between them that does not fit, sorted by
 /// regions, of which the lower stands first.
 fn contested(
-    plan: &Plan,
+    edges: &Edges,
     region: &IdVec<Triangle, Triangle>,
     band: &IdVec<Edge, Option<u8>>,
 ) -> Vec<([Triangle; 2], Edge)> {
     let between = |edge: Edge| {
-        let [one, two] = plan.edges.hard[edge].sides.map(|side| region[side.triangle()]);
+        let [one, two] = edges.hard[edge].sides.map(|side| region[side.triangle()]);
         [one.min(two), one.max(two)]
     };
     let mut bad: Vec<_> = band.ids().filter(|&edge| band[edge].is_none()).map(between).collect();
@@ -128,23 +133,23 @@ fn settle(claims: &[Claim], owners: &mut Owners) {
 /// Where one region lies on both sides, the sides keep to the chain: from an edge to the next one
 /// where nothing else meets them.
 fn follow_chain(
-    plan: &Plan,
+    chamfers: Chamfers,
     region: &IdVec<Triangle, Triangle>,
     start: Edge,
     side: &mut IdVec<Edge, u8>,
 ) {
     side[start] = 0;
-    let mut front: Vec<Corner> = vec![plan.edges.hard[start].sides[0]];
+    let mut front: Vec<Corner> = vec![chamfers.edges.hard[start].sides[0]];
     while let Some(owner) = front.pop() {
-        let sectors = [owner, owner.next()].map(|corner| plan.sectors.sector_of[corner]);
-        for sector in sectors.into_iter().filter(|s| s.is_some() && is_pair(plan, *s)) {
-            let fan = &plan.sectors.fans[sector];
+        let sectors = [owner, owner.next()].map(|corner| chamfers.sectors.sector_of[corner]);
+        for sector in sectors.into_iter().filter(|s| s.is_some() && is_pair(chamfers.sectors, *s)) {
+            let fan = &chamfers.sectors.fans[sector];
             for half_edge in [fan.first, fan.last.prev()] {
-                let edge = plan.edges.chamfered_at[half_edge];
+                let edge = chamfers.edges.chamfered_at[half_edge];
                 if edge.is_none() || side[edge] != UNDECIDED {
                     continue;
                 }
-                let sides = plan.edges.hard[edge].sides;
+                let sides = chamfers.edges.hard[edge].sides;
                 let [one, two] = sides.map(|side| region[side.triangle()]);
                 if one == two {
                     side[edge] = u8::from(sides[1] == half_edge);
@@ -156,10 +161,10 @@ fn follow_chain(
 }
 
 /// `#triangles`: the first triangle that can be reached without crossing a chamfered edge.
-fn regions(plan: &Plan) -> IdVec<Triangle, Triangle> {
-    let mut region = IdVec::filled(Triangle::NONE, plan.view.corner_count() / 3);
+fn regions(surface: Surface, edges: &Edges) -> IdVec<Triangle, Triangle> {
+    let mut region = IdVec::filled(Triangle::NONE, surface.view.corner_count() / 3);
     let mut front = Vec::new();
-    for seed in plan.view.triangles() {
+    for seed in surface.view.triangles() {
         if region[seed].is_some() {
             continue;
         }
@@ -167,8 +172,8 @@ fn regions(plan: &Plan) -> IdVec<Triangle, Triangle> {
         front.push(seed);
         while let Some(triangle) = front.pop() {
             for side in triangle.corners() {
-                let twin = plan.topology.twin[side];
-                let is_crossed = plan.edges.chamfered_at[side].is_none() && twin.is_some();
+                let twin = surface.topology.twin[side];
+                let is_crossed = edges.chamfered_at[side].is_none() && twin.is_some();
                 if is_crossed && region[twin.triangle()].is_none() {
                     region[twin.triangle()] = seed;
                     front.push(twin.triangle());
@@ -182,13 +187,16 @@ fn regions(plan: &Plan) -> IdVec<Triangle, Triangle> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plan::tests::plan_of;
     use crate::shapes;
+    use crate::stages::stages_of;
 
     #[test]
     fn a_region_ends_at_hard_edges() {
         let cube = shapes::plain_cube(1.0);
-        let region = regions(&plan_of(&cube, 0.1));
+        let region = {
+            let stages = stages_of(&cube, 0.1);
+            regions(stages.surface(), &stages.edges)
+        };
         let expected = (0..12).map(|triangle| Triangle(triangle - triangle % 2));
         assert!(region.iter().copied().eq(expected));
     }

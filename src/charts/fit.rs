@@ -7,7 +7,7 @@ use super::feet::Room;
 use super::ground::Ground;
 use crate::ids::Corner;
 use crate::math::area_vector;
-use crate::plan::Plan;
+use crate::view::View;
 
 /// A chamfer that lies this many times denser or thinner on the texture than the face that it
 /// continues looks smeared or noisy: then another way to map it is tried.
@@ -20,7 +20,7 @@ const BEYOND: f64 = 100.0;
 /// A chamfer as it lies on the texture.
 pub struct Lie<'a> {
     /// `#triangles`: places in the points.
-    pub triangles: &'a [[usize; 3]],
+    pub triangles: &'a [[u32; 3]],
     pub points: &'a [DVec3],
     /// `#points`.
     pub uvs: &'a [DVec2],
@@ -29,7 +29,7 @@ pub struct Lie<'a> {
 impl Lie<'_> {
     /// The triangles on the texture.
     fn texture(&self) -> impl Iterator<Item = [DVec2; 3]> + '_ {
-        self.triangles.iter().map(|triangle| triangle.map(|place| self.uvs[place]))
+        self.triangles.iter().map(|triangle| triangle.map(|place| self.uvs[place as usize]))
     }
 }
 
@@ -48,9 +48,9 @@ fn stretch(density: f64, facing: Facing, resolution: f64, lie: &Lie) -> f64 {
     if density == 0.0 {
         return 1.0;
     }
-    let of_triangle = |triangle: &[usize; 3]| {
-        let area = area_vector(triangle.map(|place| lie.points[place])).length();
-        let signed = texture_area(triangle.map(|place| lie.uvs[place])) / density / area;
+    let of_triangle = |triangle: &[u32; 3]| {
+        let area = area_vector(triangle.map(|place| lie.points[place as usize])).length();
+        let signed = texture_area(triangle.map(|place| lie.uvs[place as usize])) / density / area;
         let ratio = if facing == Facing::Either { signed.abs() } else { signed };
         let is_tiny = area <= resolution * resolution;
         match () {
@@ -65,15 +65,15 @@ fn stretch(density: f64, facing: Facing, resolution: f64, lie: &Lie) -> f64 {
 /// How badly a chamfer lies on the texture of a face: as [`stretch`], and many times as much where
 /// it leaves the ground.
 pub fn misfit(
-    plan: &Plan,
+    view: &View,
     face: Corner,
     facing: Facing,
     channel: usize,
     ground: &Ground,
     lie: &Lie,
 ) -> f64 {
-    let density = density(plan, face.triangle(), channel);
-    let stretch = stretch(density, facing, plan.view.resolution, lie);
+    let density = density(view, face.triangle(), channel);
+    let stretch = stretch(density, facing, view.resolution, lie);
     if stretch.is_finite() && !lie.texture().all(|uvs| ground.covers(uvs)) {
         return stretch * BEYOND;
     }
@@ -81,9 +81,9 @@ pub fn misfit(
 }
 
 /// Where the ground has the most room to lay a chamfer of a face flat, as dense as the face.
-pub fn roomiest(plan: &Plan, face: Corner, channel: usize, ground: &Ground) -> Room {
+pub fn roomiest(view: &View, face: Corner, channel: usize, ground: &Ground) -> Room {
     let corner = Corner(3 * ground.roomiest().0);
-    let densities = [face, corner].map(|at| density(plan, at.triangle(), channel).abs());
+    let densities = [face, corner].map(|at| density(view, at.triangle(), channel).abs());
     let scale = (densities[0] / densities[1]).sqrt();
     Room { corner, scale: if scale.is_finite() { scale } else { 1.0 } }
 }

@@ -5,7 +5,7 @@ use glam::DVec2;
 use crate::ids::{Id, Triangle};
 use crate::math::area_vector;
 use crate::mesh::Uv;
-use crate::plan::Plan;
+use crate::view::View;
 
 /// Single precision, and a little for the arithmetic of exporters.
 const ROUNDING: f64 = 1e-6;
@@ -19,10 +19,10 @@ pub fn uv_point(uv: &Uv, vertex: u32) -> DVec2 {
 
 /// UV area over surface area of a source triangle, negative where it is mirrored; 0 where it has
 /// none.
-pub fn density(plan: &Plan, triangle: Triangle, channel: usize) -> f64 {
-    let uv = &plan.view.mesh.uvs[channel];
-    let area = area_vector(plan.view.triangle(triangle)).length();
-    let points = triangle.corners().map(|c| uv_point(uv, plan.view.vertex_at(c).index() as u32));
+pub fn density(view: &View, triangle: Triangle, channel: usize) -> f64 {
+    let uv = &view.mesh.uvs[channel];
+    let area = area_vector(view.triangle(triangle)).length();
+    let points = triangle.corners().map(|c| uv_point(uv, view.vertex_at(c).index() as u32));
     if area > 0.0 && !is_line(points) { texture_area(points) / area } else { 0.0 }
 }
 

@@ -5,16 +5,16 @@ use glam::{DVec2, DVec3};
 use super::feet::{Depth, End, Frame, Room, Spread, abreast, band_foot, flat_lay, inside};
 use super::fit::{Facing, Lie, MOST_STRETCH, misfit, roomiest};
 use super::ground::Ground;
-use super::patch::{Joint, Patches};
-use super::{Owners, channels_of, place_of};
+use super::{Given, TakenAt, channels_of, place_of};
 use crate::attributes::{Attributes, Taken};
 use crate::edges::HardEdge;
-use crate::ids::{Corner, Edge, Few};
+use crate::ids::{Corner, Edge, Few, Triangle};
 use crate::math::{area_vector, unit};
+use crate::patches::Parts;
 use crate::placement::Placement;
-use crate::plan::Plan;
-use crate::report::{Blend, TriangleKind, TriangleSource};
-use crate::strips::{self, Cut};
+use crate::report::Blend;
+use crate::strips;
+use crate::surface::Surface;
 
 /// A way to lay a strip on the texture. Owners are places in the edge's sides.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,10 +55,11 @@ type Feet = [Option<Blend>; 4];
 
 /// A strip, and what is around it.
 pub struct StripMap<'a> {
-    plan: &'a Plan<'a>,
+    surface: Surface<'a>,
     attributes: &'a Attributes,
     edge: &'a HardEdge,
-    cut: Cut,
+    /// Places in the corners.
+    triangles: &'a [[u32; 3]],
     points: [DVec3; 4],
     /// Those of the strip: b1, a1, a2, b2.
     corners: [Corner; 4],
@@ -68,16 +69,16 @@ pub struct StripMap<'a> {
 
 impl<'a> StripMap<'a> {
     pub fn new(
-        plan: &'a Plan,
+        surface: Surface<'a>,
         placement: &Placement,
         attributes: &'a Attributes,
         edge: &'a HardEdge,
-        cut: Cut,
+        triangles: &'a [[u32; 3]],
     ) -> Self {
         let corners = strips::corners(edge);
-        let points = corners.map(|corner| placement.position_at(plan, corner));
+        let points = corners.map(|corner| placement.position_at(corner));
         let ends = edge.sides.map(|side| [side, side.next()]);
-        StripMap { plan, attributes, edge, cut, points, corners, ends }
+        StripMap { surface, attributes, edge, triangles, points, corners, ends }
     }
 
     fn feet(&self, way: Way) -> Feet {
@@ -86,13 +87,13 @@ impl<'a> StripMap<'a> {
             Way::Own => {}
             Way::Band(owner, spread, depth) => {
                 for (end, [_, far]) in self.strip_ends(owner).into_iter().zip(places(owner)) {
-                    feet[far] = band_foot(self.plan, &end, spread, depth);
+                    feet[far] = band_foot(self.surface, &end, spread, depth);
                 }
             }
             Way::Abreast(owner) => {
                 for (end, ends) in self.strip_ends(owner).into_iter().zip(places(owner)) {
                     for (place, foot) in
-                        ends.into_iter().zip(abreast(self.plan, &end).into_iter().flatten())
+                        ends.into_iter().zip(abreast(self.surface, &end).into_iter().flatten())
                     {
                         feet[place] = Some(foot);
                     }
@@ -101,7 +102,7 @@ impl<'a> StripMap<'a> {
             Way::Flat(_, room) => feet = self.flat(room),
             Way::Inside(owner) => {
                 for (end, ends) in self.strip_ends(owner).into_iter().zip(places(owner)) {
-                    for (place, foot) in ends.into_iter().zip(inside(self.plan, &end)) {
+                    for (place, foot) in ends.into_iter().zip(inside(self.surface.view, &end)) {
                         feet[place] = Some(foot);
                     }
                 }
@@ -116,7 +117,8 @@ impl<'a> StripMap<'a> {
     /// The strip at the start and at the end of the owner's half-edge.
     fn strip_ends(&self, owner: usize) -> [End; 2] {
         let half_edge = self.edge.sides[owner];
-        let edge = [half_edge, half_edge.next()].map(|corner| self.plan.view.position_at(corner));
+        let edge =
+            [half_edge, half_edge.next()].map(|corner| self.surface.view.position_at(corner));
         let end = |(place, [near, far]): (f64, [usize; 2])| End {
             half_edge,
             edge,
@@ -130,21 +132,16 @@ impl<'a> StripMap<'a> {
 
     /// Whether some triangle has the corner.
     fn is_used(&self, place: usize) -> bool {
-        match self.cut {
-            Cut::Closed => false,
-            Cut::OpenAtB => place != 2,
-            Cut::OpenAtA => place != 3,
-            Cut::FromB1 | Cut::FromA1 => true,
-        }
+        self.triangles.iter().any(|triangle| triangle.contains(&(place as u32)))
     }
 
     fn flat(&self, room: Room) -> Feet {
         let places: Few<usize> = (0..4).filter(|&place| self.is_used(place)).collect();
         let points: Few<DVec3> = places.iter().map(|&place| self.points[place]).collect();
-        let areas = self.cut.triangles().iter().map(|t| area_vector(t.map(|k| self.points[k])));
+        let areas = self.triangles.iter().map(|t| area_vector(t.map(|k| self.points[k as usize])));
         let normal = unit(areas.sum());
         let frame = Frame::new(&points, points.len(), normal);
-        let lay = flat_lay(self.plan, room, &frame, points.len());
+        let lay = flat_lay(self.surface.view, room, &frame, points.len());
         let mut feet = [None; 4];
         for (k, foot) in lay.feet.into_iter().enumerate() {
             feet[places[k]] = foot;
@@ -159,14 +156,14 @@ impl<'a> StripMap<'a> {
 
     /// Where to lay it flat in the owner's chart.
     fn room(&self, channel: usize, owner: usize) -> Room {
-        let ground = Ground::new(self.plan, channel, &self.ends[owner]);
-        roomiest(self.plan, self.edge.sides[owner], channel, &ground)
+        let ground = Ground::new(self.surface, channel, &self.ends[owner]);
+        roomiest(self.surface.view, self.edge.sides[owner], channel, &ground)
     }
 
     /// How badly the strip lies on a channel in some way: see [`misfit`].
     fn misfit(&self, channel: usize, way: Way, feet: &Feet) -> f64 {
         let uv = |place: usize| match &feet[place] {
-            Some(foot) => place_of(self.plan, channel, foot),
+            Some(foot) => place_of(self.surface.view, channel, foot),
             None => {
                 let vertex = self.attributes.vertex_at[self.corners[place]];
                 self.attributes.streams.uv(vertex, channel)
@@ -187,9 +184,9 @@ impl<'a> StripMap<'a> {
     }
 
     fn misfit_on(&self, owner: usize, at: &[Corner], channel: usize, uvs: [DVec2; 4]) -> f64 {
-        let ground = Ground::new(self.plan, channel, at);
-        let lie = Lie { triangles: self.cut.triangles(), points: &self.points, uvs: &uvs };
-        misfit(self.plan, self.edge.sides[owner], Facing::AsFace, channel, &ground, &lie)
+        let ground = Ground::new(self.surface, channel, at);
+        let lie = Lie { triangles: self.triangles, points: &self.points, uvs: &uvs };
+        misfit(self.surface.view, self.edge.sides[owner], Facing::AsFace, channel, &ground, &lie)
     }
 
     /// The first channel with a seam here; none of the channels where there is no seam.
@@ -249,20 +246,13 @@ fn places(owner: usize) -> [[usize; 2]; 2] {
     if owner == 0 { [[1, 2], [0, 3]] } else { [[3, 0], [2, 1]] }
 }
 
-/// Lays a strip into the owner's chart where its own is another, or folds or ends under the
-/// chamfer.
-pub fn add_strip(
-    plan: &Plan,
-    placement: &Placement,
-    attributes: &Attributes,
-    owners: &Owners,
-    (edge, cut): (Edge, Cut),
-    patches: &mut Patches,
-) {
-    let (hard, owner) = (&plan.edges.hard[edge], owners.of(edge));
-    let map = StripMap::new(plan, placement, attributes, hard, cut);
+/// Lays a strip into its owner's chart; gives the owner's face.
+pub fn lay_strip(given: &Given, edge: Edge, strip: Parts, taken_at: &mut Vec<TakenAt>) -> Triangle {
+    let Given { surface, placement, attributes, owners, .. } = *given;
+    let (hard, owner) = (&given.chamfers.edges.hard[edge], owners.of(edge));
+    let map = StripMap::new(surface, placement, attributes, hard, strip.triangles);
     let (mut taken, mut channels): (Feet, [u8; 4]) = ([None; 4], [0; 4]);
-    for channel in channels_of(plan) {
+    for channel in channels_of(surface.view) {
         // What the owner was chosen by need not be looked for again.
         let known = owners.band[edge].filter(|_| map.first_seam() == channel && taken == [None; 4]);
         let feet = match known {
@@ -274,11 +264,11 @@ pub fn add_strip(
             channels[place] |= 1 << channel;
         }
     }
-    let joints = (0..4).map(|k| Joint {
-        corner: map.corners[k],
-        taken: taken[k].map(|place| Taken { channels: channels[k], place }),
-    });
-    let source = TriangleSource { kind: TriangleKind::Edge, index: edge.0 };
-    let face = hard.sides[owner].triangle();
-    patches.push(source, (face, 0), joints, [], cut.triangles());
+    let points = taken.into_iter().zip(channels).zip(0..);
+    taken_at.extend(
+        points.filter_map(|((place, channels), point)| {
+            Some((point, Taken { channels, place: place? }))
+        }),
+    );
+    hard.sides[owner].triangle()
 }

@@ -4,13 +4,15 @@ use glam::DVec3;
 
 use super::channels_of;
 use crate::breaks::seam_between;
+use crate::chamfers::Chamfers;
 use crate::foot::locate;
 use crate::ids::{Corner, Few, Sector};
 use crate::math::{area_vector, unit};
 use crate::placement::Placement;
-use crate::plan::Plan;
 use crate::report::Blend;
-use crate::resample::chart_foot;
+use crate::sectors::Sectors;
+use crate::surface::Surface;
+use crate::view::View;
 
 /// So many sides of a chamfer are tried in pairs: of more, every so manyth.
 const MOST_SIDES: usize = 8;
@@ -68,18 +70,18 @@ impl End {
     }
 }
 
-fn ends(plan: &Plan, half_edge: Corner) -> [DVec3; 2] {
-    [half_edge, half_edge.next()].map(|corner| plan.view.position_at(corner))
+fn ends(view: &View, half_edge: Corner) -> [DVec3; 2] {
+    [half_edge, half_edge.next()].map(|corner| view.position_at(corner))
 }
 
 /// Where one far corner of a strip lands on its owner's band.
-pub fn band_foot(plan: &Plan, end: &End, spread: Spread, depth: Depth) -> Option<Blend> {
+pub fn band_foot(surface: Surface, end: &End, spread: Spread, depth: Depth) -> Option<Blend> {
     let share = match spread {
         Spread::Far => share_of(end.edge, end.far),
         Spread::Near => share_of(end.edge, end.near),
         Spread::Whole => end.place,
     };
-    let foot = on_edge(plan, end.half_edge, share);
+    let foot = on_edge(surface.view, end.half_edge, share);
     if depth == Depth::Band {
         return Some(foot);
     }
@@ -88,33 +90,33 @@ pub fn band_foot(plan: &Plan, end: &End, spread: Spread, depth: Depth) -> Option
         return Some(foot);
     }
     let [from, to] = end.edge;
-    let inward = plan.faces.normal[end.half_edge.triangle()].cross(unit(to - from));
+    let inward = surface.faces.normal[end.half_edge.triangle()].cross(unit(to - from));
     let way = (to - from) * share.clamp(0.0, 1.0) + inward * (band - strip);
-    locate(&plan.view, end.half_edge, from, way).map(|foot| foot.blend(&plan.view, 1.0))
+    locate(surface.view, end.half_edge, from, way).map(|foot| foot.blend(surface.view, 1.0))
 }
 
 /// The near and the far corner at one end of a strip that is laid into its owner's triangle, as
 /// deep as the strip is wide.
-pub fn inside(plan: &Plan, end: &End) -> [Blend; 2] {
+pub fn inside(view: &View, end: &End) -> [Blend; 2] {
     let [from, to] = end.edge;
-    let apex = plan.view.position_at(end.half_edge.prev());
+    let apex = view.position_at(end.half_edge.prev());
     let height = (to - from).cross(apex - from).length() / (to - from).length();
     let [_, strip] = end.widths();
     let depth = (strip / height).min(DEEPEST);
-    let foot = |pulled: DVec3| on_edge(plan, end.half_edge, share_of(end.edge, pulled));
-    let apex = Blend::one(plan.view.vertex_at(end.half_edge.prev()).0);
+    let foot = |pulled: DVec3| on_edge(view, end.half_edge, share_of(end.edge, pulled));
+    let apex = Blend::one(view.vertex_at(end.half_edge.prev()).0);
     let near = mixed(&[(foot(end.near), 1.0 - depth), (apex, depth)]);
     [near, foot(end.far)]
 }
 
 /// As [`inside`], but straight into the owner's plane, past its triangle where that is too small.
-pub fn abreast(plan: &Plan, end: &End) -> Option<[Blend; 2]> {
+pub fn abreast(surface: Surface, end: &End) -> Option<[Blend; 2]> {
     let [from, to] = end.edge;
     let [_, strip] = end.widths();
-    let inward = plan.faces.normal[end.half_edge.triangle()].cross(unit(to - from));
+    let inward = surface.faces.normal[end.half_edge.triangle()].cross(unit(to - from));
     let way = (to - from) * share_of(end.edge, end.near).clamp(0.0, 1.0) + inward * strip;
-    let near = locate(&plan.view, end.half_edge, from, way)?.blend(&plan.view, 1.0);
-    Some([near, on_edge(plan, end.half_edge, share_of(end.edge, end.far))])
+    let near = locate(surface.view, end.half_edge, from, way)?.blend(surface.view, 1.0);
+    Some([near, on_edge(surface.view, end.half_edge, share_of(end.edge, end.far))])
 }
 
 /// Where the foot of the perpendicular from a pulled vertex divides an edge: 0 to 1, or beyond.
@@ -123,8 +125,8 @@ fn share_of([from, to]: [DVec3; 2], pulled: DVec3) -> f64 {
 }
 
 /// The place at a share of a half-edge.
-fn on_edge(plan: &Plan, half_edge: Corner, share: f64) -> Blend {
-    let [from, to] = [half_edge, half_edge.next()].map(|corner| plan.view.vertex_at(corner).0);
+fn on_edge(view: &View, half_edge: Corner, share: f64) -> Blend {
+    let [from, to] = [half_edge, half_edge.next()].map(|corner| view.vertex_at(corner).0);
     let share = share.clamp(0.0, 1.0);
     match [1.0 - share, share].map(|weight| weight as f32) {
         [0.0, weight] => Blend { vertices: [to; 3], weights: [weight, 0.0, 0.0] },
@@ -183,16 +185,17 @@ pub struct Lay {
 /// the old corner. The other vertices lie on a bow from foot to foot that bends towards the old
 /// corner, so that no three of them are in line.
 pub fn kite(
-    plan: &Plan,
+    surface: Surface,
+    chamfers: Chamfers,
     placement: &Placement,
     sectors: &[Sector],
     (owner, wings, middles): (usize, Wings, usize),
     lay: &mut Lay,
 ) {
     let sector = sectors[owner];
-    let [behind, before] = feet_of_wings(plan, placement, sector, wings);
-    let fan = &plan.sectors.fans[sector];
-    let corner = Blend::one(plan.view.vertex_at(fan.first).0);
+    let [behind, before] = feet_of_wings(surface, chamfers, placement, (sector, wings));
+    let fan = &chamfers.sectors.fans[sector];
+    let corner = Blend::one(surface.view.vertex_at(fan.first).0);
     let on_bow = |along: f64| {
         let [from, to] = [1.0 - along, along].map(|share| share * share * share);
         match along {
@@ -202,7 +205,7 @@ pub fn kite(
         }
     };
     let share = placement.share[sector] * MIDDLE_SHARE;
-    let middle = |_| chart_foot(plan, sector, fan.first).blend(&plan.view, share);
+    let middle = |_| placement.chart_foot(sector, fan.first).blend(surface.view, share);
     lay.begin = owner;
     lay.feet.clear();
     lay.feet.extend(on_others(sectors.len(), owner, on_bow));
@@ -227,34 +230,41 @@ fn on_others(
 
 /// The feet on a sector's last and first edge; the old corner itself where the last one lies in
 /// another chart.
-fn feet_of_wings(plan: &Plan, placement: &Placement, sector: Sector, wings: Wings) -> [Blend; 2] {
-    let fan = &plan.sectors.fans[sector];
-    let corner = plan.view.vertex_at(fan.first).0;
+fn feet_of_wings(
+    surface: Surface,
+    chamfers: Chamfers,
+    placement: &Placement,
+    (sector, wings): (Sector, Wings),
+) -> [Blend; 2] {
+    let view = surface.view;
+    let fan = &chamfers.sectors.fans[sector];
+    let corner = surface.view.vertex_at(fan.first).0;
     let foot = |half_edge: Corner| {
-        let edge = plan.edges.chamfered_at[half_edge];
+        let edge = chamfers.edges.chamfered_at[half_edge];
         let is_out = half_edge == fan.first;
         match wings {
             Wings::Far if edge.is_some() => {
-                let [one, two] = plan.edges.hard[edge].sides;
+                let [one, two] = chamfers.edges.hard[edge].sides;
                 let other = if one == half_edge { two } else { one };
                 let across = if is_out { other.next() } else { other };
-                let far = placement.point[plan.sectors.sector_of[across]];
-                on_edge(plan, half_edge, share_of(ends(plan, half_edge), far))
+                let far = placement.point[chamfers.sectors.sector_of[across]];
+                on_edge(surface.view, half_edge, share_of(ends(view, half_edge), far))
             }
             _ => {
                 let reach = if let Wings::Near(reach) = wings { reach } else { 1.0 };
-                let share = share_of(ends(plan, half_edge), placement.point[sector]);
+                let share = share_of(ends(view, half_edge), placement.point[sector]);
                 let reached = if is_out { reach * share } else { 1.0 - reach * (1.0 - share) };
-                on_edge(plan, half_edge, reached)
+                on_edge(surface.view, half_edge, reached)
             }
         }
     };
     let before = foot(fan.first);
-    let one_chart = channels_of(plan).all(|channel| !is_broken(plan, sector, channel));
+    let one_chart =
+        channels_of(view).all(|channel| !is_broken(view, chamfers.sectors, sector, channel));
     if !one_chart {
         return [Blend::one(corner), before];
     }
-    let last = plan.view.vertex_at(fan.last).0;
+    let last = surface.view.vertex_at(fan.last).0;
     let behind = foot(fan.last.prev());
     let vertices = behind.vertices.map(|v| if v == last { corner } else { v });
     [Blend { vertices, ..behind }, before]
@@ -270,10 +280,10 @@ pub struct Room {
 }
 
 /// A chamfer laid flat into a triangle.
-pub fn flat_lay(plan: &Plan, Room { corner, scale }: Room, frame: &Frame, ring: usize) -> Lay {
-    let face = area_vector(plan.view.triangle(corner.triangle())).length();
+pub fn flat_lay(view: &View, Room { corner, scale }: Room, frame: &Frame, ring: usize) -> Lay {
+    let face = area_vector(view.triangle(corner.triangle())).length();
     let size = (scale * (frame.opening / face).sqrt()).min(WIDEST / frame.farthest);
-    let vertices = [corner, corner.next(), corner.prev()].map(|c| plan.view.vertex_at(c).0);
+    let vertices = [corner, corner.next(), corner.prev()].map(|c| view.vertex_at(c).0);
     let blend = |at: &[f64; 2]| {
         let [to_next, to_prev] = at.map(|along| size * along);
         Blend::new(vertices, [1.0 - to_next - to_prev, to_next, to_prev])
@@ -334,23 +344,23 @@ impl Frame {
 }
 
 /// Whether a sector and one other go all around their cluster.
-pub fn is_pair(plan: &Plan, sector: Sector) -> bool {
-    let ring = plan.sectors.fans[sector].ring;
-    plan.sectors.rings[ring].closed && plan.sectors.ring(ring).len() == 2
+pub fn is_pair(sectors: &Sectors, sector: Sector) -> bool {
+    let ring = sectors.fans[sector].ring;
+    sectors.rings[ring].closed && sectors.ring(ring).len() == 2
 }
 
 /// Whether a seam of a channel runs through a sector.
-pub fn is_broken(plan: &Plan, sector: Sector, channel: usize) -> bool {
-    let fan = &plan.sectors.fans[sector];
-    fan.first != fan.last && seam_between(&plan.view, channel, fan.first, fan.last)
+pub fn is_broken(view: &View, sectors: &Sectors, sector: Sector, channel: usize) -> bool {
+    let fan = &sectors.fans[sector];
+    fan.first != fan.last && seam_between(view, channel, fan.first, fan.last)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::ids::Triangle;
-    use crate::plan::tests::plan_of;
     use crate::shapes;
+    use crate::stages::stages_of;
 
     fn weight_of(blend: &Blend, vertex: u32) -> f32 {
         let pairs = blend.vertices.into_iter().zip(blend.weights);
@@ -370,14 +380,14 @@ mod tests {
     #[test]
     fn the_foot_of_a_pulled_vertex_lies_on_the_old_edge() {
         let cube = shapes::cube(1.0);
-        let plan = plan_of(&cube, 0.1);
-        let mut placement = Placement::unmoved(&plan);
+        let stages = stages_of(&cube, 0.1);
+        let mut placement = stages.placed(0.0);
         let sector = Sector(0);
-        placement.set(&plan, sector, 1.0);
-        let side = plan.sectors.fans[sector].first;
-        let share = share_of(ends(&plan, side), placement.point[sector]);
-        let foot = on_edge(&plan, side, share);
-        let [from, to] = [side, side.next()].map(|corner| plan.view.vertex_at(corner).0);
+        placement.set(sector, 1.0);
+        let side = stages.sectors.fans[sector].first;
+        let share = share_of(ends(&stages.view, side), placement.point[sector]);
+        let foot = on_edge(&stages.view, side, share);
+        let [from, to] = [side, side.next()].map(|corner| stages.view.vertex_at(corner).0);
         assert!((weight_of(&foot, from) - 0.9).abs() < 1e-6, "{foot:?}");
         assert!((weight_of(&foot, to) - 0.1).abs() < 1e-6, "{foot:?}");
     }
@@ -387,25 +397,25 @@ mod tests {
     #[test]
     fn what_is_too_large_for_a_face_is_laid_as_large_as_it_can_be() {
         let cube = shapes::cube(1.0);
-        let plan = plan_of(&cube, 0.1);
+        let stages = stages_of(&cube, 0.1);
         let at = |k: usize| {
             let (sin, cos) = (k as f64 * std::f64::consts::FRAC_PI_3).sin_cos();
             DVec3::new(cos, sin, 0.0)
         };
         let points: Vec<DVec3> = (0..6).map(at).collect();
         let room = Room { corner: Corner(0), scale: 1.0 };
-        let lay = flat_lay(&plan, room, &Frame::new(&points, 6, DVec3::Z), 6);
+        let lay = flat_lay(&stages.view, room, &Frame::new(&points, 6, DVec3::Z), 6);
         let place = |blend: &Option<Blend>| {
             let positions =
-                blend.unwrap().vertices.map(|v| plan.view.position(crate::ids::Vertex(v)));
+                blend.unwrap().vertices.map(|v| stages.view.position(crate::ids::Vertex(v)));
             crate::resample::weighted_sum(&blend.unwrap(), positions)
         };
         let laid: Vec<DVec3> = lay.feet.iter().map(place).collect();
         let areas = (1..5).map(|k| area_vector([laid[0], laid[k], laid[k + 1]]).length());
-        let share = areas.sum::<f64>() / area_vector(plan.view.triangle(Triangle(0))).length();
+        let share = areas.sum::<f64>() / area_vector(stages.view.triangle(Triangle(0))).length();
         assert!((share - 2.0 / 3.0 * WIDEST * WIDEST).abs() < 1e-6, "{share}");
         let point = Frame::new(&[DVec3::ZERO; 3], 3, DVec3::ZERO);
-        let collapsed = flat_lay(&plan, room, &point, 3);
+        let collapsed = flat_lay(&stages.view, room, &point, 3);
         assert!(collapsed.feet.iter().all(|foot| foot.unwrap().weights[0] == 1.0));
     }
 
@@ -413,11 +423,11 @@ mod tests {
     #[test]
     fn a_fill_in_a_corner_keeps_its_shape_and_area() {
         let cube = shapes::cube(1.0);
-        let plan = plan_of(&cube, 0.1);
+        let stages = stages_of(&cube, 0.1);
         let points = [DVec3::ZERO, DVec3::X * 0.5, DVec3::Y * 0.5, DVec3::new(0.1, 0.1, 0.0)];
         let room = Room { corner: Corner(0), scale: 1.0 };
-        let lay = flat_lay(&plan, room, &Frame::new(&points, 3, DVec3::Z), 3);
-        let [from, next, prev] = [0, 1, 2].map(|corner| plan.view.vertex_at(Corner(corner)).0);
+        let lay = flat_lay(&stages.view, room, &Frame::new(&points, 3, DVec3::Z), 3);
+        let [from, next, prev] = [0, 1, 2].map(|corner| stages.view.vertex_at(Corner(corner)).0);
         let weights = |blend: &Blend| [from, next, prev].map(|v| weight_of(blend, v));
         let feet: Vec<[f32; 3]> = lay.feet.iter().flatten().map(weights).collect();
         assert_eq!(feet, [[1.0, 0.0, 0.0], [0.5, 0.5, 0.0], [0.5, 0.0, 0.5]]);

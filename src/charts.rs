@@ -1,0 +1,169 @@
+//! Charts: where each patch lies on the texture (thesis 6.4).
+//!
+//! Where a UV channel differs across a hard edge, the chamfer belongs to one side's chart, its
+//! owner. The owner's chart has a free band between the pulled edge and the old one, and the
+//! strip is mapped onto exactly that: its far side lands on the old edge. The owner also gives the
+//! strip its submesh.
+
+mod density;
+mod feet;
+mod fill_map;
+mod fit;
+mod ground;
+mod owners;
+mod strip_map;
+
+use glam::DVec2;
+
+use crate::attributes::{Attributes, Taken};
+use crate::chamfers::Chamfers;
+use crate::ids::{Id, Patch, Triangle};
+use crate::mesh::UV_CHANNELS;
+use crate::patches::Patches;
+use crate::placement::Placement;
+use crate::report::Blend;
+use crate::surface::Surface;
+use crate::threads::Threads;
+use crate::view::View;
+
+use density::uv_point;
+use fill_map::lay_fill;
+use owners::owners;
+use strip_map::lay_strip;
+
+/// The charts that all patches lie in.
+#[derive(Default)]
+pub struct Charts {
+    /// `#patches`: none of those without triangles is ever asked for.
+    laid: Vec<Laid>,
+    /// Patch by patch.
+    taken: Vec<TakenAt>,
+}
+
+/// What a point of a patch takes from another chart than its own, and the point's place in the
+/// joints, or past them in the middles.
+pub type TakenAt = (u32, Taken);
+
+struct Laid {
+    face: Triangle,
+    begin: u32,
+    /// Where its points end.
+    end: u32,
+}
+
+/// The chart of one patch.
+#[derive(Clone, Copy)]
+pub struct Chart<'a> {
+    /// The face that the patch continues, and whose submesh it joins.
+    pub face: Triangle,
+    /// The joint whose vertex is made first: the others follow in turn.
+    pub begin: usize,
+    /// In the order of the points.
+    taken: &'a [TakenAt],
+}
+
+impl Chart<'_> {
+    /// What a point takes from another chart.
+    pub fn taken_at(&self, point: usize) -> Option<&Taken> {
+        self.taken.iter().find(|(at, _)| *at as usize == point).map(|(_, taken)| taken)
+    }
+}
+
+/// Lays each patch into the chart of its owner, where its own is another, or folds or ends under
+/// the chamfer.
+pub fn charts(
+    surface: Surface,
+    chamfers: Chamfers,
+    placement: &Placement,
+    patches: &Patches,
+    attributes: &Attributes,
+    threads: &Threads,
+) -> Charts {
+    let owners = owners(surface, chamfers, placement, patches, attributes, threads);
+    let given = Given { surface, chamfers, placement, attributes, owners: &owners };
+    let lay = |_: &Charts, patch: Patch, charts: &mut Charts| {
+        let parts = patches.parts(patch);
+        let (mut face, mut begin) = (Triangle::NONE, 0);
+        if !parts.triangles.is_empty() {
+            (face, begin) = match patches.edge_or_ring(patch) {
+                Ok(edge) => (lay_strip(&given, edge, parts, &mut charts.taken), 0),
+                Err(ring) => lay_fill(&given, ring, parts, &mut charts.taken),
+            };
+        }
+        charts.laid.push(Laid { face, begin: begin as u32, end: charts.taken.len() as u32 });
+    };
+    let mut charts = Charts::default();
+    threads.blocks_then(patches.len(), &mut charts, lay, Charts::append);
+    charts
+}
+
+/// What patches are laid by.
+struct Given<'a> {
+    surface: Surface<'a>,
+    chamfers: Chamfers<'a>,
+    placement: &'a Placement<'a>,
+    attributes: &'a Attributes,
+    owners: &'a owners::Owners,
+}
+
+impl Charts {
+    pub fn of(&self, patch: Patch) -> Chart<'_> {
+        let place = patch.index();
+        let start = place.checked_sub(1).map_or(0, |before| self.laid[before].end);
+        let Laid { face, begin, end } = self.laid[place];
+        let taken = &self.taken[start as usize..end as usize];
+        Chart { face, begin: begin as usize, taken }
+    }
+
+    fn append(&mut self, others: &mut Charts) {
+        let start = self.taken.len() as u32;
+        let laid = others.laid.drain(..);
+        self.laid.extend(laid.map(|laid| Laid { end: start + laid.end, ..laid }));
+        self.taken.append(&mut others.taken);
+    }
+}
+
+/// The UV channels that a mesh has.
+fn channels_of(view: &View) -> impl Iterator<Item = usize> + use<> {
+    let present = view.mesh.uvs.map(|uv| uv.components > 0);
+    (0..UV_CHANNELS).filter(move |&channel| present[channel])
+}
+
+/// Where a blend lies in a UV channel.
+fn place_of(view: &View, channel: usize, blend: &Blend) -> DVec2 {
+    let uv = &view.mesh.uvs[channel];
+    let terms = blend.vertices.iter().zip(blend.weights);
+    terms.map(|(&vertex, weight)| uv_point(uv, vertex) * f64::from(weight)).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shapes;
+    use crate::stages::stages_of;
+
+    #[test]
+    fn a_chain_of_edges_between_two_regions_has_one_owner() {
+        let cylinder = shapes::cylinder(12);
+        let stages = stages_of(&cylinder, 0.05);
+        let placement = stages.placement();
+        let charts = stages.charts(&placement);
+        for strip in stages.edges.hard.ids().map(|edge| Patch(edge.0)) {
+            assert!(charts.of(strip).face < Triangle(24), "the side of the cylinder comes first");
+        }
+    }
+
+    // On a seam the two far corners of a strip come from its owner's chart, and no others.
+    #[test]
+    fn a_strip_on_a_seam_takes_two_places_from_its_owner() {
+        let cube = shapes::cube(1.0);
+        let stages = stages_of(&cube, 0.1);
+        let placement = stages.placement();
+        let charts = stages.charts(&placement);
+        for strip in stages.edges.hard.ids().map(|edge| Patch(edge.0)) {
+            let taken: Vec<usize> =
+                (0..4).filter(|&point| charts.of(strip).taken_at(point).is_some()).collect();
+            assert!(taken == [0, 1] || taken == [2, 3], "{taken:?}");
+        }
+    }
+}

@@ -1,0 +1,58 @@
+//! Given: what the limits are found from.
+
+use crate::chamfers::Chamfers;
+use crate::ids::{Cluster, IdVec, Sector, Triangle};
+use crate::offsets::Offset;
+use crate::placement::Placement;
+use crate::rests::Rests;
+use crate::sectors::Sectors;
+use crate::surface::Surface;
+use crate::threads::Threads;
+use crate::topology::Topology;
+
+/// The arguments of [`limits`](super::limits), for the files of this stage alone.
+pub struct Given<'a> {
+    pub surface: Surface<'a>,
+    pub chamfers: Chamfers<'a>,
+    /// `#sectors`: the move at full width.
+    pub offsets: &'a IdVec<Sector, Offset>,
+    /// What must not lose what it rests on.
+    pub rests: &'a Rests,
+    /// `#clusters`: see [`deep`].
+    pub deep: IdVec<Cluster, bool>,
+    pub threads: &'a Threads,
+}
+
+impl<'a> Given<'a> {
+    /// The sectors at some shares of their offsets; `share: #sectors`.
+    pub fn placement(&self, share: IdVec<Sector, f64>) -> Placement<'a> {
+        Placement::new(self.surface, self.chamfers.sectors, self.offsets, share, self.threads)
+    }
+}
+
+/// `#clusters`: whether a face goes on for at least a row of triangles behind a vertex inside of
+/// it. No chamfer reaches these, so the first row may be given away.
+pub fn deep(topology: &Topology, sectors: &Sectors) -> IdVec<Cluster, bool> {
+    let mut deep = IdVec::filled(false, topology.clusters);
+    for triangle in (0..topology.twin.len() / 3).map(|triangle| Triangle(triangle as u32)) {
+        let corners = triangle.corners();
+        if corners.iter().all(|&corner| sectors.sector_of[corner].is_none()) {
+            corners.iter().for_each(|&corner| deep[topology.cluster_at[corner]] = true);
+        }
+    }
+    deep
+}
+
+#[cfg(test)]
+pub mod tests {
+    use super::*;
+    use crate::stages::Stages;
+
+    /// What the limits of some stages are found from.
+    pub fn given_of<'a>(stages: &'a Stages) -> Given<'a> {
+        let deep = deep(&stages.topology, &stages.sectors);
+        let Stages { offsets, rests, threads, .. } = stages;
+        let (surface, chamfers) = (stages.surface(), stages.chamfers());
+        Given { surface, chamfers, offsets, rests, deep, threads }
+    }
+}

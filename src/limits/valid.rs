@@ -1,0 +1,144 @@
+//! Valid: whether source triangles, strips and fills are as good as they have to be.
+
+use glam::DVec3;
+
+use crate::contacts::Wedge;
+use crate::fills;
+use crate::ids::{Edge, Ring, Triangle};
+use crate::math::{area_vector, unit};
+use crate::placement::Placement;
+use crate::strips;
+use crate::validity::{opens_along, stays_line, survives};
+
+use super::breadth;
+use super::elements::Element;
+use super::given::Given;
+
+/// Everything that is bad where the sectors stand now.
+pub fn bad_elements(given: &Given, placement: &Placement) -> Vec<Element> {
+    let threads = given.threads;
+    let is_bad = |element| !is_valid(given, placement, element);
+    let triangles = threads.filter(given.surface.faces.normal.len(), |triangle| {
+        is_touched(given, triangle) && is_bad(Element::Surface(triangle))
+    });
+    let edges = threads.filter(given.chamfers.edges.hard.len(), |edge| {
+        given.chamfers.edges.hard[edge].skipped.is_none() && is_bad(Element::Strip(edge))
+    });
+    let rings =
+        threads.filter(given.chamfers.sectors.rings.len(), |ring| is_bad(Element::Fill(ring)));
+    let surface = triangles.into_iter().map(Element::Surface);
+    let strips = edges.into_iter().map(Element::Strip);
+    surface.chain(strips).chain(rings.into_iter().map(Element::Fill)).collect()
+}
+
+fn is_touched(given: &Given, triangle: Triangle) -> bool {
+    triangle.corners().iter().any(|&corner| given.chamfers.sectors.sector_of[corner].is_some())
+}
+
+/// Whether an element is as good as it has to be where the sectors stand now.
+pub fn is_valid(given: &Given, placement: &Placement, element: Element) -> bool {
+    match element {
+        Element::Surface(triangle) => surface_is_valid(given, placement, triangle),
+        Element::Strip(edge) => {
+            strip_is_valid(given, placement, edge) && contacts_are_kept(given, placement, edge)
+        }
+        Element::Fill(ring) => fill_is_valid(given, placement, ring),
+    }
+}
+
+fn surface_is_valid(given: &Given, placement: &Placement, triangle: Triangle) -> bool {
+    let old = given.surface.view.triangle(triangle);
+    let new = triangle.corners().map(|corner| placement.position_at(corner));
+    let faces = given.surface.faces;
+    if old == new {
+        true
+    } else if faces.normal[triangle] == DVec3::ZERO || faces.is_line(triangle) {
+        let resolution = given.surface.view.resolution;
+        stays_line(old, new, faces.normal[triangle], resolution)
+            && opens_along(old, new, facing(given, placement, triangle).map(unit), resolution)
+    } else {
+        survives(old, new)
+            && breadth::is_kept(given, triangle, [old, new])
+            && still_faces_out(given, placement, triangle, [old, new])
+    }
+}
+
+/// Whether a triangle that faced the way its vertex normals point still does.
+fn still_faces_out(
+    given: &Given,
+    placement: &Placement,
+    triangle: Triangle,
+    [old, new]: [[DVec3; 3]; 2],
+) -> bool {
+    let [before, after] = facing(given, placement, triangle);
+    area_vector(new).dot(after) > 0.0 || area_vector(old).dot(before) <= 0.0
+}
+
+/// The sums of a triangle's vertex normals, before and after.
+fn facing(given: &Given, placement: &Placement, triangle: Triangle) -> [DVec3; 2] {
+    let sum = |normals: [DVec3; 3]| normals[0] + normals[1] + normals[2];
+    let corners = triangle.corners();
+    let before = corners.map(|corner| given.surface.view.normal_at(corner));
+    [sum(before), sum(corners.map(|corner| placement.normal_at(corner)))]
+}
+
+fn strip_is_valid(given: &Given, placement: &Placement, edge: Edge) -> bool {
+    let edge = &given.chamfers.edges.hard[edge];
+    let quad = strips::quad(placement, edge);
+    let [from, to] =
+        [edge.sides[0], edge.sides[0].next()].map(|c| given.surface.view.position_at(c));
+    strips::is_valid(&quad, strips::cut(&quad), unit(to - from), given.surface.view.resolution)
+}
+
+/// Whether a strip leaves everything covered that rests beside its edge.
+pub fn contacts_are_kept(given: &Given, placement: &Placement, edge: Edge) -> bool {
+    // Beside most edges nothing rests.
+    if given.rests.of(edge).is_empty() {
+        return true;
+    }
+    let [b1, a1, a2, b2] = strips::corners(&given.chamfers.edges.hard[edge])
+        .map(|corner| placement.position_at(corner));
+    let wedge =
+        Wedge::new(given.surface.view, given.surface.faces, given.chamfers.edges.hard[edge].sides);
+    wedge.is_none_or(|wedge| given.rests.are_kept(edge, &wedge, [[a1, b1], [a2, b2]]))
+}
+
+fn fill_is_valid(given: &Given, placement: &Placement, ring: Ring) -> bool {
+    match *given.chamfers.sectors.ring(ring) {
+        [a, b, c] => {
+            let sectors = [a, b, c];
+            let points = sectors.map(|sector| placement.point[sector]);
+            let normals = sectors.map(|sector| placement.normals[sector][0]);
+            fills::can_fill(points, normals, given.surface.view.resolution)
+        }
+        ref sectors => {
+            fills::ring_fill(placement, sectors, given.surface.view.resolution).is_some()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::limits::given::tests::given_of;
+    use crate::shapes;
+    use crate::stages::stages_of;
+
+    #[test]
+    fn a_triangle_may_not_turn_from_its_vertex_normals() {
+        let mut cube = shapes::plain_cube(1.0);
+        let stages = stages_of(&cube, 0.1);
+        let placement = stages.placed(0.0);
+        let old = stages.view.triangle(Triangle(0));
+        let turned = [old[0], old[2], old[1]];
+        assert!(still_faces_out(&given_of(&stages), &placement, Triangle(0), [old, old]));
+        assert!(!still_faces_out(&given_of(&stages), &placement, Triangle(0), [old, turned]));
+        cube.normals.iter_mut().for_each(|normal| *normal = normal.map(|part| -part));
+        let stages = stages_of(&cube, 0.1);
+        let placement = stages.placed(0.0);
+        assert!(
+            still_faces_out(&given_of(&stages), &placement, Triangle(0), [old, turned]),
+            "it never did"
+        );
+    }
+}
