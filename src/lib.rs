@@ -94,7 +94,7 @@ mod weld;
 pub use error::{Error, Stream};
 pub use mesh::{Held, Mesh, MeshBuffers, UV_CHANNELS, Uv, UvBuffer};
 pub use options::{ChamferSubmesh, Options, Verify, Width};
-pub use pipeline::{Prepared, chamfer, chamfer_with_progress};
+pub use pipeline::{chamfer, chamfer_with_progress};
 pub use report::{
     Blend, ByReason, Chamfered, EdgeVerdict, Outcome, Reason, Totals, TriangleKind, TriangleSource,
     VertexSource, VertexSources,

@@ -1,6 +1,5 @@
 //! The stages in their order: the only file that knows it.
 
-use std::fmt;
 use std::ops::ControlFlow;
 
 use crate::attributes::attributes;
@@ -12,7 +11,7 @@ use crate::limits::limits;
 use crate::memory;
 use crate::mesh::Mesh;
 use crate::offsets::offsets;
-use crate::options::{Options, Verify, Width};
+use crate::options::{Options, Verify};
 use crate::output::{output, unchanged};
 use crate::plan::{Plan, Shape};
 use crate::report::Chamfered;
@@ -21,7 +20,7 @@ use crate::sectors::sectors;
 use crate::see_through::Eyes;
 use crate::strips::strips;
 use crate::topology::topology;
-use crate::view::{View, view, view_of_checked};
+use crate::view::{View, view};
 use crate::weld::{Weld, weld};
 
 /// Chamfers all hard edges of a mesh: the method of the thesis (Algma 2018, chapter 6), as
@@ -116,92 +115,16 @@ pub fn chamfer_by_stages(
     let mut done = or_cancelled(after);
     let view = view(mesh, options)?;
     done(Stage::View)?;
-    let shape = find_shape(&view, &mut done)?;
-    chamfer_shape(view, shape.as_ref(), options, &mut done)
-}
-
-/// A mesh with all that is known of it before anybody asks for a width: dragging one only takes
-/// the rest.
-///
-/// ```
-/// use chamfer::{Options, Prepared, Width, shapes};
-///
-/// let cube = shapes::cube(2.0);
-/// let prepared = Prepared::new(&cube.as_mesh())?;
-/// for step in 1..5 {
-///     let width = Width::Units(step as f32 / 10.0);
-///     let result = prepared.chamfer(&Options::default().with_width(width))?;
-///     assert_eq!(result.width, step as f32 / 10.0);
-/// }
-/// # Ok::<(), chamfer::Error>(())
-/// ```
-#[derive(Clone)]
-pub struct Prepared<'a> {
-    mesh: Mesh<'a>,
-    /// None where nothing can be hard.
-    shape: Option<Shape>,
-}
-
-impl fmt::Debug for Prepared<'_> {
-    /// Of what it knows, only how much: arrays as long as the mesh help nobody.
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let hard_edges = self.shape.as_ref().map_or(0, |shape| shape.edges.hard.len());
-        let triangles = self.mesh.indices.len() / 3;
-        let mut shown = f.debug_struct("Prepared");
-        shown
-            .field("triangles", &triangles)
-            .field("hard_edges", &hard_edges)
-            .finish_non_exhaustive()
+    let weld = weld(&view.mesh);
+    done(Stage::Weld)?;
+    if may_be_hard(&view, &weld) {
+        let shape = shape(&view, weld, &mut done)?;
+        return chamfer_shape(view, shape, options, &mut done);
     }
-}
-
-impl<'a> Prepared<'a> {
-    /// Finds the hard edges of a mesh, and what moves together around them. The mesh stays
-    /// borrowed, so it cannot change in the meantime.
-    ///
-    /// # Errors
-    /// Whatever is wrong with the mesh: see [`Error`].
-    pub fn new(mesh: &Mesh<'a>) -> Result<Prepared<'a>, Error> {
-        let none = Options { width: Width::Units(0.0), threads: 1, ..Options::default() };
-        let view = view(mesh, &none)?;
-        Ok(Prepared { mesh: *mesh, shape: find_shape(&view, &mut |_| Ok(()))? })
-    }
-
-    /// From what [`Prepared::into_shape`] gave for this very mesh.
-    pub(crate) fn of_shape(mesh: Mesh<'a>, shape: Option<Shape>) -> Prepared<'a> {
-        Prepared { mesh, shape }
-    }
-
-    /// What was found out, without the mesh.
-    pub(crate) fn into_shape(self) -> Option<Shape> {
-        self.shape
-    }
-
-    /// The same as [`chamfer`](crate::chamfer()) of the mesh, sooner.
-    ///
-    /// # Errors
-    /// Whatever is wrong with the options: see [`Error`].
-    pub fn chamfer(&self, options: &Options) -> Result<Chamfered, Error> {
-        self.chamfer_with_progress(options, &mut |_| ControlFlow::Continue(()))
-    }
-
-    /// As [`Prepared::chamfer`], calling `progress` between stages with the share done (0 to 1).
-    ///
-    /// # Errors
-    /// As [`Prepared::chamfer`]; [`Error::Cancelled`] where `progress` breaks.
-    pub fn chamfer_with_progress(
-        &self,
-        options: &Options,
-        progress: &mut dyn FnMut(f32) -> ControlFlow<()>,
-    ) -> Result<Chamfered, Error> {
-        if options.verify == Verify::Seen {
-            // What leaks changes what is held, and so all that was prepared.
-            return chamfer_with_progress(&self.mesh, options, progress);
-        }
-        let view = view_of_checked(&self.mesh, options)?;
-        let mut after = |stage: Stage| progress(stage.share_done());
-        chamfer_shape(view, self.shape.as_ref(), options, &mut or_cancelled(&mut after))
-    }
+    memory::ask(memory::of_copy(&view.mesh))?;
+    let chamfered = unchanged(&view, options.chamfer_submesh);
+    done(Stage::Output)?;
+    Ok(chamfered)
 }
 
 fn or_cancelled(
@@ -216,18 +139,9 @@ fn or_cancelled(
 /// Told whenever a stage ends; an error ends the call.
 type Done<'a> = dyn FnMut(Stage) -> Result<(), Error> + 'a;
 
-/// The stages that no width has a say in; none where nothing can be hard.
-fn find_shape(view: &View, done: &mut Done) -> Result<Option<Shape>, Error> {
-    let weld = weld(&view.mesh);
-    done(Stage::Weld)?;
-    if !may_be_hard(view, &weld) {
-        return Ok(None);
-    }
-    memory::ask(memory::up_to_edges(&view.mesh))?;
-    shape(view, weld, done).map(Some)
-}
-
+/// The stages that no width has a say in.
 pub(crate) fn shape(view: &View, weld: Weld, done: &mut Done) -> Result<Shape, Error> {
+    memory::ask(memory::up_to_edges(&view.mesh))?;
     let topology = topology(view, &weld);
     done(Stage::Topology)?;
     let faces = faces(view, &topology);
@@ -238,18 +152,11 @@ pub(crate) fn shape(view: &View, weld: Weld, done: &mut Done) -> Result<Shape, E
     memory::ask(memory::of_sectors(edges.hard.len()))?;
     let sectors = sectors(view, &topology, &edges, &contacts);
     done(Stage::Sectors)?;
-    Ok(Shape {
-        weld: weld.into(),
-        topology: topology.into(),
-        faces: faces.into(),
-        contacts: contacts.into(),
-        edges: edges.into(),
-        sectors: sectors.into(),
-    })
+    Ok(Shape { weld, topology, faces, contacts, edges, sectors })
 }
 
 /// All that is known before the limits.
-pub(crate) fn plan<'a>(view: View<'a>, shape: &Shape) -> Plan<'a> {
+pub(crate) fn plan(view: View, shape: Shape) -> Plan {
     let offsets = offsets(&view, &shape.topology, &shape.faces, &shape.sectors);
     Plan::new(view, shape, offsets)
 }
@@ -257,16 +164,10 @@ pub(crate) fn plan<'a>(view: View<'a>, shape: &Shape) -> Plan<'a> {
 /// The stages that depend on the width.
 fn chamfer_shape(
     view: View,
-    shape: Option<&Shape>,
+    shape: Shape,
     options: &Options,
     done: &mut Done,
 ) -> Result<Chamfered, Error> {
-    let Some(shape) = shape else {
-        memory::ask(memory::of_copy(&view.mesh))?;
-        let chamfered = unchanged(&view, options.chamfer_submesh);
-        done(Stage::Output)?;
-        return Ok(chamfered);
-    };
     memory::ask(memory::of_chamfers(&view.mesh, shape.work()))?;
     let plan = plan(view, shape);
     done(Stage::Offsets)?;

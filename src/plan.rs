@@ -1,7 +1,5 @@
 //! Plan: all that is known of a mesh before the limits decide how much of it is done.
 
-use std::sync::Arc;
-
 use crate::contacts::Contacts;
 use crate::edges::Edges;
 use crate::faces::Faces;
@@ -15,14 +13,13 @@ use crate::view::View;
 use crate::weld::Weld;
 
 /// The values of the stages that no width has a say in.
-#[derive(Clone)]
 pub struct Shape {
-    pub weld: Arc<Weld>,
-    pub topology: Arc<Topology>,
-    pub faces: Arc<Faces>,
-    pub contacts: Arc<Contacts>,
-    pub edges: Arc<Edges>,
-    pub sectors: Arc<Sectors>,
+    pub weld: Weld,
+    pub topology: Topology,
+    pub faces: Faces,
+    pub contacts: Contacts,
+    pub edges: Edges,
+    pub sectors: Sectors,
 }
 
 impl Shape {
@@ -39,11 +36,11 @@ impl Shape {
 /// The values of the stages up to the offsets.
 pub struct Plan<'a> {
     pub view: View<'a>,
-    pub weld: Arc<Weld>,
-    pub topology: Arc<Topology>,
-    pub faces: Arc<Faces>,
-    pub edges: Arc<Edges>,
-    pub sectors: Arc<Sectors>,
+    pub weld: Weld,
+    pub topology: Topology,
+    pub faces: Faces,
+    pub edges: Edges,
+    pub sectors: Sectors,
     /// `#sectors`: the move at full width.
     pub offsets: IdVec<Sector, Offset>,
     /// What must not lose what it rests on.
@@ -54,8 +51,8 @@ pub struct Plan<'a> {
 
 impl<'a> Plan<'a> {
     /// What is known of a mesh, with the moves at one width.
-    pub fn new(view: View<'a>, shape: &Shape, offsets: IdVec<Sector, Offset>) -> Plan<'a> {
-        let Shape { weld, topology, faces, contacts, edges, sectors } = shape.clone();
+    pub fn new(view: View<'a>, shape: Shape, offsets: IdVec<Sector, Offset>) -> Plan<'a> {
+        let Shape { weld, topology, faces, contacts, edges, sectors } = shape;
         let rests = rests(&view, &topology, &faces, &edges, &contacts);
         let deep = deep(&topology, &sectors, weld.first_vertex.len());
         Plan { view, weld, topology, faces, edges, sectors, offsets, rests, deep }
@@ -81,6 +78,6 @@ pub mod tests {
         let view = view(&mesh.as_mesh(), options).unwrap();
         let weld = weld(&view.mesh);
         let shape = shape(&view, weld, &mut |_| Ok(())).unwrap();
-        plan(view, &shape)
+        plan(view, shape)
     }
 }

@@ -8,7 +8,6 @@ mod input;
 mod normals;
 mod output;
 mod overlap;
-mod prepared;
 mod scene;
 mod sized;
 mod status;
@@ -122,11 +121,10 @@ pub unsafe extern "C" fn chamfer_run(
     // SAFETY: the caller's pointers are NULL or valid, as `chamfer.h` asks.
     let body = |mesh: Mesh| unsafe {
         let options = input::read_options(options)?;
-        let result = chamfer_with_progress(&mesh, &options, &mut reporting(progress, user))?;
-        Ok(chamfer_result::new(result))
+        Ok(chamfer_with_progress(&mesh, &options, &mut reporting(progress, user))?)
     };
     // SAFETY: as above.
-    unsafe { produce_from(mesh, out, error, body) }
+    unsafe { produce(mesh, out, error, body) }
 }
 
 /// Gives a mesh normals by smoothing angle: faces joined by edges of at most `angle_degrees` (0 to
@@ -141,9 +139,9 @@ pub unsafe extern "C" fn chamfer_split_by_angle(
     out: *mut *mut chamfer_result,
     error: *mut chamfer_error,
 ) -> i32 {
-    let body = |mesh: Mesh| Ok(chamfer_result::new(normals::with_normals(&mesh, angle_degrees)?));
+    let body = |mesh: Mesh| normals::with_normals(&mesh, angle_degrees);
     // SAFETY: the caller's pointers are NULL or valid, as `chamfer.h` asks.
-    unsafe { produce_from(mesh, out, error, body) }
+    unsafe { produce(mesh, out, error, body) }
 }
 
 /// Views the result's mesh. Set `struct_size` of `mesh` first.
@@ -251,34 +249,22 @@ unsafe fn reporting(
     }
 }
 
-/// As [`produce`], of a mesh that `out` and `error` must not lie in.
+/// Runs `make` on a mesh and hands the result to the caller. `out` and `error` must not lie in the mesh.
 ///
 /// # Safety
-/// `mesh` as for [`input::borrow_mesh`]; the others as for [`produce`].
-unsafe fn produce_from<T>(
+/// `mesh` as for [`input::borrow_mesh`]; `out` is NULL, misaligned or writable; `error` as for
+/// [`guard`].
+unsafe fn produce(
     mesh: *const chamfer_mesh,
-    out: *mut *mut T,
+    out: *mut *mut chamfer_result,
     error: *mut chamfer_error,
-    make: impl FnOnce(Mesh) -> Result<T, Failure>,
+    make: impl FnOnce(Mesh) -> Result<Chamfered, Failure>,
 ) -> i32 {
     // SAFETY: as this function's.
     let apart = caught(|| unsafe { overlap::check_apart(mesh, out, error) });
     if let Err(failure) = apart.and_then(|apart| apart) {
         return failure.status;
     }
-    // SAFETY: as this function's, and what is written is not what is read.
-    unsafe { produce(out, error, || make(input::borrow_mesh(mesh)?)) }
-}
-
-/// Runs `make` and hands what it made to the caller.
-///
-/// # Safety
-/// `out` is NULL, misaligned or writable; `error` as for [`guard`].
-unsafe fn produce<T>(
-    out: *mut *mut T,
-    error: *mut chamfer_error,
-    make: impl FnOnce() -> Result<T, Failure>,
-) -> i32 {
     let checked = check_pointer(out, "out");
     if checked.is_ok() {
         // SAFETY: checked, and the caller vouches for the rest. Cleared before anything can fail,
@@ -287,7 +273,9 @@ unsafe fn produce<T>(
     }
     let body = || {
         checked?;
-        let made = Box::new(make()?);
+        // SAFETY: as this function's, and what is written is not what is read.
+        let mesh = unsafe { input::borrow_mesh(mesh)? };
+        let made = Box::new(chamfer_result::new(make(mesh)?));
         // SAFETY: as above.
         unsafe { out.write(Box::into_raw(made)) };
         Ok(())
