@@ -16,7 +16,7 @@ use std::hint::black_box;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use chamfer::{MeshBuffers, Options, Prepared, Verify, Width, chamfer};
+use chamfer::{MeshBuffers, Options, Verify, Width, chamfer};
 use chamfer_formats as formats;
 use chamfer_formats::ReadOptions;
 use models::{CUBES, copy, cube_field, options, position_remap, smooth_sphere, stage_times};
@@ -114,10 +114,6 @@ fn table(name: &str, mesh: &MeshBuffers, verify: Verify, rounds: usize) {
     let whole = |options| median(rounds, || drop(black_box(chamfer(&mesh.as_mesh(), &options))));
     row("chamfer, one thread", whole(one), remap);
     row("chamfer, two threads", whole(two), remap);
-    if let Ok(prepared) = Prepared::new(&mesh.as_mesh()) {
-        let again = median(rounds, || drop(black_box(prepared.chamfer(&one))));
-        row("another width, prepared", again, remap);
-    }
     let runs: Vec<_> = (0..rounds).map(|_| stage_times(mesh, &one)).collect();
     for (place, (stage, _)) in runs[0].iter().enumerate() {
         let mut times: Vec<Duration> = runs.iter().map(|run| run[place].1).collect();

@@ -203,12 +203,6 @@ extern "C" {
 #define CHAMFER_TRIANGLE_CORNER 2
 
 /**
- * A copy of a mesh, with all that is known of it before anybody asks for a width. It never
- * changes, so any number of threads may run it at once.
- */
-typedef struct chamfer_prepared chamfer_prepared;
-
-/**
  * What a call made: a mesh, where each of its elements came from, and a verdict for each hard
  * edge. It never changes, so any number of threads may read it at once.
  */
@@ -507,30 +501,6 @@ int32_t chamfer_result_triangle_sources(const struct chamfer_result *result,
 
 /** Frees a result and every array viewed through it. NULL is allowed. */
 CHAMFER_API void chamfer_result_destroy(struct chamfer_result *result);
-
-/**
- * Prepares a mesh for several widths: each then takes less than `chamfer_run` would.
- *
- * `mesh` is borrowed for the call and copied, so what becomes of it later does not matter; a mesh
- * that changed is prepared anew. `error` may be NULL. On success `*out` is to be freed with
- * `chamfer_prepared_destroy`; on failure it is NULL.
- */
-CHAMFER_API
-int32_t chamfer_prepare(const struct chamfer_mesh *mesh,
-                        struct chamfer_prepared **out,
-                        struct chamfer_error *error);
-
-/** As `chamfer_run` of the mesh that was prepared, to the byte. */
-CHAMFER_API
-int32_t chamfer_prepared_run(const struct chamfer_prepared *prepared,
-                             const struct chamfer_options *options,
-                             chamfer_progress progress,
-                             void *user,
-                             struct chamfer_result **out,
-                             struct chamfer_error *error);
-
-/** Frees a prepared mesh. Results that came of it live on. NULL is allowed. */
-CHAMFER_API void chamfer_prepared_destroy(struct chamfer_prepared *prepared);
 
 /**
  * Chamfers meshes that stand together: of each, the edges are held that the open border of

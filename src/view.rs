@@ -37,11 +37,6 @@ pub fn view<'a>(mesh: &Mesh<'a>, options: &Options) -> Result<View<'a>, Error> {
     check_indices(mesh)?;
     check_finite(mesh)?;
     memory::ask(memory::of_weld(mesh))?;
-    view_of_checked(mesh, options)
-}
-
-/// As [`view`], of a mesh that keeps all rules for sure.
-pub fn view_of_checked<'a>(mesh: &Mesh<'a>, options: &Options) -> Result<View<'a>, Error> {
     if let ChamferSubmesh::Given(submesh) = options.chamfer_submesh {
         let submeshes = mesh.submesh_index_counts.len() as u32;
         if submesh >= submeshes {

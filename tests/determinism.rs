@@ -1,10 +1,10 @@
 //! The same input gives the same bytes: on every platform, in every build, with any number of
-//! threads, and from a prepared mesh as from a fresh one.
+//! threads.
 
 #[path = "support/fingerprint.rs"]
 mod fingerprint;
 
-use chamfer::{MeshBuffers, Options, Prepared, Verify, Width, chamfer, shapes};
+use chamfer::{MeshBuffers, Options, Verify, Width, chamfer, shapes};
 use fingerprint::fingerprint;
 
 /// What the demonstration models come out as at 2 % of their extent, on any machine. A change of
@@ -41,19 +41,6 @@ fn the_number_of_threads_changes_nothing() {
     let alone = hash(&field(), &options(1));
     for threads in [0, 2, 3, 8] {
         assert_eq!(hash(&field(), &options(threads)), alone, "{threads} threads");
-    }
-}
-
-#[test]
-fn a_prepared_mesh_gives_what_a_fresh_one_does_at_any_width() {
-    let models = [field(), shapes::bolt(), shapes::sphere(6, 8), MeshBuffers::default()];
-    for mesh in models {
-        let prepared = Prepared::new(&mesh.as_mesh()).unwrap();
-        for percent in [0.0, 5.0, 0.5, 60.0, 5.0] {
-            let options = options(1).with_width(Width::PercentOfExtent(percent));
-            let again = prepared.chamfer(&options).unwrap();
-            assert_eq!(fingerprint(&again), hash(&mesh, &options), "{percent} %");
-        }
     }
 }
 

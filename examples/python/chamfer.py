@@ -10,7 +10,6 @@ are in the header; the result's arrays are copies, so nothing has to be freed.
 import ctypes
 import os
 import sys
-import weakref
 from ctypes import POINTER, byref, c_char, c_float, c_int32, c_uint32, c_void_p, sizeof
 from dataclasses import dataclass, field
 
@@ -203,13 +202,6 @@ class Library:
 
         return self._run(run, None, progress, options, len(views))
 
-    def prepare(self, mesh):
-        """Finds out once what does not depend on the width: to chamfer one mesh several times."""
-        view, prepared, error = _View(mesh), c_void_p(), _sized(_Error)
-        status = self._c.chamfer_prepare(byref(view.mesh), byref(prepared), byref(error))
-        self._raise_for(status, error)
-        return Prepared(self, prepared)
-
     def split_by_angle(self, mesh, degrees):
         """The mesh with normals by smoothing angle, its vertices split where they differ."""
         view = _View(mesh)
@@ -236,10 +228,6 @@ class Library:
         c.chamfer_run.argtypes = [mesh, options, _Progress, c_void_p, out, error]
         c.chamfer_scene_run.argtypes = [POINTER(mesh), c_uint32, POINTER(_Object), c_uint32]
         c.chamfer_scene_run.argtypes += [options, _Progress, c_void_p, out, error]
-        c.chamfer_prepare.argtypes = [mesh, out, error]
-        c.chamfer_prepared_run.argtypes = [c_void_p, options, _Progress, c_void_p, out, error]
-        c.chamfer_prepared_destroy.argtypes = [c_void_p]
-        c.chamfer_prepared_destroy.restype = None
         c.chamfer_split_by_angle.argtypes = [mesh, c_float, out, error]
         c.chamfer_result_mesh.argtypes = [c_void_p, mesh]
         c.chamfer_result_totals.argtypes = [c_void_p, POINTER(_Totals)]
@@ -301,22 +289,6 @@ class Library:
         if not count.value:
             return np.empty(0, dtype)
         return np.frombuffer(ctypes.string_at(start, count.value * dtype.itemsize), dtype)
-
-
-class Prepared:
-    """A mesh of which only the width is open. Any number of threads may chamfer it."""
-
-    def __init__(self, library, prepared):
-        self._library = library
-        self._prepared = prepared
-        destroy = library._c.chamfer_prepared_destroy
-        self._finalizer = weakref.finalize(self, destroy, prepared)
-
-    def chamfer(self, progress=None, **options):
-        """As `Library.chamfer` of the mesh that was prepared."""
-        function = self._library._c.chamfer_prepared_run
-        [result] = self._library._run(function, self._prepared, progress, options)
-        return result
 
 
 class _View:

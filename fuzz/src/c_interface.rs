@@ -20,13 +20,6 @@ pub struct chamfer_result {
     _opaque: [u8; 0],
 }
 
-/// An opaque mesh that is prepared for several widths.
-#[repr(C)]
-#[allow(non_camel_case_types)]
-pub struct chamfer_prepared {
-    _opaque: [u8; 0],
-}
-
 #[allow(missing_docs)]
 unsafe extern "C" {
     pub fn chamfer_status_string(status: i32) -> *const c_char;
@@ -49,20 +42,6 @@ unsafe extern "C" {
         results: *mut *mut chamfer_result,
         error: *mut chamfer_error,
     ) -> i32;
-    pub fn chamfer_prepare(
-        mesh: *const chamfer_mesh,
-        out: *mut *mut chamfer_prepared,
-        error: *mut chamfer_error,
-    ) -> i32;
-    pub fn chamfer_prepared_run(
-        prepared: *const chamfer_prepared,
-        options: *const chamfer_options,
-        progress: chamfer_progress,
-        user: *mut c_void,
-        out: *mut *mut chamfer_result,
-        error: *mut chamfer_error,
-    ) -> i32;
-    pub fn chamfer_prepared_destroy(prepared: *mut chamfer_prepared);
     pub fn chamfer_split_by_angle(
         mesh: *const chamfer_mesh,
         angle_degrees: f32,

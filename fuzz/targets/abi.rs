@@ -203,7 +203,6 @@ fuzz_target!(|input: Input| {
     let mesh = wish.mesh.of(mesh.pointer::<chamfer_mesh>().cast_const());
     let before = memory.hash();
     run(&input, mesh);
-    run_prepared(&input, mesh);
     split(&input, mesh);
     run_scene(&input, mesh);
     assert_eq!(memory.hash(), before, "the library wrote to its input");
@@ -214,20 +213,6 @@ fn run(input: &Input, mesh: *const chamfer_mesh) {
         // SAFETY: memory is there; all else is for the library to check.
         unsafe { chamfer_run(mesh, options, Some(note), user, out, error) }
     });
-}
-
-fn run_prepared(input: &Input, mesh: *const chamfer_mesh) {
-    let mut prepared: *mut chamfer_prepared = ptr::null_mut();
-    // SAFETY: as above.
-    let status = unsafe { chamfer_prepare(mesh, &mut prepared, ptr::null_mut()) };
-    assert!(is_known(status) && status != CHAMFER_STATUS_INTERNAL, "{status}");
-    assert_eq!(prepared.is_null(), status != CHAMFER_STATUS_OK);
-    run_with(input, |options, user, out, error| {
-        // SAFETY: as above; it is NULL where nothing could be prepared.
-        unsafe { chamfer_prepared_run(prepared, options, Some(note), user, out, error) }
-    });
-    // SAFETY: it is given up here.
-    unsafe { chamfer_prepared_destroy(prepared) };
 }
 
 fn run_with(

@@ -105,22 +105,6 @@ static void check_told(int32_t status, int32_t expected, chamfer_result *result,
     chamfer_result_destroy(result);
 }
 
-/* The same by way of a prepared mesh: what is wrong is told by one call or the other. */
-static void run_prepared(int32_t expected, const chamfer_mesh *on, const chamfer_options *how) {
-    chamfer_error error = {.struct_size = sizeof error};
-    chamfer_prepared *prepared = (chamfer_prepared *)(void *)garbage;
-    chamfer_result *result = garbage;
-    int32_t status = chamfer_prepare(on, &prepared, &error);
-    CHECK(error.status == status);
-    CHECK((prepared == NULL) == (status != CHAMFER_STATUS_OK));
-    if (prepared != NULL) {
-        status = chamfer_prepared_run(prepared, how, NULL, NULL, &result, &error);
-        check_told(status, expected, result, &error);
-    }
-    CHECK(status == expected);
-    chamfer_prepared_destroy(prepared);
-}
-
 static chamfer_object object_of(uint32_t number) {
     chamfer_object object;
     int axis;
@@ -153,7 +137,6 @@ static void run(int32_t expected, const chamfer_mesh *on, const chamfer_options 
     memcpy(&before, &model, sizeof model);
     status = chamfer_run(on, how, NULL, NULL, &result, &error);
     check_told(status, expected, result, &error);
-    run_prepared(expected, on, how);
     run_scene(expected, on, how);
     CHECK(memcmp(&before, &model, sizeof model) == 0);
 }
@@ -175,12 +158,6 @@ static chamfer_result *good_result(void) {
     chamfer_result *result = NULL;
     CHECK(chamfer_run(&mesh, &options, NULL, NULL, &result, NULL) == CHAMFER_STATUS_OK);
     return result;
-}
-
-static chamfer_prepared *good_prepared(void) {
-    chamfer_prepared *prepared = NULL;
-    CHECK(chamfer_prepare(&mesh, &prepared, NULL) == CHAMFER_STATUS_OK);
-    return prepared;
 }
 
 /* All getters, each with all its places or without one; none may write. */
@@ -207,19 +184,13 @@ static void getters(int32_t expected, const chamfer_result *result, int shift, i
 
 static void null_structs(int32_t expected) {
     chamfer_error error = {.struct_size = sizeof error};
-    chamfer_result *result = good_result(), *nothing = garbage;
+    chamfer_result *result = good_result();
     const chamfer_edge_verdict *verdicts = NULL;
-    chamfer_prepared *prepared = good_prepared();
-    CHECK(chamfer_prepare(&mesh, NULL, NULL) == expected);
-    CHECK(chamfer_prepared_run(prepared, &options, NULL, NULL, NULL, NULL) == expected);
-    chamfer_prepared_destroy(prepared);
     run(expected, NULL, &options);
     split(expected, NULL, 30.0f);
     CHECK(chamfer_run(&mesh, &options, NULL, NULL, NULL, &error) == expected);
     CHECK(error.status == expected);
     CHECK(chamfer_split_by_angle(&mesh, 30.0f, NULL, NULL) == expected);
-    CHECK(chamfer_prepared_run(NULL, NULL, NULL, NULL, &nothing, NULL) == expected);
-    CHECK(nothing == NULL);
     CHECK(chamfer_options_init(NULL) == expected && chamfer_mesh_init(NULL) == expected);
     getters(expected, NULL, 0, 1);
     getters(expected, result, 0, 0);
@@ -315,10 +286,7 @@ static void misaligned_structs(int32_t expected) {
     run(expected, &mesh, (const chamfer_options *)(void *)options_by_two);
     CHECK(chamfer_run(&mesh, &options, NULL, NULL, (chamfer_result **)(void *)out_by_one, NULL) ==
           expected);
-    CHECK(chamfer_prepare(&mesh, (chamfer_prepared **)(void *)out_by_one, NULL) == expected);
     CHECK(out[0] == garbage && out[1] == garbage);
-    CHECK(chamfer_prepared_run((const chamfer_prepared *)(void *)out_by_one, NULL, NULL, NULL, out,
-                               NULL) == expected);
     CHECK(chamfer_options_init((chamfer_options *)(void *)options_by_two) == expected);
     CHECK(chamfer_mesh_init((chamfer_mesh *)(void *)mesh_by_four) == expected);
     getters(expected, result, 1, 1);
@@ -576,7 +544,6 @@ static void overlapping_places(int32_t expected) {
         CHECK(chamfer_run(&own.mesh, &options, NULL, NULL, out, &error) == expected);
         CHECK(chamfer_run(&own.mesh, &options, NULL, NULL, &result, within) == expected);
         CHECK(chamfer_split_by_angle(&own.mesh, 30.0f, out, NULL) == expected);
-        CHECK(chamfer_prepare(&own.mesh, (chamfer_prepared **)(void *)out, NULL) == expected);
     }
     out = (chamfer_result **)(void *)((char *)&error + 8);
     CHECK(chamfer_run(&mesh, &options, NULL, NULL, out, &error) == expected);
@@ -785,29 +752,6 @@ static void many_threads(int32_t expected) {
     chamfer_result_destroy(result);
 }
 
-static void *run_often(void *user) {
-    int round;
-    for (round = 0; round < 20; ++round) {
-        chamfer_result *result = NULL;
-        CHECK(chamfer_prepared_run(user, NULL, NULL, NULL, &result, NULL) == CHAMFER_STATUS_OK);
-        chamfer_result_destroy(result);
-    }
-    return NULL;
-}
-
-static void many_threads_of_prepared(int32_t expected) {
-    pthread_t threads[4];
-    chamfer_prepared *prepared = good_prepared();
-    size_t i;
-    for (i = 0; i < 4; ++i) {
-        CHECK(pthread_create(&threads[i], NULL, run_often, prepared) == 0);
-    }
-    for (i = 0; i < 4; ++i) {
-        CHECK(pthread_join(threads[i], NULL) == expected);
-    }
-    chamfer_prepared_destroy(prepared);
-}
-
 static void unknown_numbers(int32_t expected) {
     CHECK(strcmp(chamfer_status_string(-5), "unknown status") == expected);
     CHECK(strcmp(chamfer_status_string(0x7FFFFFFF), "unknown status") == expected);
@@ -821,8 +765,6 @@ static void destroyed_twice(int32_t expected) {
     result = NULL;
     chamfer_result_destroy(result);
     chamfer_result_destroy(result);
-    chamfer_prepared_destroy(NULL);
-    chamfer_prepared_destroy(NULL);
 }
 
 struct row {
@@ -834,8 +776,8 @@ struct row {
 #define ROW(misuse, name, try_it) {misuse, #name, CHAMFER_STATUS_##name, try_it}
 
 static const struct row rows[] = {
-    ROW("`mesh`, `prepared`, `out`, a getter's `result` or a place to write to is NULL",
-        NULL_POINTER, null_structs),
+    ROW("`mesh`, `out`, a getter's `result` or a place to write to is NULL", NULL_POINTER,
+        null_structs),
     ROW("`options`, `progress`, `error` is NULL", OK, null_extras),
     ROW("`positions`, `indices`, `submesh_index_counts`, `held`, or the values of a UV channel "
         "with components, is NULL while its count is not 0",
@@ -883,11 +825,9 @@ static const struct row rows[] = {
     ROW("more than 2^29 vertices or indices", TOO_LARGE, past_32_bits),
     ROW("a progress callback that stops, at any of its calls", CANCELLED, cancelled),
     ROW("one result looked at by several threads at once", OK, many_threads),
-    ROW("one prepared mesh run by several threads at once", OK, many_threads_of_prepared),
     ROW("an unknown number for `chamfer_status_string`, `chamfer_reason_string`", OK,
         unknown_numbers),
-    ROW("`chamfer_result_destroy(NULL)`, `chamfer_prepared_destroy(NULL)`, any number of times", OK,
-        destroyed_twice),
+    ROW("`chamfer_result_destroy(NULL)`, any number of times", OK, destroyed_twice),
 };
 
 int main(void) {

@@ -296,23 +296,6 @@ fn progress_can_cancel() {
     assert_eq!((status, shares.len()), (CHAMFER_STATUS_CANCELLED, 1));
 }
 
-/// A prepared mesh that frees itself.
-struct PreparedHandle(*mut c_void);
-
-impl Drop for PreparedHandle {
-    fn drop(&mut self) {
-        // SAFETY: the handle came from the library and is given up here.
-        unsafe { (LIBRARY.chamfer_prepared_destroy)(self.0) }
-    }
-}
-
-fn prepare(mesh: &chamfer_mesh) -> (i32, PreparedHandle) {
-    let mut prepared = ptr::dangling_mut();
-    // SAFETY: all pointers are valid or allowed to be NULL.
-    let status = unsafe { (LIBRARY.chamfer_prepare)(mesh, &mut prepared, ptr::null_mut()) };
-    (status, PreparedHandle(prepared))
-}
-
 /// A caller of the header before there was a least breadth: what lies behind its options is not read.
 #[test]
 fn shorter_options_have_the_default_breadth() {
@@ -331,48 +314,4 @@ fn shorter_options_have_the_default_breadth() {
     assert_eq!(positions(&shorter), positions(&wide));
     assert_eq!(positions(&unset), positions(&wide));
     assert_ne!(positions(&more), positions(&wide));
-}
-
-fn run_prepared(prepared: &PreparedHandle, options: &chamfer_options) -> (i32, Handle) {
-    let mut result = ptr::dangling_mut();
-    // SAFETY: all pointers are valid or allowed to be NULL.
-    let status = unsafe {
-        let (none, no_error) = (ptr::null_mut(), ptr::null_mut());
-        (LIBRARY.chamfer_prepared_run)(prepared.0, options, None, none, &mut result, no_error)
-    };
-    (status, Handle(result))
-}
-
-fn positions_of(result: &Handle) -> Vec<f32> {
-    let mesh = mesh_of(result);
-    // SAFETY: the result lives, and says how long its array is.
-    unsafe { slice::from_raw_parts(mesh.positions, 3 * mesh.vertex_count as usize) }.to_vec()
-}
-
-#[test]
-fn a_prepared_mesh_runs_at_several_widths_and_outlives_its_source() {
-    let mut cube = Cube::new();
-    let widths = [0.1, 0.3, 0.0].map(|width| chamfer_options { width, ..options() });
-    let fresh = widths.each_ref().map(|options| positions_of(&run(&cube.view(), options)));
-    let (status, prepared) = prepare(&cube.view());
-    assert_eq!(status, CHAMFER_STATUS_OK);
-    cube.positions.fill(9.0);
-    let again = widths.each_ref().map(|options| {
-        let (status, result) = run_prepared(&prepared, options);
-        assert_eq!(status, CHAMFER_STATUS_OK);
-        positions_of(&result)
-    });
-    assert_eq!(again, fresh);
-}
-
-#[test]
-fn what_cannot_be_prepared_or_run_says_so() {
-    let cube = Cube::new();
-    let (status, prepared) = prepare(&chamfer_mesh { normals: ptr::null(), ..cube.view() });
-    assert_eq!((status, prepared.0.is_null()), (CHAMFER_STATUS_MISSING_NORMALS, true));
-    let (status, result) = run_prepared(&prepared, &options());
-    assert_eq!((status, result.0.is_null()), (CHAMFER_STATUS_NULL_POINTER, true));
-    let (_, prepared) = prepare(&cube.view());
-    let (status, result) = run_prepared(&prepared, &chamfer_options { width: -1.0, ..options() });
-    assert_eq!((status, result.0.is_null()), (CHAMFER_STATUS_BAD_WIDTH, true));
 }

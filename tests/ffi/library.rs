@@ -66,16 +66,6 @@ library! {
         *mut chamfer_error
     ) -> i32;
     chamfer_split_by_angle(*const chamfer_mesh, f32, *mut *mut c_void, *mut chamfer_error) -> i32;
-    chamfer_prepare(*const chamfer_mesh, *mut *mut c_void, *mut chamfer_error) -> i32;
-    chamfer_prepared_run(
-        *const c_void,
-        *const chamfer_options,
-        chamfer_progress,
-        *mut c_void,
-        *mut *mut c_void,
-        *mut chamfer_error
-    ) -> i32;
-    chamfer_prepared_destroy(*mut c_void);
     chamfer_result_mesh(*const c_void, *mut chamfer_mesh) -> i32;
     chamfer_result_totals(*const c_void, *mut chamfer_totals) -> i32;
     chamfer_result_verdicts(*const c_void, *mut *const chamfer_edge_verdict, *mut u32) -> i32;

@@ -53,7 +53,7 @@ fn the_example_chamfers_a_cube() {
 /// no outcome.
 const UNTRIED: [&str; 2] = [
     "a fault of the library itself | `INTERNAL`",
-    "a result or prepared mesh used after it was destroyed, or destroyed twice | undefined, as with `free`",
+    "a result used after it was destroyed, or destroyed twice | undefined, as with `free`",
 ];
 
 /// The table of misuse in docs/abi.md: what is wrong, and what that leads to, without remarks.

@@ -287,27 +287,6 @@ fn a_held_line_keeps_the_edge_that_it_lies_on() {
 }
 
 #[test]
-fn what_is_held_is_prepared_too() {
-    let cube = Cube::new();
-    let mesh = chamfer_mesh { held_count: 1, held: &ALONG, ..cube.view() };
-    let mut prepared = ptr::null_mut();
-    // SAFETY: all pointers are valid or allowed to be NULL.
-    unsafe {
-        let null = ptr::null_mut();
-        let status = (LIBRARY.chamfer_prepare)(&mesh, &mut prepared, ptr::null_mut());
-        assert_eq!(status, CHAMFER_STATUS_OK);
-        for verify in [CHAMFER_VERIFY_FULL, CHAMFER_VERIFY_SEEN] {
-            let (options, mut result) = (chamfer_options { verify, ..options() }, null);
-            let run = LIBRARY.chamfer_prepared_run;
-            let status = run(prepared, &options, None, null, &mut result, ptr::null_mut());
-            assert_eq!(status, CHAMFER_STATUS_OK);
-            assert_eq!(held(&verdicts_of(result)), 1, "{verify}");
-        }
-        (LIBRARY.chamfer_prepared_destroy)(prepared);
-    }
-}
-
-#[test]
 fn callers_that_do_not_know_of_held_places_hold_none() {
     let cube = Cube::new();
     let mesh = chamfer_mesh {

@@ -37,6 +37,7 @@ namespace ChamferEditor
         internal static void Revert(ChamferModifier modifier)
         {
             if (SlotEditing.IsLocked(modifier)) { return; }
+            PreviewQueue.Cancel(modifier);
             var former = modifier.meshes.ToArray();
             ModifierLods.Drop(modifier);
             Restore(modifier, RevertName);

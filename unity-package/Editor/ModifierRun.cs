@@ -47,6 +47,7 @@ namespace ChamferEditor
         /// <summary>False if the user cancelled; then nothing was changed.</summary>
         internal bool TryChamfer()
         {
+            PreviewQueue.Cancel(modifier);
             if (!IsShared && !job.Run(new[] { scene }, settings)) { return false; }
             Apply(job.Results.Values);
             return true;

@@ -31,6 +31,13 @@ namespace ChamferEditor
             if (running == null) { Start(); }
         }
 
+        /// <summary>Gives up what was asked for, because a button was pressed since.</summary>
+        internal static void Cancel(ChamferModifier modifier)
+        {
+            waiting.Remove(modifier);
+            if (running != null && running.Modifier == modifier) { running.Cancel(); }
+        }
+
         /// <summary>Before scripts are loaded anew no thread may be at work.</summary>
         [InitializeOnLoadMethod]
         internal static void Listen()
@@ -52,7 +59,9 @@ namespace ChamferEditor
         /// <summary>At most one preview comes into the scene before the next picture is drawn.</summary>
         private static void Update()
         {
-            if (running == null || !task.IsCompleted) { return; }
+            if (running == null) { return; }
+            if (running.Modifier == null) { running.Cancel(); }
+            if (!task.IsCompleted) { return; }
             if (task.IsFaulted) { UnityEngine.Debug.LogException(task.Exception); }
             Finish();
             Start();
@@ -76,6 +85,7 @@ namespace ChamferEditor
         {
             var done = running;
             running = null;
+            if (done.IsCancelled) { return; }
             done.Finish();
             // Letting go of the slider begins a new undo step, and the last preview may come after that.
             if (Undo.GetCurrentGroup() == group + 1) { Undo.CollapseUndoOperations(group); }

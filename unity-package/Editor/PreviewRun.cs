@@ -3,7 +3,6 @@ using System.Collections.Generic;
 using System.Threading;
 using Chamfer;
 using Chamfer.Streams;
-using UnityEngine;
 
 namespace ChamferEditor
 {
@@ -14,18 +13,22 @@ namespace ChamferEditor
     internal sealed class PreviewRun
     {
         private readonly ModifierRun run;
+        private readonly ChamferSettings settings;
+        private readonly bool keepsVerdicts;
+        private readonly SceneArrays scene;
+        private readonly CancellationTokenSource cancellation = new CancellationTokenSource();
         private readonly List<string> failures = new List<string>();
-        private readonly Func<List<SceneResult>> work;
         private List<SceneResult> results = new List<SceneResult>();
 
         /// <summary>Reads what is needed. A preview does not look for light: that takes too long for a drag.</summary>
         internal PreviewRun(ChamferModifier modifier)
         {
             Modifier = modifier;
-            var settings = modifier.Effective;
+            settings = modifier.Effective;
             if (settings.verify == VerifyMode.Seen) { settings.verify = VerifyMode.Full; }
+            keepsVerdicts = modifier.showEdges;
             run = new ModifierRun(modifier, settings);
-            work = run.IsShared ? () => new List<SceneResult>() : WorkFor(settings, modifier.showEdges);
+            if (!IsDone) { scene = SceneRun.Read(run.Scene.Objects, PreviewSources.Read, (why, mesh) => failures.Add(why)); }
         }
 
         internal ChamferModifier Modifier { get; }
@@ -33,15 +36,24 @@ namespace ChamferEditor
         /// <summary>One sentence for each mesh that could not be chamfered.</summary>
         internal IReadOnlyList<string> Failures => failures;
 
+        /// <summary>Whether there is nothing to work on: somebody else made all of it already.</summary>
+        internal bool IsDone => run.IsShared;
+
+        internal bool IsCancelled => cancellation.IsCancellationRequested;
+
+        /// <summary>Nobody wants it any more: the work ends soon, and is not to be finished.</summary>
+        internal void Cancel()
+        {
+            cancellation.Cancel();
+        }
+
         /// <summary>Chamfers, on any thread.</summary>
         internal void Work()
         {
-            try { results = work(); }
-            catch (ChamferException exception) { failures.Add(exception.Message); }
+            if (IsDone) { return; }
+            try { results = SceneRun.Run(scene, settings, null, cancellation.Token, (why, mesh) => failures.Add(why), keepsVerdicts); }
+            catch (OperationCanceledException) { }
         }
-
-        /// <summary>Whether there is nothing to work on: somebody else made all of it already.</summary>
-        internal bool IsDone => run.IsShared;
 
         /// <summary>
         /// Puts into the scene what came of it; what is gone meanwhile is left out. Where nothing came of it, such as
@@ -49,31 +61,7 @@ namespace ChamferEditor
         /// </summary>
         internal void Finish()
         {
-            if (Modifier != null && (results.Count > 0 || IsDone)) { run.Apply(results); }
-        }
-
-        private Func<List<SceneResult>> WorkFor(ChamferSettings settings, bool keepsVerdicts)
-        {
-            try
-            {
-                if (run.Scene.Objects.Count == 1) { return Alone(run.Scene.Objects[0].Mesh, settings, keepsVerdicts); }
-            }
-            catch (ChamferException exception)
-            {
-                failures.Add(exception.Message);
-                return () => new List<SceneResult>();
-            }
-            var scene = SceneRun.Read(run.Scene.Objects, PreviewSources.Read, (why, mesh) => failures.Add(why));
-            return () => SceneRun.Run(scene, settings, null, CancellationToken.None, (why, mesh) => failures.Add(why));
-        }
-
-        private static Func<List<SceneResult>> Alone(Mesh mesh, ChamferSettings settings, bool keepsVerdicts)
-        {
-            var prepared = PreviewSources.Prepare(mesh);
-            return () => new List<SceneResult>
-            {
-                new SceneResult { Mesh = mesh, Source = prepared.Source, Output = prepared.Run(settings, keepsVerdicts) }
-            };
+            if (results.Count > 0 || IsDone) { run.Apply(results); }
         }
     }
 }

@@ -37,16 +37,21 @@ namespace ChamferEditor
         /// <param name="progress">Told the share done.</param>
         /// <param name="cancellation">Asked whenever progress is told.</param>
         /// <param name="failed">Told what could not be chamfered and why.</param>
+        /// <param name="keepsVerdicts">Whether somebody asks for each edge by itself.</param>
         internal static List<SceneResult> Run(
             SceneArrays scene,
             ChamferSettings settings,
             IProgress<float> progress,
             CancellationToken cancellation,
-            Action<string, Mesh> failed)
+            Action<string, Mesh> failed,
+            bool keepsVerdicts = true)
         {
             while (scene.Meshes.Count > 0)
             {
-                try { return Results(scene, settings, progress, cancellation); }
+                try
+                {
+                    return Results(scene, SceneChamfer.Run(scene.Arrays, scene.Placed, settings, progress, cancellation, keepsVerdicts));
+                }
                 catch (ChamferException exception)
                 {
                     int mesh = exception.MeshNumber;
@@ -79,13 +84,8 @@ namespace ChamferEditor
             return scene;
         }
 
-        private static List<SceneResult> Results(
-            SceneArrays scene,
-            ChamferSettings settings,
-            IProgress<float> progress,
-            CancellationToken cancellation)
+        private static List<SceneResult> Results(SceneArrays scene, ArrayResult[] outputs)
         {
-            var outputs = SceneChamfer.Run(scene.Arrays, scene.Placed, settings, progress, cancellation);
             var results = new List<SceneResult>();
             for (int i = 0; i < outputs.Length; i++)
             {

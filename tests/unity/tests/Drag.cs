@@ -2,6 +2,7 @@
 using System;
 using System.Diagnostics;
 using System.Reflection;
+using System.Threading;
 using Chamfer.Interop;
 using Chamfer.Streams;
 using ChamferEditor;
@@ -20,8 +21,8 @@ namespace Chamfer.Tests
             var mesh = Shapes.Cubes(Cubes);
             var modifier = Scene.Holding(mesh, "Large").AddComponent<ChamferModifier>();
             modifier.settings.verify = VerifyMode.Fast;
-            var prepared = PreviewSources.Prepare(mesh);
-            var arrays = prepared.Run(modifier.settings, false).Mesh;
+            var arrays = SceneChamfer.Run(
+                new[] { PreviewSources.Read(mesh) }, new PlacedArrays[0], modifier.settings, null, CancellationToken.None, false)[0].Mesh;
             ModifierActions.Preview(modifier);
             Print("library", step => Native(mesh, Width(modifier, step)));
             Print("preview", step => { Width(modifier, step); ModifierActions.Preview(modifier); });
@@ -37,11 +38,15 @@ namespace Chamfer.Tests
 
         private static void Native(Mesh mesh, ChamferSettings settings)
         {
-            var options = NativeInput.Options(settings);
-            var error = NativeError.Empty();
-            ResultHandle result;
-            NativeMethods.PreparedRun(PreviewSources.Prepare(mesh).Handle, ref options, null, IntPtr.Zero, out result, ref error);
-            result.Dispose();
+            using (var pins = new PinnedArrays())
+            {
+                var native = NativeInput.Mesh(PreviewSources.Read(mesh), pins);
+                var options = NativeInput.Options(settings);
+                var error = NativeError.Empty();
+                ResultHandle result;
+                NativeMethods.Run(ref native, ref options, null, IntPtr.Zero, out result, ref error);
+                result.Dispose();
+            }
         }
 
         /// Of this thread; Mono has it, but does not declare it.

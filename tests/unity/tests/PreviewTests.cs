@@ -1,4 +1,4 @@
-// The preview: prepared meshes, another thread, and nothing that nobody asked for.
+// The preview: another thread, one at a time, and nothing that nobody asked for.
 using System.Collections;
 using System.Linq;
 using System.Reflection;
@@ -23,29 +23,6 @@ namespace Chamfer.Tests
         private static float WidthOf(ChamferModifier modifier)
         {
             return 1 - Scene.MeshOf(modifier.gameObject).vertices.Max(p => System.Math.Min(System.Math.Abs(p.x), System.Math.Abs(p.y)));
-        }
-
-        public static void A_prepared_mesh_gives_the_same()
-        {
-            var settings = ChamferSettings.Default;
-            foreach (var mesh in new[] { Shapes.Cube(), Shapes.FullCube(), Shapes.OpenCube() })
-            {
-                using (var prepared = new PreparedMesh(MeshReader.Read(mesh)))
-                {
-                    var expected = ArrayChamfer.Run(MeshReader.Read(mesh), settings, null, default(System.Threading.CancellationToken));
-                    var found = prepared.Run(settings, true);
-                    Check.Equal(ContentHash.Of(expected.Mesh), ContentHash.Of(found.Mesh));
-                    Check.Equal(expected.Report.ToString(), found.Report.ToString());
-                    Check.Equal(12, found.Report.Verdicts.Count + (mesh.name == "Open" ? 4 : 0));
-                    Check.Equal(0, prepared.Run(settings, false).Report.Verdicts.Count);
-                    Check.Equal(found.Report.Count(EdgeOutcome.Full, EdgeReason.None), prepared.Run(settings, false).Report.Count(EdgeOutcome.Full, EdgeReason.None));
-                }
-            }
-            var bad = Shapes.Cube();
-            bad.normals = new Vector3[0];
-            Check.Throws<InvalidMeshException>(() => new PreparedMesh(MeshReader.Read(bad)));
-            settings.width = -1;
-            Check.Throws<InvalidSettingsException>(() => new PreparedMesh(MeshReader.Read(Shapes.Cube())).Run(settings, true));
         }
 
         public static void A_preview_is_what_the_button_makes()
@@ -146,6 +123,49 @@ namespace Chamfer.Tests
             Check.Near(0.02f, WidthOf(modifier));
         }
 
+        /// What the buttons did is newer than a preview that was asked for before.
+        public static void Buttons_cancel_what_is_under_way()
+        {
+            ChamferModifier chamfered = Chamfered(Shapes.Cube()), reverted = Chamfered(Shapes.Cube()), other = Chamfered(Shapes.Cube());
+            foreach (var modifier in new[] { chamfered, reverted, other })
+            {
+                modifier.settings.width = 5;
+                PreviewQueue.Request(modifier);
+            }
+            chamfered.settings.verify = VerifyMode.Seen;
+            ModifierActions.Chamfer(chamfered);
+            ModifierActions.Revert(reverted);
+            PreviewQueue.Flush();
+            Check.Equal(VerifyMode.Seen, chamfered.meshes[0].settings.verify);
+            Check.That(!reverted.IsApplied, "reverted while it waited");
+            Check.Near(0.1f, WidthOf(other));
+            ModifierActions.Chamfer(reverted);
+            PreviewQueue.Request(reverted);
+            ModifierActions.Revert(reverted);
+            PreviewQueue.Flush();
+            Check.That(!reverted.IsApplied, "reverted while it ran");
+            other.settings.width = 6;
+            PreviewQueue.Request(other);
+            ModifierActions.Chamfer(reverted);
+            PreviewQueue.Flush();
+            Check.Near(0.12f, WidthOf(other));
+        }
+
+        public static void What_is_cancelled_does_not_work_on()
+        {
+            var modifier = Chamfered(Shapes.Cube());
+            modifier.settings.width = 5;
+            foreach (bool isCancelled in new[] { false, true })
+            {
+                var run = new PreviewRun(modifier);
+                if (isCancelled) { run.Cancel(); }
+                run.Work();
+                var results = typeof(PreviewRun).GetField("results", BindingFlags.Instance | BindingFlags.NonPublic).GetValue(run);
+                Check.Equal(isCancelled ? 0 : 1, ((ICollection)results).Count);
+                Check.Equal(0, run.Failures.Count);
+            }
+        }
+
         public static void What_fails_in_a_preview_is_told()
         {
             var modifier = Chamfered(Shapes.Cube());
@@ -176,7 +196,7 @@ namespace Chamfer.Tests
             modifier.settings.width = 3;
             ModifierActions.Preview(modifier);
             Check.Near(2, Scene.MeshOf(modifier.gameObject).vertices.Max(p => p.x));
-            for (int i = 0; i < 20; i++) { PreviewSources.Prepare(Shapes.Cube()); }
+            for (int i = 0; i < 20; i++) { PreviewSources.Read(Shapes.Cube()); }
             var kept = typeof(PreviewSources).GetField("sources", BindingFlags.Static | BindingFlags.NonPublic).GetValue(null);
             Check.Equal(8, ((ICollection)kept).Count);
             PreviewSources.Listen();

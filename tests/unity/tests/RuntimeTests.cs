@@ -139,6 +139,20 @@ namespace Chamfer.Tests
             Check.Equal(32 * 3, mesh.GetTriangles(1).Length);
         }
 
+        /// Two submeshes of triangles around one of lines are one solid.
+        public static void Edges_between_submeshes_are_chamfered()
+        {
+            var source = Shapes.Cube();
+            var indices = source.GetIndices(0);
+            source.subMeshCount = 3;
+            source.SetIndices(new[] { 0, 1 }, MeshTopology.Lines, 1, false);
+            source.SetTriangles(indices.Take(18).ToArray(), 0);
+            source.SetTriangles(indices.Skip(18).ToArray(), 2);
+            var result = Run(source);
+            Check.Equal(12, result.Report.Chamfered);
+            Check.Equal(132, result.Mesh.GetIndices(0).Length + result.Mesh.GetIndices(2).Length);
+        }
+
         public static void Lines_stay_where_they_were()
         {
             var source = Shapes.FullCube();

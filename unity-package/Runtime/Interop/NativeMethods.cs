@@ -64,21 +64,6 @@ namespace Chamfer.Interop
 
         [DllImport(Library, EntryPoint = "chamfer_result_destroy", CallingConvention = Cdecl)]
         internal static extern void ResultDestroy(IntPtr result);
-
-        [DllImport(Library, EntryPoint = "chamfer_prepare", CallingConvention = Cdecl)]
-        internal static extern int Prepare(ref NativeMesh mesh, out PreparedHandle prepared, ref NativeError error);
-
-        [DllImport(Library, EntryPoint = "chamfer_prepared_run", CallingConvention = Cdecl)]
-        internal static extern int PreparedRun(
-            PreparedHandle prepared,
-            ref NativeOptions options,
-            NativeProgress progress,
-            IntPtr user,
-            out ResultHandle result,
-            ref NativeError error);
-
-        [DllImport(Library, EntryPoint = "chamfer_prepared_destroy", CallingConvention = Cdecl)]
-        internal static extern void PreparedDestroy(IntPtr prepared);
 #else
         // A player for a platform without the library does not link if it names an entry point of it.
         internal static uint LibraryAbiVersion()
@@ -137,27 +122,6 @@ namespace Chamfer.Interop
         }
 
         internal static void ResultDestroy(IntPtr result)
-        {
-            throw Missing();
-        }
-
-        internal static int Prepare(ref NativeMesh mesh, out PreparedHandle prepared, ref NativeError error)
-        {
-            throw Missing();
-        }
-
-        internal static int PreparedRun(
-            PreparedHandle prepared,
-            ref NativeOptions options,
-            NativeProgress progress,
-            IntPtr user,
-            out ResultHandle result,
-            ref NativeError error)
-        {
-            throw Missing();
-        }
-
-        internal static void PreparedDestroy(IntPtr prepared)
         {
             throw Missing();
         }

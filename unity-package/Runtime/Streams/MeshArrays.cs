@@ -26,6 +26,33 @@ namespace Chamfer.Streams
         public SubmeshArrays[] Submeshes = new SubmeshArrays[0];
         public Skin Skin;
         public BlendShapeFrame[] BlendShapes = new BlendShapeFrame[0];
+
+        private int[] triangles;
+
+        /// <summary>
+        /// The indices of all submeshes of triangles, one after the other; where there is one only, its own. Made once:
+        /// a drag asks at each of its steps.
+        /// </summary>
+        public int[] Triangles()
+        {
+            if (triangles == null) { triangles = Joined(Array.FindAll(Submeshes, one => one.IsTriangles)); }
+            return triangles;
+        }
+
+        private static int[] Joined(SubmeshArrays[] submeshes)
+        {
+            if (submeshes.Length == 1) { return submeshes[0].Indices; }
+            int count = 0;
+            foreach (var submesh in submeshes) { count += submesh.Indices.Length; }
+            var all = new int[count];
+            int start = 0;
+            foreach (var submesh in submeshes)
+            {
+                submesh.Indices.CopyTo(all, start);
+                start += submesh.Indices.Length;
+            }
+            return all;
+        }
     }
 
     /// <summary>The indices of one submesh.</summary>

@@ -35,7 +35,7 @@ namespace Chamfer.Streams
             {
                 mesh.Uvs[channel] = Uv(source.Uvs[channel], pins);
             }
-            PinIndices(ref mesh, source.Submeshes, pins);
+            PinIndices(ref mesh, source, pins);
             return mesh;
         }
 
@@ -51,31 +51,14 @@ namespace Chamfer.Streams
             return values is Vector4[] ? 4u : 0u;
         }
 
-        private static void PinIndices(ref NativeMesh mesh, SubmeshArrays[] submeshes, PinnedArrays pins)
+        private static void PinIndices(ref NativeMesh mesh, MeshArrays source, PinnedArrays pins)
         {
-            var counts = Array.ConvertAll(submeshes, one => one.IsTriangles ? (uint)one.Indices.Length : 0);
+            var counts = Array.ConvertAll(source.Submeshes, one => one.IsTriangles ? (uint)one.Indices.Length : 0);
             mesh.SubmeshCount = (uint)counts.Length;
             mesh.SubmeshIndexCounts = pins.Pin(counts);
-            var indices = Indices(submeshes);
+            var indices = source.Triangles();
             mesh.IndexCount = (uint)indices.Length;
             mesh.Indices = pins.Pin(indices);
-        }
-
-        /// <summary>One after the other; where there is one only, itself.</summary>
-        private static int[] Indices(SubmeshArrays[] submeshes)
-        {
-            var triangles = Array.FindAll(submeshes, one => one.IsTriangles);
-            if (triangles.Length == 1) { return triangles[0].Indices; }
-            int count = 0;
-            foreach (var submesh in triangles) { count += submesh.Indices.Length; }
-            var all = new int[count];
-            int start = 0;
-            foreach (var submesh in triangles)
-            {
-                submesh.Indices.CopyTo(all, start);
-                start += submesh.Indices.Length;
-            }
-            return all;
         }
     }
 }

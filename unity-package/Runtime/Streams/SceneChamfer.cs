@@ -19,14 +19,16 @@ namespace Chamfer.Streams
     /// <summary>Chamfers the arrays of meshes that stand together, on any thread.</summary>
     internal static class SceneChamfer
     {
-        /// <summary><c>#meshes</c></summary>
+        /// <returns><c>#meshes</c></returns>
+        /// <param name="keepsVerdicts">Whether somebody asks for each edge by itself.</param>
         /// <exception cref="ChamferException">With the number of the mesh at fault, if it is one.</exception>
         internal static ArrayResult[] Run(
             IReadOnlyList<MeshArrays> meshes,
             IEnumerable<PlacedArrays> placed,
             ChamferSettings settings,
             IProgress<float> progress,
-            CancellationToken cancellation)
+            CancellationToken cancellation,
+            bool keepsVerdicts = true)
         {
             LibraryCheck.Require();
             for (int mesh = 0; mesh < meshes.Count; mesh++) { Require(meshes[mesh], mesh, settings); }
@@ -35,7 +37,7 @@ namespace Chamfer.Streams
             var objects = placed.Select(one => NativeObject.Of(one.Mesh, one.Transform)).ToArray();
             var results = Call(meshes, objects, settings, progress, cancellation);
             watch.Stop();
-            try { return results.Select((result, mesh) => ArrayChamfer.Finish(meshes[mesh], result, watch.Elapsed, true)).ToArray(); }
+            try { return results.Select((result, mesh) => ArrayChamfer.Finish(meshes[mesh], result, watch.Elapsed, keepsVerdicts)).ToArray(); }
             finally { foreach (var result in results) { result.Dispose(); } }
         }
 
