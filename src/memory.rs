@@ -6,10 +6,8 @@
 //! Nothing is known at first but the counts of the mesh; how much chamfers take is asked once the
 //! hard edges are counted: most meshes have few, and smooth ones none.
 
-use crate::edges::Edges;
 use crate::error::Error;
 use crate::mesh::Mesh;
-use crate::sectors::Sectors;
 use crate::see_through::Eyes;
 
 /// For each source vertex: the weld.
@@ -83,11 +81,19 @@ pub fn of_sectors(hard_edges: usize) -> u64 {
     hard_edges as u64 * BYTES_PER_HARD_EDGE
 }
 
+/// What chamfers are made of.
+#[derive(Clone, Copy)]
+pub struct Work {
+    pub hard_edges: usize,
+    /// Of these, so many where some UV channel has a seam.
+    pub seams: usize,
+    pub sectors: usize,
+}
+
 /// All stages after the sectors, but for collisions.
-pub fn of_chamfers(mesh: &Mesh, edges: &Edges, sectors: &Sectors) -> u64 {
-    let seams = edges.hard.iter().filter(|edge| edge.seams != 0).count();
+pub fn of_chamfers(mesh: &Mesh, work: Work) -> u64 {
     let [hard_edges, seams, sectors] =
-        [edges.hard.len(), seams, sectors.fans.len()].map(|count| count as u64);
+        [work.hard_edges, work.seams, work.sectors].map(|count| count as u64);
     let vertices = mesh.positions.len() as u64;
     // At a seam both far vertices of a strip are copied; sectors part, and their fills are copied.
     let most_vertices = vertices + 2 * seams + sectors;

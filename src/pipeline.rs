@@ -169,12 +169,12 @@ fn make(view: &View, weld: &Weld, options: &Options, done: &mut Done) -> Result<
     memory::ask(memory::of_sectors(edges.hard.len()))?;
     let sectors = sectors(view, &topology, &edges, &contacts);
     done(Stage::Sectors)?;
-    memory::ask(memory::of_chamfers(&view.mesh, &edges, &sectors))?;
+    let surface = Surface { view, topology: &topology, faces: &faces };
+    let chamfers = Chamfers { edges: &edges, sectors: &sectors };
+    memory::ask(memory::of_chamfers(&view.mesh, chamfers.work()))?;
     let offsets = offsets(view, &topology, &faces, &sectors, threads);
     let rests = rests(view, &topology, &faces, &edges, &contacts);
     done(Stage::Offsets)?;
-    let surface = Surface { view, topology: &topology, faces: &faces };
-    let chamfers = Chamfers { edges: &edges, sectors: &sectors };
     let limits = limits(surface, chamfers, &offsets, &rests, options.verify, threads)?;
     let placement = &limits.placement;
     done(Stage::Limits)?;
