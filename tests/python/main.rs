@@ -1,5 +1,9 @@
 //! The Python package, with the library that cargo made beside these tests.
 
+#[path = "../support/layout.rs"]
+mod layout;
+
+use std::collections::BTreeSet;
 use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
 use std::fs;
 use std::io::Write;
@@ -23,6 +27,17 @@ fn the_module_does_what_tools_rely_on() {
         let printed = run(from_source(&python).arg("tests/python/uses.py"));
         assert_eq!(printed, "all as it should be\n");
     }
+}
+
+/// All of them and all their fields: a struct that grew in C must grow here.
+#[test]
+fn structs_lie_in_memory_as_in_c() {
+    let Some(python) = python() else { return };
+    let printed = run(from_source(&python).arg("tests/python/layout.py"));
+    let here: BTreeSet<&str> = printed.lines().collect();
+    // Held places are rows of an array there.
+    let in_c = layout::of_header().lines().filter(|line| !line.starts_with("chamfer_held"));
+    assert_eq!(here, in_c.collect());
 }
 
 #[test]

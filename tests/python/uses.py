@@ -76,6 +76,7 @@ def held(result):
 ridge = [[0, 1, 0, 0, 1, 4, 0]]
 assert held(chamfer.chamfer(roof(held=ridge))) == 1 and held(chamfer.chamfer(roof(held=[]))) == 0
 assert held(chamfer.chamfer(roof(held=ridge), verify="seen")) == 1
+assert chamfer.chamfer(roof(held=ridge)).totals.skipped_by_reason == {"contact": 1}
 assert "places" in str(raised(ValueError, lambda: chamfer.chamfer(roof(held=[[0, 1, 0]]))))
 
 # In a scene it is the rim of another object: here a sheet that hangs from the ridge.
@@ -166,11 +167,22 @@ result.verdicts["outcome"] = 0  # What came out is the caller's.
 
 # A mesh without normals gets them first.
 smooth = chamfer.split_by_angle(roof(normals=None), 180)
-flat = chamfer.split_by_angle(roof(normals=None), 30)
+flat = chamfer.split_by_angle(roof(normals=normals[:3]), 30)  # They are ignored.
 assert chamfer.chamfer(smooth).totals.hard_edges == 0
 assert chamfer.chamfer(flat).totals.hard_edges == 1
 
 # Nothing comes of nothing.
 empty = chamfer.Mesh(np.empty((0, 3)), np.empty((0, 3)), [])
 assert chamfer.chamfer(empty).mesh.submeshes == []
+
+# What the library made is given back, and only a library of the same interface is taken.
+library = chamfer._library.library()
+destroy, freed = library.chamfer_result_destroy, []
+library.chamfer_result_destroy = lambda made: (freed.append(made), destroy(made))
+chamfer.chamfer(roof())
+chamfer.chamfer_scene([roof(), sheet], [])
+assert len(freed) == 3
+chamfer._library.library.cache_clear()
+chamfer._library.ABI_VERSION = 2
+says(ImportError, "ABI version 1, this package needs 2", chamfer.library_version)
 print("all as it should be")
