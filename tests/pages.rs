@@ -5,21 +5,24 @@ use std::path::Path;
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
-/// The README shows an example as it is.
+/// A README shows an example as it is.
 #[track_caller]
-fn assert_shown(language: &str, path: &str) {
+fn assert_shown(page: &str, language: &str, path: &str) {
     let example = fs::read_to_string(Path::new(ROOT).join(path)).unwrap();
     assert!(
-        include_str!("../README.md").contains(&format!("```{language}\n{example}```\n")),
-        "README.md does not show {path} as it is: copy the file there"
+        page.contains(&format!("```{language}\n{example}```\n")),
+        "no README shows {path} as it is: copy the file there"
     );
 }
 
 #[test]
 fn the_readme_shows_the_examples_that_are_tested() {
-    assert_shown("rust", "examples/chamfer_cube.rs");
-    assert_shown("c", "examples/c/chamfer_cube.c");
-    assert_shown("python", "examples/python/chamfer_cube.py");
+    let page = include_str!("../README.md");
+    assert_shown(page, "rust", "examples/chamfer_cube.rs");
+    assert_shown(page, "c", "examples/c/chamfer_cube.c");
+    assert_shown(page, "python", "examples/python/chamfer_cube.py");
+    let page = include_str!("../python/README.md");
+    assert_shown(page, "python", "examples/python/with_trimesh.py");
 }
 
 /// The sections of a page up to a heading: their titles and their texts.

@@ -1,6 +1,4 @@
-"""Chamfers a cube and tells what comes out. Usage: chamfer_cube.py LIBRARY"""
-
-import sys
+"""Chamfers a cube and tells what comes out."""
 
 import numpy as np
 
@@ -17,9 +15,8 @@ normals = np.zeros_like(positions)
 normals[np.arange(24), np.arange(24) // 8] = positions[np.arange(24), np.arange(24) // 8]
 triangles = np.concatenate([[[f, f + 1, f + 2], [f + 2, f + 1, f + 3]] for f in range(0, 24, 4)])
 
-library = chamfer.Library(sys.argv[1])
 cube = chamfer.Mesh(positions, normals, [triangles])
-result = library.chamfer(cube, width=0.1, width_unit="mesh")
+result = chamfer.chamfer(cube, width=0.1, width_unit="mesh")
 
-print(f"{len(result.mesh.positions)} vertices, {len(result.mesh.submeshes[0])} triangles")
-print(f"{result.totals['chamfered']} of {result.totals['hard_edges']} hard edges full")
+print(f"{len(result.mesh.positions)} vertices, {len(result.mesh.triangles)} triangles")
+print(f"{result.totals.chamfered} of {result.totals.hard_edges} hard edges full")

@@ -1,12 +1,8 @@
 """What a tool in Python relies on: streams, submeshes, progress, cancelling, errors."""
 
-import sys
-
 import numpy as np
 
 import chamfer
-
-library = chamfer.Library(sys.argv[1])
 
 # A roof: two quads that meet at the ridge y = 1, each a submesh of its own.
 positions = np.array(
@@ -33,7 +29,7 @@ def raised(kind, call):
 
 
 # Every stream comes back, as long as the positions, and the submeshes stay apart.
-result = library.chamfer(roof(), width=0.1, width_unit="mesh")
+result = chamfer.chamfer(roof(), width=0.1, width_unit="mesh")
 mesh = result.mesh
 count = len(mesh.positions)
 assert mesh.positions.dtype == np.float32 and mesh.positions.shape == (count, 3)
@@ -44,77 +40,149 @@ assert [len(indices) for indices in mesh.submeshes] in ([4, 2], [2, 4])
 assert np.isclose(np.abs(mesh.positions[:, 0]).min(), 0.1 / 2**0.5)
 
 # Verdicts and provenance.
-assert result.totals["hard_edges"] == result.totals["chamfered"] == 1
-assert np.isclose(result.totals["width"], 0.1)
+assert result.totals.hard_edges == result.totals.chamfered == 1
+assert np.isclose(result.totals.width, 0.1)
 [verdict] = result.verdicts
 assert chamfer.OUTCOMES[verdict["outcome"]] == "full"
-assert library.reason(verdict["reason"]) == "none"
+assert chamfer.reason_name(verdict["reason"]) == "none"
 assert np.allclose(verdict["widths"], 0.1)
 assert result.triangle_sources["kind"].tolist().count(1) == 2
 surface = result.vertex_sources["surface"]
 rebuilt = (positions[surface["vertices"]] * surface["weights"][..., None]).sum(axis=1)
 assert np.allclose(rebuilt, mesh.positions, atol=1e-6)
+assert np.allclose(result.carry(positions), mesh.positions, atol=1e-6)
+assert np.allclose(result.carry(positions[:, 1]), mesh.positions[:, 1], atol=1e-6)
+assert "8 vertices" in repr(roof()) and "hard_edges=1" in repr(result)
+assert len(mesh.triangles) == 6 and chamfer.library_version()
 
 # The result can go in again, and a new submesh can take the chamfers.
-assert len(library.chamfer(mesh, verify="fast").mesh.positions) >= count
-own = library.chamfer(roof(), submesh="own")
+assert len(chamfer.chamfer(mesh, verify="fast").mesh.positions) >= count
+own = chamfer.chamfer(roof(), submesh="own")
 assert [len(indices) for indices in own.mesh.submeshes] == [2, 2, 2]
 
 # Progress rises to 1 and can cancel; what a callback raises comes out of the call.
 shares = []
-library.chamfer(roof(), progress=shares.append)
+chamfer.chamfer(roof(), progress=shares.append)
 assert shares == sorted(shares) and shares[-1] == 1
-raised(chamfer.Cancelled, lambda: library.chamfer(roof(), progress=lambda done: True))
-raised(TypeError, lambda: library.chamfer(roof(), widht=0.1))
-raised(ZeroDivisionError, lambda: library.chamfer(roof(), progress=lambda done: 1 / 0))
+raised(chamfer.Cancelled, lambda: chamfer.chamfer(roof(), progress=lambda done: True))
+raised(ZeroDivisionError, lambda: chamfer.chamfer(roof(), progress=lambda done: 1 / 0))
 
 # What rests on an edge holds it.
 def held(result):
-    reasons = [library.reason(verdict["reason"]) for verdict in result.verdicts]
+    reasons = [chamfer.reason_name(verdict["reason"]) for verdict in result.verdicts]
     return reasons.count("contact")
 
 
 ridge = [[0, 1, 0, 0, 1, 4, 0]]
-assert held(library.chamfer(roof(held=ridge))) == 1 and held(library.chamfer(roof(held=[]))) == 0
-assert held(library.chamfer(roof(held=ridge), verify="seen")) == 1
-assert "places" in str(raised(ValueError, lambda: library.chamfer(roof(held=[[0, 1, 0]]))))
+assert held(chamfer.chamfer(roof(held=ridge))) == 1 and held(chamfer.chamfer(roof(held=[]))) == 0
+assert held(chamfer.chamfer(roof(held=ridge), verify="seen")) == 1
+assert chamfer.chamfer(roof(held=ridge)).totals.skipped_by_reason == {"contact": 1}
+assert "places" in str(raised(ValueError, lambda: chamfer.chamfer(roof(held=[[0, 1, 0]]))))
 
 # In a scene it is the rim of another object: here a sheet that hangs from the ridge.
 sheet = chamfer.Mesh([[0, 0, 0], [0, 0, 4], [0, -2, 4]], [[1, 0, 0]] * 3, [[[0, 1, 2]]])
 up, beside = np.eye(4), np.eye(4)
 up[1, 3], beside[0, 3] = 1, 9
 for verify in ("full", "seen"):
-    scene = library.chamfer_scene([roof(), sheet], [(0, np.eye(4)), (1, up)], verify=verify)
+    scene = chamfer.chamfer_scene([roof(), sheet], [(0, np.eye(4)), (1, up)], verify=verify)
     assert [held(result) for result in scene] == [1, 0]
-    scene = library.chamfer_scene([roof(), sheet], [(0, np.eye(4)), (1, beside)], verify=verify)
+    scene = chamfer.chamfer_scene([roof(), sheet], [(0, np.eye(4)), (1, beside)], verify=verify)
     assert [held(result) for result in scene] == [0, 0]
-assert library.chamfer_scene([], []) == []
+assert chamfer.chamfer_scene([], []) == []
 shares = []
-library.chamfer_scene([roof(), sheet], [], progress=shares.append)
+chamfer.chamfer_scene([roof(), sheet], [], progress=shares.append)
 assert shares == sorted(shares) and shares[0] < 0.5 and shares[-1] == 1
 
 # Errors say what is wrong and where.
-error = raised(chamfer.ChamferError, lambda: library.chamfer_scene([roof(), roof(normals=None)], []))
+error = raised(chamfer.ChamferError, lambda: chamfer.chamfer_scene([roof(), roof(normals=None)], []))
 assert (error.status, error.mesh) == (200, 1) and "mesh 1" in str(error)
-error = raised(chamfer.ChamferError, lambda: library.chamfer_scene([roof()], [(1, np.eye(4))]))
+error = raised(chamfer.ChamferError, lambda: chamfer.chamfer_scene([roof()], [(1, np.eye(4))]))
 assert (error.status, error.element, error.mesh) == (109, 0, None)
-raised(ValueError, lambda: library.chamfer_scene([roof()], [(0, np.eye(3))]))
+raised(ValueError, lambda: chamfer.chamfer_scene([roof()], [(0, np.eye(3))]))
 broken = positions.astype(float)
 broken[5, 1] = np.nan
-error = raised(chamfer.ChamferError, lambda: library.chamfer(roof(positions=broken)))
+error = raised(chamfer.ChamferError, lambda: chamfer.chamfer(roof(positions=broken)))
 assert (error.status, error.element) == (203, 5) and "5" in str(error), error
-error = raised(chamfer.ChamferError, lambda: library.chamfer(roof(), width=-1))
+error = raised(chamfer.ChamferError, lambda: chamfer.chamfer(roof(), width=-1))
 assert error.status == 104 and error.element is None and str(error)
-error = raised(ValueError, lambda: library.chamfer(roof(normals=normals[:3])))
+error = raised(ValueError, lambda: chamfer.chamfer(roof(normals=normals[:3])))
 assert "normals" in str(error)
 
+def says(kind, words, call):
+    text = str(raised(kind, call))
+    assert words in text, text
+
+
+# A wrong name tells what was meant; and each argument has its kind and range.
+says(TypeError, "'widht': did you mean 'width'?", lambda: chamfer.chamfer(roof(), widht=0.1))
+says(TypeError, "'normal': did you mean 'normals'?", lambda: roof(normal=normals))
+says(TypeError, "there is width, ", lambda: chamfer.chamfer(roof(), xyz=0.1))
+says(ValueError, "'percents': did you mean 'percent'?", lambda: chamfer.chamfer(roof(), width_unit="percents"))
+says(TypeError, "width is a number, not '1'", lambda: chamfer.chamfer(roof(), width="1"))
+says(TypeError, "verify is one of", lambda: chamfer.chamfer(roof(), verify=True))
+says(TypeError, "threads is a whole number", lambda: chamfer.chamfer(roof(), threads=1.5))
+says(ValueError, "threads is -1", lambda: chamfer.chamfer(roof(), threads=-1))
+says(ValueError, "submesh is -1", lambda: chamfer.chamfer(roof(), submesh=-1))
+says(ValueError, "'owned': did you mean 'own", lambda: chamfer.chamfer(roof(), submesh="owned"))
+says(TypeError, "degrees is a number", lambda: chamfer.split_by_angle(roof(), "30"))
+error = raised(chamfer.BadInput, lambda: chamfer.chamfer(roof(), submesh=9))
+assert isinstance(error, ValueError) and (error.status, error.element) == (106, 9)
+nothing = chamfer.chamfer(roof(), least_breadth=0, width=90)
+assert nothing.totals.mean_width > chamfer.chamfer(roof(), width=90).totals.mean_width
+
+# So has each array.
+faces = np.array(submeshes[0])
+
+
+def refused(kind, words, **changes):
+    says(kind, words, lambda: chamfer.chamfer(roof(**changes)))
+
+
+refused(TypeError, "submeshes[1] has values of type float64", submeshes=[faces, faces.astype(float)])
+refused(ValueError, "submeshes[0], triangle 1: there is no vertex -3 among 8", submeshes=[faces - [[0, 0, 0], [0, 5, 0]]])
+refused(ValueError, "no vertex 4294967296 among 8", submeshes=[faces + 2**32])
+refused(ValueError, "no vertex 8 among 8", submeshes=[[[0, 1, 8]]])
+refused(ValueError, "Cut quads into triangles", submeshes=[[[0, 1, 2, 3]]])
+refused(ValueError, "put that list into another", submeshes=submeshes[0])
+refused(ValueError, "submeshes[0] has rows of different lengths", submeshes=[[[0, 1, 2], [0, 1, 2, 3]]])
+refused(ValueError, "a channel -1: channels are 0 to 7", uvs={-1: uvs[0]})
+refused(ValueError, "a channel 8", uvs={8: uvs[0]})
+refused(ValueError, "a channel '0'", uvs={"0": uvs[0]})
+refused(TypeError, "uvs is a dict", uvs=uvs[0])
+refused(ValueError, "uvs[2] has the shape (8, 1): it is 8 vertices by 2 or 3 or 4", uvs={2: uvs[0][:, :1]})
+refused(TypeError, "positions has values of type <U", positions=[["a", "b", "c"]] * 8)
+refused(TypeError, "positions is an array", positions=None)
+refused(ValueError, "colors has the shape (8, 3): it is 8 vertices by 4", colors=np.ones((8, 3)))
+says(TypeError, "a chamfer.Mesh is wanted, not ndarray", lambda: chamfer.chamfer(positions))
+says(ValueError, "objects[0] is of mesh -1", lambda: chamfer.chamfer_scene([roof()], [(-1, np.eye(4))]))
+one = roof(submeshes=np.array(submeshes).reshape(-1, 3))
+assert chamfer.chamfer(one).totals.hard_edges == 1 and len(one.submeshes) == 1
+
+# Arrays of other types and layouts are copied, and never written.
+given = np.asfortranarray(positions.astype(np.float64))
+before = given.copy()
+assert np.array_equal(chamfer.chamfer(roof(positions=given)).mesh.positions, chamfer.chamfer(roof()).mesh.positions)
+assert np.array_equal(given, before)
+result.verdicts["outcome"] = 0  # What came out is the caller's.
+
 # A mesh without normals gets them first.
-smooth = library.split_by_angle(roof(normals=None), 180)
-flat = library.split_by_angle(roof(normals=None), 30)
-assert library.chamfer(smooth).totals["hard_edges"] == 0
-assert library.chamfer(flat).totals["hard_edges"] == 1
+smooth = chamfer.split_by_angle(roof(normals=None), 180)
+flat = chamfer.split_by_angle(roof(normals=normals[:3]), 30)  # They are ignored.
+assert chamfer.chamfer(smooth).totals.hard_edges == 0
+assert chamfer.chamfer(flat).totals.hard_edges == 1
 
 # Nothing comes of nothing.
 empty = chamfer.Mesh(np.empty((0, 3)), np.empty((0, 3)), [])
-assert library.chamfer(empty).mesh.submeshes == []
+assert chamfer.chamfer(empty).mesh.submeshes == []
+
+# What the library made is given back, and only a library of the same interface is taken.
+library = chamfer._library.library()
+destroy, freed = library.chamfer_result_destroy, []
+library.chamfer_result_destroy = lambda made: (freed.append(made), destroy(made))
+chamfer.chamfer(roof())
+chamfer.chamfer_scene([roof(), sheet], [])
+assert len(freed) == 3
+chamfer._library.library.cache_clear()
+chamfer._library.ABI_VERSION = 2
+says(ImportError, "ABI version 1, this package needs 2", chamfer.library_version)
 print("all as it should be")

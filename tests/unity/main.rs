@@ -2,6 +2,7 @@
 
 mod carried;
 mod glb;
+#[path = "../support/layout.rs"]
 mod layout;
 mod mono;
 mod packing;
