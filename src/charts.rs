@@ -12,6 +12,7 @@ mod fit;
 mod ground;
 mod owners;
 mod strip_map;
+mod ways;
 
 use glam::DVec2;
 

@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::channels_of;
+use super::ways::{Spread, Way, Wings};
 use crate::breaks::seam_between;
 use crate::chamfers::Chamfers;
 use crate::foot::locate;
@@ -25,26 +26,6 @@ const DEEPEST: f64 = 0.9;
 
 /// What is laid flat into a triangle reaches at most so far along its sides.
 const WIDEST: f64 = 0.98;
-
-/// Where along the old edge the far corners of a strip land.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Spread {
-    /// Below themselves, so that the texture is not sheared.
-    Far,
-    /// Below the pulled corners of the owner's side.
-    Near,
-    /// At its very ends.
-    Whole,
-}
-
-/// How much of the band between the pulled edge and the old one a strip takes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Depth {
-    /// All of it.
-    Band,
-    /// As much as the strip is wide: between faces that meet like a knife that is less.
-    Strip,
-}
 
 /// One end of a strip, seen from its owner's side.
 #[derive(Clone, Copy)]
@@ -74,20 +55,27 @@ fn ends(view: &View, half_edge: Corner) -> [DVec3; 2] {
     [half_edge, half_edge.next()].map(|corner| view.position_at(corner))
 }
 
+/// Where the near and the far corner at one end of a strip come to lie; none where one stays in its
+/// own chart.
+pub fn feet_at(surface: Surface, end: &End, way: Way) -> [Option<Blend>; 2] {
+    match way {
+        Way::Band(spread) => [None, band_foot(surface, end, spread)],
+        Way::Inside => inside(surface.view, end).map(Some),
+        Way::Abreast => abreast(surface, end).map_or([None; 2], |feet| feet.map(Some)),
+        Way::Kite(_) | Way::Flat | Way::Roomiest => [None; 2],
+    }
+}
+
 /// Where one far corner of a strip lands on its owner's band.
-pub fn band_foot(surface: Surface, end: &End, spread: Spread, depth: Depth) -> Option<Blend> {
+fn band_foot(surface: Surface, end: &End, spread: Spread) -> Option<Blend> {
     let share = match spread {
-        Spread::Far => share_of(end.edge, end.far),
+        Spread::Far | Spread::Narrow => share_of(end.edge, end.far),
         Spread::Near => share_of(end.edge, end.near),
         Spread::Whole => end.place,
     };
-    let foot = on_edge(surface.view, end.half_edge, share);
-    if depth == Depth::Band {
-        return Some(foot);
-    }
-    let [band, strip] = end.widths();
+    let [band, strip] = if spread == Spread::Narrow { end.widths() } else { [0.0; 2] };
     if strip >= band {
-        return Some(foot);
+        return Some(on_edge(surface.view, end.half_edge, share));
     }
     let [from, to] = end.edge;
     let inward = surface.faces.normal[end.half_edge.triangle()].cross(unit(to - from));
@@ -97,7 +85,7 @@ pub fn band_foot(surface: Surface, end: &End, spread: Spread, depth: Depth) -> O
 
 /// The near and the far corner at one end of a strip that is laid into its owner's triangle, as
 /// deep as the strip is wide.
-pub fn inside(view: &View, end: &End) -> [Blend; 2] {
+fn inside(view: &View, end: &End) -> [Blend; 2] {
     let [from, to] = end.edge;
     let apex = view.position_at(end.half_edge.prev());
     let height = (to - from).cross(apex - from).length() / (to - from).length();
@@ -110,7 +98,7 @@ pub fn inside(view: &View, end: &End) -> [Blend; 2] {
 }
 
 /// As [`inside`], but straight into the owner's plane, past its triangle where that is too small.
-pub fn abreast(surface: Surface, end: &End) -> Option<[Blend; 2]> {
+fn abreast(surface: Surface, end: &End) -> Option<[Blend; 2]> {
     let [from, to] = end.edge;
     let [_, strip] = end.widths();
     let inward = surface.faces.normal[end.half_edge.triangle()].cross(unit(to - from));
@@ -159,15 +147,6 @@ pub fn mixed(terms: &[(Blend, f64)]) -> Blend {
         sum.vertices[place] = sum.vertices[0];
     }
     sum
-}
-
-/// Where the feet of a fill stand on its owner's two edges.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Wings {
-    /// Below the pulled vertices beyond the edges, as those of the strips there.
-    Far,
-    /// So many times as far from the corner as below the owner's own pulled vertex.
-    Near(f64),
 }
 
 /// Where a fill lies in its owner's chart.

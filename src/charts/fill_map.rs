@@ -6,35 +6,17 @@ use std::cmp::Reverse;
 use glam::{DVec2, DVec3};
 
 use super::density::density;
-use super::feet::{Frame, Lay, Room, Wings, flat_lay, is_broken, kite};
-use super::fit::{Facing, Lie, MOST_STRETCH, misfit, roomiest};
+use super::feet::{Frame, Lay, Room, flat_lay, is_broken, kite};
+use super::fit::{Facing, Lie, MOST_STRETCH, misfit};
 use super::ground::Ground;
 use super::owners::Owners;
+use super::ways::{FILL_WAYS, Way};
 use super::{Given, TakenAt, channels_of, place_of};
 use crate::attributes::Taken;
 use crate::ids::{Corner, Edge, Few, Ring, Sector, Triangle};
 use crate::math::{area_vector, unit};
 use crate::patches::Parts;
 use crate::report::Blend;
-
-/// A way to lay a fill into the chart of its owner.
-#[derive(Clone, Copy, Debug)]
-enum Way {
-    Kite(Wings),
-    /// Into the triangle at the owner's first corner.
-    Corner,
-    /// Into the triangle of the owner's chart that has the most room in a channel.
-    Roomiest(usize),
-}
-
-/// The ways to lay a fill into what its chart leaves free at the corner, best first.
-const WAYS: [Way; 5] = [
-    Way::Kite(Wings::Far),
-    Way::Kite(Wings::Near(1.0)),
-    Way::Kite(Wings::Near(2.0)),
-    Way::Kite(Wings::Near(4.0)),
-    Way::Corner,
-];
 
 /// So many places of a ring are tried as owners: where more meet, as at the tip of a huge cone, it
 /// would take the square of their number.
@@ -78,28 +60,27 @@ impl FillMap<'_> {
         let broken = |channel: &usize| !self.fits_as_it_is(*channel);
         let all = channels_of(self.given.surface.view);
         let channels = all.filter(broken).fold(0, |channels, k| channels | 1 << k);
+        if channels == 0 {
+            return (self.first(self.first_owner(self.given.owners)).triangle(), 0);
+        }
         let mut lay = Lay::default();
         let owner = self.best_lay(channels, self.given.owners, &mut lay);
-        if channels != 0 {
-            let places = lay.feet.into_iter().chain(lay.middles.into_iter().map(Some)).zip(0..);
-            let taken_at = |(place, point): (Option<Blend>, u32)| {
-                Some((point, Taken { channels, place: place? }))
-            };
-            taken.extend(places.filter_map(taken_at));
-        }
+        let places = lay.feet.into_iter().chain(lay.middles.into_iter().map(Some)).zip(0..);
+        taken.extend(
+            places.filter_map(|(place, point)| Some((point, Taken { channels, place: place? }))),
+        );
         (self.first(owner).triangle(), lay.begin)
     }
 
     /// Lays the fill for the best owner, which it gives.
     fn best_lay(&self, channels: u8, owners: &Owners, lay: &mut Lay) -> usize {
         let first = self.first_owner(owners);
-        let mut best = (self.lay(channels, WAYS[0], first, lay), WAYS[0], first);
+        let mut best = (self.lay(channels, FILL_WAYS[0], first, lay), FILL_WAYS[0], first);
         if best.0 <= MOST_STRETCH {
             return first;
         }
         let ranked = self.ranked(owners);
-        let elsewhere = Way::Roomiest(channels.trailing_zeros() as usize);
-        let ways = WAYS.into_iter().chain([elsewhere]);
+        let ways = FILL_WAYS.into_iter();
         for (way, &owner) in ways.flat_map(|way| ranked.iter().map(move |at| (way, at))) {
             let misfit = self.lay(channels, way, owner, lay);
             if misfit <= MOST_STRETCH {
@@ -143,7 +124,7 @@ impl FillMap<'_> {
         self.find_feet(way, owner, lay);
         let mapped =
             channels_of(self.given.surface.view).filter(|channel| channels >> channel & 1 == 1);
-        mapped.map(|channel| self.misfit(channel, owner, way, lay)).fold(0.0, f64::max)
+        mapped.map(|channel| self.misfit(channel, owner, lay)).fold(0.0, f64::max)
     }
 
     fn find_feet(&self, way: Way, owner: usize, lay: &mut Lay) {
@@ -153,18 +134,8 @@ impl FillMap<'_> {
                 let Given { surface, chamfers, placement, .. } = *self.given;
                 kite(surface, chamfers, placement, self.sectors, (owner, wings, middles), lay);
             }
-            Way::Corner => {
-                *lay = self.flat(Room { corner: self.first(owner), scale: 1.0 });
-            }
-            Way::Roomiest(channel) => *lay = self.flat(self.roomiest(owner, channel)),
+            _ => *lay = self.flat(Room { corner: self.first(owner), scale: 1.0 }),
         }
-    }
-
-    /// Where to lay the fill flat in its owner's chart.
-    fn roomiest(&self, owner: usize, channel: usize) -> Room {
-        let corners = [self.first(owner)];
-        let ground = Ground::new(self.given.surface, channel, &corners);
-        roomiest(self.given.surface.view, corners[0], channel, &ground)
     }
 
     fn flat(&self, room: Room) -> Lay {
@@ -187,7 +158,7 @@ impl FillMap<'_> {
     }
 
     /// How badly the fill lies on its owner's texture: see [`misfit`].
-    fn misfit(&self, channel: usize, owner: usize, way: Way, lay: &Lay) -> f64 {
+    fn misfit(&self, channel: usize, owner: usize, lay: &Lay) -> f64 {
         let uv = |(place, foot): (usize, &Option<Blend>)| match foot {
             Some(foot) => place_of(self.given.surface.view, channel, foot),
             None => self.own_uv(place, channel),
@@ -197,11 +168,7 @@ impl FillMap<'_> {
         uvs.extend(
             lay.middles.iter().map(|middle| place_of(self.given.surface.view, channel, middle)),
         );
-        let at = match way {
-            Way::Roomiest(channel) => self.roomiest(owner, channel).corner,
-            Way::Kite(_) | Way::Corner => self.first(owner),
-        };
-        self.misfit_on(channel, owner, at, Facing::AsFace, &uvs)
+        self.misfit_on(channel, owner, Facing::AsFace, &uvs)
     }
 
     /// Whether it fits where its vertices are in their own charts, and these are one around the
@@ -215,7 +182,7 @@ impl FillMap<'_> {
         let middles = self.fill.middles.iter();
         uvs.extend(middles.map(|middle| place_of(self.given.surface.view, channel, &middle.near)));
         let facing = self.facing(channel);
-        let on = |owner: usize| self.misfit_on(channel, owner, self.first(owner), facing, &uvs);
+        let on = |owner: usize| self.misfit_on(channel, owner, facing, &uvs);
         (0..self.sectors.len().min(MOST_OWNERS)).any(|owner| on(owner) <= MOST_STRETCH)
     }
 
@@ -231,18 +198,11 @@ impl FillMap<'_> {
         if turns.all(|turn| turn == first) { Facing::AsFace } else { Facing::Either }
     }
 
-    fn misfit_on(
-        &self,
-        channel: usize,
-        owner: usize,
-        at: Corner,
-        facing: Facing,
-        uvs: &[DVec2],
-    ) -> f64 {
-        let corners = [at];
+    fn misfit_on(&self, channel: usize, owner: usize, facing: Facing, uvs: &[DVec2]) -> f64 {
+        let corners = [self.first(owner)];
         let ground = Ground::new(self.given.surface, channel, &corners);
         let lie = Lie { triangles: self.fill.triangles, points: &self.points, uvs };
-        misfit(self.given.surface.view, self.first(owner), facing, channel, &ground, &lie)
+        misfit(self.given.surface.view, corners[0], facing, channel, &ground, &lie)
     }
 
     /// One seam unfolds the faces around a closed ring; around an open one the border does.

@@ -2,9 +2,10 @@
 
 use glam::{DVec2, DVec3};
 
-use super::feet::{Depth, End, Frame, Room, Spread, abreast, band_foot, flat_lay, inside};
+use super::feet::{End, Frame, Room, feet_at, flat_lay};
 use super::fit::{Facing, Lie, MOST_STRETCH, misfit, roomiest};
 use super::ground::Ground;
+use super::ways::{BANDS, BESIDE_BANDS, Way};
 use super::{Given, TakenAt, channels_of, place_of};
 use crate::attributes::{Attributes, Taken};
 use crate::edges::HardEdge;
@@ -16,39 +17,8 @@ use crate::report::Blend;
 use crate::strips;
 use crate::surface::Surface;
 
-/// A way to lay a strip on the texture. Owners are places in the edge's sides.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Way {
-    /// Every vertex stays in its own chart.
-    Own,
-    /// On the band that the owner's side has left free, or a part of it.
-    Band(usize, Spread, Depth),
-    /// Along the edge, within the triangle of the owner's side.
-    Inside(usize),
-    /// Along the edge, and past that triangle.
-    Abreast(usize),
-    /// Flat, anywhere in a triangle of the owner's chart.
-    Flat(usize, Room),
-}
-
-/// The ways onto one side's band, best first.
-const BANDS: [(Spread, Depth); 6] = [
-    (Spread::Far, Depth::Band),
-    (Spread::Near, Depth::Band),
-    (Spread::Whole, Depth::Band),
-    (Spread::Far, Depth::Strip),
-    (Spread::Near, Depth::Strip),
-    (Spread::Whole, Depth::Strip),
-];
-
-fn bands(owner: usize) -> impl Iterator<Item = Way> {
-    (0..BANDS.len()).map(move |band| on_band(owner, band))
-}
-
-fn on_band(owner: usize, band: usize) -> Way {
-    let (spread, depth) = BANDS[band];
-    Way::Band(owner, spread, depth)
-}
+/// A way onto one of the edge's sides; none where every vertex stays in its own chart.
+type Lay = Option<(Way, usize)>;
 
 /// For the corners b1, a1, a2, b2: a place in the owner's chart, where they take one.
 type Feet = [Option<Blend>; 4];
@@ -81,35 +51,24 @@ impl<'a> StripMap<'a> {
         StripMap { surface, attributes, edge, triangles, points, corners, ends }
     }
 
-    fn feet(&self, way: Way) -> Feet {
-        let mut feet = [None; 4];
-        match way {
-            Way::Own => {}
-            Way::Band(owner, spread, depth) => {
-                for (end, [_, far]) in self.strip_ends(owner).into_iter().zip(places(owner)) {
-                    feet[far] = band_foot(self.surface, &end, spread, depth);
-                }
-            }
-            Way::Abreast(owner) => {
-                for (end, ends) in self.strip_ends(owner).into_iter().zip(places(owner)) {
-                    for (place, foot) in
-                        ends.into_iter().zip(abreast(self.surface, &end).into_iter().flatten())
-                    {
-                        feet[place] = Some(foot);
-                    }
-                }
-            }
-            Way::Flat(_, room) => feet = self.flat(room),
-            Way::Inside(owner) => {
-                for (end, ends) in self.strip_ends(owner).into_iter().zip(places(owner)) {
-                    for (place, foot) in ends.into_iter().zip(inside(self.surface.view, &end)) {
-                        feet[place] = Some(foot);
-                    }
-                }
-            }
-        }
+    fn feet(&self, channel: usize, lay: Lay) -> Feet {
+        let Some((way, side)) = lay else { return [None; 4] };
+        let mut feet = match way {
+            Way::Flat | Way::Roomiest => self.flat(self.room(channel, (way, side))),
+            _ => self.feet_along(way, side),
+        };
         for place in (0..4).filter(|&place| !self.is_used(place)) {
             feet[place] = None;
+        }
+        feet
+    }
+
+    fn feet_along(&self, way: Way, side: usize) -> Feet {
+        let mut feet = [None; 4];
+        for (end, places) in self.strip_ends(side).into_iter().zip(places(side)) {
+            for (place, foot) in places.into_iter().zip(feet_at(self.surface, &end, way)) {
+                feet[place] = foot;
+            }
         }
         feet
     }
@@ -149,19 +108,18 @@ impl<'a> StripMap<'a> {
         feet
     }
 
-    /// Where to lay the strip flat into the owner's own triangle.
-    fn own_room(&self, owner: usize) -> Room {
-        Room { corner: self.edge.sides[owner], scale: 1.0 }
-    }
-
-    /// Where to lay it flat in the owner's chart.
-    fn room(&self, channel: usize, owner: usize) -> Room {
-        let ground = Ground::new(self.surface, channel, &self.ends[owner]);
-        roomiest(self.surface.view, self.edge.sides[owner], channel, &ground)
+    /// Where to lay the strip flat: in the owner's own triangle, or anywhere in its chart.
+    fn room(&self, channel: usize, (way, side): (Way, usize)) -> Room {
+        let own = self.edge.sides[side];
+        if way == Way::Flat {
+            return Room { corner: own, scale: 1.0 };
+        }
+        let ground = Ground::new(self.surface, channel, &self.ends[side]);
+        roomiest(self.surface.view, own, channel, &ground)
     }
 
     /// How badly the strip lies on a channel in some way: see [`misfit`].
-    fn misfit(&self, channel: usize, way: Way, feet: &Feet) -> f64 {
+    fn misfit(&self, channel: usize, lay: Lay, feet: &Feet) -> f64 {
         let uv = |place: usize| match &feet[place] {
             Some(foot) => place_of(self.surface.view, channel, foot),
             None => {
@@ -170,16 +128,17 @@ impl<'a> StripMap<'a> {
             }
         };
         let uvs = [0, 1, 2, 3].map(uv);
-        match way {
-            Way::Own => {
-                let on = |owner: usize| self.misfit_on(owner, &self.ends[owner], channel, uvs);
+        match lay {
+            None => {
+                let on = |side: usize| self.misfit_on(side, &self.ends[side], channel, uvs);
                 let first = on(0);
                 if first <= MOST_STRETCH { first } else { first.min(on(1)) }
             }
-            Way::Flat(owner, room) => self.misfit_on(owner, &[room.corner], channel, uvs),
-            Way::Band(owner, ..) | Way::Inside(owner) | Way::Abreast(owner) => {
-                self.misfit_on(owner, &self.ends[owner], channel, uvs)
+            Some((way @ (Way::Flat | Way::Roomiest), side)) => {
+                let room = self.room(channel, (way, side));
+                self.misfit_on(side, &[room.corner], channel, uvs)
             }
+            Some((_, side)) => self.misfit_on(side, &self.ends[side], channel, uvs),
         }
     }
 
@@ -201,26 +160,28 @@ impl<'a> StripMap<'a> {
             return Some(0);
         }
         let channel = self.first_seam();
-        let fits = |way: Way| {
-            let feet = self.feet(way);
-            self.misfit(channel, way, &feet) <= MOST_STRETCH
+        let fits = |&way: &Way| {
+            let lay = Some((way, owner));
+            self.misfit(channel, lay, &self.feet(channel, lay)) <= MOST_STRETCH
         };
-        bands(owner).position(fits).map(|place| place as u8)
+        BANDS.iter().position(fits).map(|place| place as u8)
+    }
+
+    /// All ways, best first.
+    fn lays(&self, channel: usize, owner: usize) -> impl Iterator<Item = Lay> {
+        let own = (self.edge.seams >> channel & 1 == 0).then_some(None);
+        let sides = [owner, 1 - owner];
+        let bands = sides.into_iter().flat_map(|side| BANDS.map(|way| Some((way, side))));
+        let beside = BESIDE_BANDS.into_iter().flat_map(move |way| sides.map(|s| Some((way, s))));
+        own.into_iter().chain(bands).chain(beside)
     }
 
     /// The feet of the first way that fits, or else of the one that fits best, among those that
     /// agree with what other channels have taken.
     fn lay(&self, channel: usize, owner: usize, taken: &Feet) -> Feet {
-        let own = (self.edge.seams >> channel & 1 == 0).then_some(Way::Own);
-        let ways = own.into_iter().chain(bands(owner)).chain(bands(1 - owner));
-        let sides = [owner, 1 - owner];
-        let along = sides.map(Way::Inside).into_iter().chain(sides.map(Way::Abreast));
-        let flat = sides.map(|owner| Way::Flat(owner, self.own_room(owner)));
-        let roomiest = sides.into_iter().map(|owner| Way::Flat(owner, self.room(channel, owner)));
-        let mut best = (f64::INFINITY, *taken);
-        let mut is_first = true;
-        for way in ways.chain(along).chain(flat).chain(roomiest) {
-            let feet = self.feet(way);
+        let mut best = None;
+        for lay in self.lays(channel, owner) {
+            let feet = self.feet(channel, lay);
             let agrees = |place: usize| match (taken[place], feet[place]) {
                 (Some(one), Some(other)) => one == other,
                 _ => true,
@@ -228,15 +189,15 @@ impl<'a> StripMap<'a> {
             if !(0..4).all(agrees) {
                 continue;
             }
-            let misfit = self.misfit(channel, way, &feet);
-            if misfit < best.0 || is_first {
-                (best, is_first) = ((misfit, feet), false);
+            let misfit = self.misfit(channel, lay, &feet);
+            if best.is_none_or(|(least, _)| misfit < least) {
+                best = Some((misfit, feet));
             }
             if misfit <= MOST_STRETCH {
                 break;
             }
         }
-        best.1
+        best.map_or(*taken, |(_, feet)| feet)
     }
 }
 
@@ -256,7 +217,7 @@ pub fn lay_strip(given: &Given, edge: Edge, strip: Parts, taken_at: &mut Vec<Tak
         // What the owner was chosen by need not be looked for again.
         let known = owners.band[edge].filter(|_| map.first_seam() == channel && taken == [None; 4]);
         let feet = match known {
-            Some(band) => map.feet(on_band(owner, band.into())),
+            Some(band) => map.feet(channel, Some((BANDS[usize::from(band)], owner))),
             None => map.lay(channel, owner, &taken),
         };
         for place in (0..4).filter(|&place| feet[place].is_some()) {
