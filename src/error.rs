@@ -89,6 +89,8 @@ pub enum Error {
     BadWidth(f32),
     /// The breadth that has to stay is no share between 0 and 1.
     BadBreadth(f32),
+    /// The smoothing angle is not within 0 to 180 degrees.
+    BadAngle(f32),
     /// `ChamferSubmesh::Given` names a submesh that the mesh does not have.
     SubmeshRange {
         /// The submesh asked for.
@@ -141,6 +143,9 @@ impl fmt::Display for Error {
             }
             Error::BadBreadth(share) => {
                 write!(f, "the least breadth is {share}: give a share between 0 and 1")
+            }
+            Error::BadAngle(degrees) => {
+                write!(f, "the smoothing angle is {degrees}: give 0 to 180 degrees")
             }
             Error::SubmeshRange { submesh, submeshes } => {
                 write!(f, "chamfers are to go to submesh {submesh}, but the mesh has {submeshes}")

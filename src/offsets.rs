@@ -477,7 +477,7 @@ mod tests {
 
     /// The mesh of points and indices, split at folds of more than a degree.
     fn split(points: &[[f32; 3]], indices: Vec<u32>) -> MeshBuffers {
-        let smoothed = crate::split_by_angle(points, &indices, 1.0);
+        let smoothed = crate::split_by_angle(points, &indices, 1.0).unwrap();
         MeshBuffers {
             positions: smoothed.source_of.iter().map(|&point| points[point as usize]).collect(),
             normals: smoothed.normals,

@@ -6,13 +6,15 @@
 
 use glam::DVec3;
 
+use crate::error::Error;
 use crate::faces::faces;
 use crate::ids::{Corner, Id, IdVec, Vertex};
 use crate::math::unit;
+use crate::memory;
 use crate::mesh::Mesh;
 use crate::threads::Threads;
 use crate::topology::{Topology, topology};
-use crate::view::{View, resolution, wide};
+use crate::view::{View, check_finite, check_indices, resolution, wide};
 use crate::weld::weld;
 
 /// A mesh with normals, its vertices split where normals differ.
@@ -30,26 +32,44 @@ pub struct Smoothed {
 /// Gives each corner the angle-weighted mean normal of the faces around its position that are
 /// joined to its own face by edges of at most `angle_degrees`.
 ///
-/// `positions` are `#vertices by 3`, finite; `indices` `#triangles by 3`, flattened, in range.
-/// Positions are welded bit for bit first, so that triangle soups work. A triangle without area
-/// takes the normal of the face behind its longest side.
+/// `positions` are `#vertices by 3`; `indices` `#triangles by 3`, flattened. Positions are welded bit
+/// for bit first, so that triangle soups work. A triangle without area takes the normal of the face
+/// behind its longest side.
 ///
-/// # Panics
-/// Where an index is out of range.
-pub fn split_by_angle(positions: &[[f32; 3]], indices: &[u32], angle_degrees: f32) -> Smoothed {
+/// # Errors
+/// An angle that is not within 0 to 180 degrees, positions that are not finite, indices that are out
+/// of range or no multiple of three, and more of either than 32 bits or the memory can hold: the same
+/// as in C.
+pub fn split_by_angle(
+    positions: &[[f32; 3]],
+    indices: &[u32],
+    angle_degrees: f32,
+) -> Result<Smoothed, Error> {
+    if !(0.0..=180.0).contains(&angle_degrees) {
+        return Err(Error::BadAngle(angle_degrees));
+    }
+    let counts = [u32::try_from(indices.len()).map_err(|_| Error::TooLarge)?];
+    let mesh = Mesh { positions, indices, submesh_index_counts: &counts, ..Mesh::default() };
+    check_indices(&mesh)?;
+    check_finite(&mesh)?;
+    memory::ask(memory::of_normals(&mesh))?;
+    Ok(split(positions, indices, &counts, angle_degrees))
+}
+
+/// All rules are kept here.
+fn split(positions: &[[f32; 3]], indices: &[u32], counts: &[u32], angle_degrees: f32) -> Smoothed {
     let mut smoothed = Smoothed {
         source_of: (0..positions.len() as u32).collect(),
         normals: vec![UNSET; positions.len()],
         indices: indices.to_vec(),
     };
-    let counts = [indices.len() as u32];
     // Where parts touch, topology looks at normals; zero for all says nothing.
     let normals = vec![[0.0; 3]; positions.len()];
     let mesh = Mesh {
         positions,
         normals: &normals,
         indices,
-        submesh_index_counts: &counts,
+        submesh_index_counts: counts,
         ..Mesh::default()
     };
     let view = View { mesh, width: 0.0, least_breadth: 0.0, resolution: resolution(&mesh) };
@@ -163,6 +183,7 @@ fn is_equal(one: [f32; 3], other: [f32; 3]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::error::Stream;
 
     /// Two squares that meet at the edge 1-2 at the given angle: 0 is flat.
     ///
@@ -182,7 +203,7 @@ mod tests {
             [x, 0.0, z],
             [x, 1.0, z],
         ];
-        split_by_angle(&positions, &[0, 1, 2, 0, 2, 3, 1, 4, 5, 1, 5, 2], 30.0)
+        split_by_angle(&positions, &[0, 1, 2, 0, 2, 3, 1, 4, 5, 1, 5, 2], 30.0).unwrap()
     }
 
     #[test]
@@ -203,6 +224,21 @@ mod tests {
     #[test]
     fn soups_are_welded_and_lone_vertices_get_some_normal() {
         let soup = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [9.0; 3]];
-        assert_eq!(split_by_angle(&soup, &[0, 1, 2], 30.0).normals, [[0.0, 0.0, 1.0]; 4]);
+        let smoothed = split_by_angle(&soup, &[0, 1, 2], 30.0).unwrap();
+        assert_eq!(smoothed.normals, [[0.0, 0.0, 1.0]; 4]);
+    }
+
+    #[test]
+    fn bad_input_is_refused_as_in_c() {
+        let mut points = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        let range = Error::IndexRange { place: 2, index: 3, vertices: 3 };
+        assert_eq!(split_by_angle(&points, &[0, 1, 3], 30.0), Err(range));
+        let count = Error::IndexCount { submesh: 0, count: 4 };
+        assert_eq!(split_by_angle(&points, &[0, 1, 2, 0], 30.0), Err(count));
+        assert_eq!(split_by_angle(&points, &[0, 1, 2], 181.0), Err(Error::BadAngle(181.0)));
+        assert!(split_by_angle(&points, &[0, 1, 2], f32::NAN).is_err());
+        points[1][2] = f32::INFINITY;
+        let not_finite = Error::NotFinite { stream: Stream::Positions, vertex: 1 };
+        assert_eq!(split_by_angle(&points, &[0, 1, 2], 30.0), Err(not_finite));
     }
 }

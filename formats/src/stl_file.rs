@@ -162,7 +162,7 @@ fn build(triangles: &[Triangle], smoothing_angle: f32) -> Result<MeshBuffers> {
         indices.push(index);
     }
     let count = u32::try_from(indices.len()).context("more triangles than 32-bit indices allow")?;
-    let smoothed = split_by_angle(&positions, &indices, smoothing_angle);
+    let smoothed = split_by_angle(&positions, &indices, smoothing_angle)?;
     Ok(MeshBuffers {
         positions: smoothed.source_of.iter().map(|&source| positions[source as usize]).collect(),
         normals: smoothed.normals,

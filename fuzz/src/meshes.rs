@@ -189,7 +189,7 @@ impl Shading {
             Shading::ByAngle(degrees) => f32::from(degrees % 181),
             Shading::Noise(_) | Shading::Given(_) => 30.0,
         };
-        let smoothed = split_by_angle(&net.points, &net.indices, degrees);
+        let smoothed = split_by_angle(&net.points, &net.indices, degrees).unwrap_or_default();
         let mut mesh = MeshBuffers {
             positions: smoothed.source_of.iter().map(|&p| net.points[p as usize]).collect(),
             normals: smoothed.normals,

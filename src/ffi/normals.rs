@@ -1,7 +1,6 @@
 //! Normals by smoothing angle for a caller's whole mesh: every stream follows its split vertices.
 
 use super::status::Failure;
-use super::types::CHAMFER_STATUS_BAD_ANGLE;
 use crate::memory;
 use crate::view::{check_finite, check_indices};
 use crate::{
@@ -11,18 +10,12 @@ use crate::{
 
 /// The mesh with new normals, its vertices split where they differ, and where each came from.
 pub fn with_normals(mesh: &Mesh, angle_degrees: f32) -> Result<Chamfered, Failure> {
-    if !(0.0..=180.0).contains(&angle_degrees) {
-        return Err(Failure::new(
-            CHAMFER_STATUS_BAD_ANGLE,
-            format!("the smoothing angle is {angle_degrees}: give 0 to 180 degrees"),
-        ));
-    }
-    // `split_by_angle` takes positions and indices on trust.
+    // `split_by_angle` knows of no submeshes and no other streams.
     check_indices(mesh)?;
-    // Its normals are ignored, whatever they are; all else goes out again.
+    // The normals are ignored, whatever they are; all else goes out again.
     check_finite(&Mesh { normals: &[], ..*mesh })?;
     memory::ask(memory::of_normals(mesh))?;
-    let smoothed = split_by_angle(mesh.positions, mesh.indices, angle_degrees);
+    let smoothed = split_by_angle(mesh.positions, mesh.indices, angle_degrees)?;
     let triangles = smoothed.indices.len() as u32 / 3;
     Ok(Chamfered {
         vertex_sources: smoothed.source_of.iter().map(|&v| copy_of(v)).collect(),

@@ -64,6 +64,7 @@ fn status_and_element(error: &Error) -> (i32, u32) {
         Error::IndexRange { place, .. } => (CHAMFER_STATUS_INDEX_RANGE, place),
         Error::BadWidth(_) => (CHAMFER_STATUS_BAD_WIDTH, NONE),
         Error::BadBreadth(_) => (CHAMFER_STATUS_BAD_OPTION, NONE),
+        Error::BadAngle(_) => (CHAMFER_STATUS_BAD_ANGLE, NONE),
         Error::SubmeshRange { submesh, .. } => (CHAMFER_STATUS_SUBMESH_RANGE, submesh),
         Error::TooLarge => (CHAMFER_STATUS_TOO_LARGE, NONE),
         Error::OutOfMemory => (CHAMFER_STATUS_OUT_OF_MEMORY, NONE),

@@ -174,7 +174,7 @@ mod tests {
             }
             indices.extend([rim(side, cells), from, to]);
         }
-        let smoothed = crate::split_by_angle(&points, &indices, 1.0);
+        let smoothed = crate::split_by_angle(&points, &indices, 1.0).unwrap();
         MeshBuffers {
             positions: smoothed.source_of.iter().map(|&point| points[point as usize]).collect(),
             normals: smoothed.normals,

@@ -8,7 +8,7 @@ pub const FLAT: f32 = 1.0;
 /// A mesh of one submesh over `#vertices by 3` points and `#triangles by 3` indices. Faces that
 /// meet at up to `degrees` shade as one.
 pub fn shaded(points: &[[f32; 3]], indices: &[u32], degrees: f32) -> MeshBuffers {
-    let smoothed = split_by_angle(points, indices, degrees);
+    let smoothed = split_by_angle(points, indices, degrees).unwrap();
     MeshBuffers {
         positions: smoothed.source_of.iter().map(|&point| points[point as usize]).collect(),
         normals: smoothed.normals,

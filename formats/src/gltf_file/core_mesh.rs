@@ -1,6 +1,6 @@
 //! The streams of the core, out of a mesh's blocks.
 
-use chamfer::{MeshBuffers, UV_CHANNELS, UvBuffer, split_by_angle};
+use chamfer::{Error, MeshBuffers, UV_CHANNELS, UvBuffer, split_by_angle};
 use glam::Vec3;
 
 use crate::document::NormalsRead;
@@ -13,16 +13,16 @@ const UNIT_TOLERANCE: f32 = 1e-2;
 
 /// Builds the mesh for the core. Where normals are missing, or none of a block has a direction, faces that meet at up to
 /// `smoothing_angle` degrees share them, and vertices are split: the geometry learns of the copies.
-pub fn build(geometry: &mut MeshGeometry, smoothing_angle: f32) -> MeshBuffers {
+pub fn build(geometry: &mut MeshGeometry, smoothing_angle: f32) -> Result<MeshBuffers, Error> {
     let mut indices = geometry.indices().to_vec();
-    let smooth_normals = smooth(geometry, smoothing_angle, &mut indices);
+    let smooth_normals = smooth(geometry, smoothing_angle, &mut indices)?;
     let mut normals = normals(geometry, &smooth_normals);
-    fill_in(&mut normals, geometry, &indices);
+    fill_in(&mut normals, geometry, &indices)?;
     let mut uvs: [UvBuffer; UV_CHANNELS] = Default::default();
     for (channel, uv) in uvs.iter_mut().enumerate() {
         *uv = uv_channel(geometry, channel);
     }
-    MeshBuffers {
+    Ok(MeshBuffers {
         positions: stream(geometry, "POSITION", |_, value| array(value, 0.0)),
         normals,
         tangents: tangents(geometry, &smooth_normals),
@@ -30,14 +30,18 @@ pub fn build(geometry: &mut MeshGeometry, smoothing_angle: f32) -> MeshBuffers {
         uvs,
         submesh_index_counts: geometry.submesh_index_counts(),
         indices,
-    }
+    })
 }
 
 /// Splits the vertices of the blocks without normals; gives all vertices normals (those of other
 /// blocks are meaningless), or none where no block lacks them.
-fn smooth(geometry: &mut MeshGeometry, angle: f32, indices: &mut [u32]) -> Vec<[f32; 3]> {
+fn smooth(
+    geometry: &mut MeshGeometry,
+    angle: f32,
+    indices: &mut [u32],
+) -> Result<Vec<[f32; 3]>, Error> {
     if !geometry.blocks.iter().any(|block| block.smoothed) {
-        return Vec::new();
+        return Ok(Vec::new());
     }
     let places: Vec<usize> = (0..indices.len())
         .filter(|place| {
@@ -47,7 +51,7 @@ fn smooth(geometry: &mut MeshGeometry, angle: f32, indices: &mut [u32]) -> Vec<[
         .collect();
     let corners: Vec<u32> = places.iter().map(|place| indices[*place]).collect();
     let positions = stream(geometry, "POSITION", |_, value| array(value, 0.0));
-    let smoothed = split_by_angle(&positions, &corners, angle);
+    let smoothed = split_by_angle(&positions, &corners, angle)?;
     for (place, index) in places.into_iter().zip(smoothed.indices) {
         indices[place] = index;
     }
@@ -55,7 +59,7 @@ fn smooth(geometry: &mut MeshGeometry, angle: f32, indices: &mut [u32]) -> Vec<[
     let copies = smoothed.source_of.iter().skip(known);
     let origins: Vec<Origin> = copies.map(|source| geometry.origins[*source as usize]).collect();
     geometry.origins.extend(origins);
-    smoothed.normals
+    Ok(smoothed.normals)
 }
 
 fn normals(geometry: &MeshGeometry, smooth: &[[f32; 3]]) -> Vec<[f32; 3]> {
@@ -69,7 +73,11 @@ fn normals(geometry: &MeshGeometry, smooth: &[[f32; 3]]) -> Vec<[f32; 3]> {
 
 /// Gives vertices whose normals have no direction that of their faces, where others of their block
 /// have one.
-fn fill_in(normals: &mut [[f32; 3]], geometry: &MeshGeometry, indices: &[u32]) {
+fn fill_in(
+    normals: &mut [[f32; 3]],
+    geometry: &MeshGeometry,
+    indices: &[u32],
+) -> Result<(), Error> {
     let stored = geometry.streams(None, "NORMAL");
     let is_zero = |index: &u32| {
         let block = geometry.origins[*index as usize].block as usize;
@@ -78,14 +86,15 @@ fn fill_in(normals: &mut [[f32; 3]], geometry: &MeshGeometry, indices: &[u32]) {
     };
     let places: Vec<usize> = (0..indices.len()).filter(|&at| is_zero(&indices[at])).collect();
     if places.is_empty() {
-        return;
+        return Ok(());
     }
     let positions = stream(geometry, "POSITION", |_, value| array(value, 0.0));
-    let smoothed = split_by_angle(&positions, indices, ALL_FACES);
+    let smoothed = split_by_angle(&positions, indices, ALL_FACES)?;
     for place in places {
         let normal = smoothed.normals[smoothed.indices[place] as usize];
         normals[indices[place] as usize] = normal;
     }
+    Ok(())
 }
 
 /// The angle at which all faces around a place shade as one.

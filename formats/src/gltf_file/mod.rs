@@ -128,7 +128,7 @@ impl GltfDocument {
         for (index, value) in json::list(&json, "meshes").iter().enumerate() {
             let mut geometry = reader.read(index)?;
             welded += geometry.weld(options.weld);
-            let mesh = core_mesh::build(&mut geometry, options.smoothing_angle);
+            let mesh = core_mesh::build(&mut geometry, options.smoothing_angle)?;
             normals.push(core_mesh::normals_read(&geometry, &mesh));
             geometry.forget_core_streams();
             let name = value.get("name").and_then(Value::as_str);

@@ -44,7 +44,7 @@ type Key = (u32, Option<[u32; 3]>, [u32; 3]);
 /// Where there are more triangles than 32-bit indices allow.
 pub fn build(obj: &Obj, smoothing_angle: f32) -> Result<Built> {
     let Triangles { corners, counts, polygon_of, places } = triangles(obj)?;
-    let normals = normals(obj, &corners, &polygon_of, smoothing_angle);
+    let normals = normals(obj, &corners, &polygon_of, smoothing_angle)?;
     let mut builder = Builder::new(obj);
     for (corner, normal) in corners.iter().zip(normals) {
         builder.corner(corner, normal);
@@ -104,30 +104,30 @@ fn normals(
     corners: &[Corner],
     polygon_of: &[u32],
     smoothing_angle: f32,
-) -> Vec<[f32; 3]> {
+) -> Result<Vec<[f32; 3]>> {
     let given = |corner: &Corner| unit(obj.normals[corner.normal? as usize]);
     if let Some(normals) = corners.iter().map(given).collect() {
-        return normals;
+        return Ok(normals);
     }
     let made = match obj.smoothing_groups.iter().any(|group| *group > 0) {
-        true => grouped(obj, corners, polygon_of),
-        false => smoothed(obj, corners, smoothing_angle),
+        true => grouped(obj, corners, polygon_of)?,
+        false => smoothed(obj, corners, smoothing_angle)?,
     };
-    corners.iter().zip(made).map(|(corner, made)| given(corner).unwrap_or(made)).collect()
+    Ok(corners.iter().zip(made).map(|(corner, made)| given(corner).unwrap_or(made)).collect())
 }
 
 /// `#corners`: by the angle at which faces meet.
-fn smoothed(obj: &Obj, corners: &[Corner], angle: f32) -> Vec<[f32; 3]> {
+fn smoothed(obj: &Obj, corners: &[Corner], angle: f32) -> Result<Vec<[f32; 3]>> {
     let indices: Vec<u32> = corners.iter().map(|corner| corner.position).collect();
-    let smoothed = split_by_angle(&obj.positions, &indices, angle);
-    smoothed.indices.iter().map(|&index| smoothed.normals[index as usize]).collect()
+    let smoothed = split_by_angle(&obj.positions, &indices, angle)?;
+    Ok(smoothed.indices.iter().map(|&index| smoothed.normals[index as usize]).collect())
 }
 
 /// The angle at which all faces around a place shade as one.
 const ALL_FACES: f32 = 180.0;
 
 /// `#corners`: by smoothing groups. All faces of one shade as one surface; one of none is flat.
-fn grouped(obj: &Obj, corners: &[Corner], polygon_of: &[u32]) -> Vec<[f32; 3]> {
+fn grouped(obj: &Obj, corners: &[Corner], polygon_of: &[u32]) -> Result<Vec<[f32; 3]>> {
     // The triangles of a flat polygon are a group of their own, which no other has.
     let key = |triangle: usize| {
         let polygon = polygon_of[triangle];
@@ -146,15 +146,15 @@ fn grouped(obj: &Obj, corners: &[Corner], polygon_of: &[u32]) -> Vec<[f32; 3]> {
             triangles.iter().flat_map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
         let of_group = match group {
             0 => vec![face_normal(obj, corners, &own); own.len()],
-            _ => smoothed_alone(obj, corners, &own),
+            _ => smoothed_alone(obj, corners, &own)?,
         };
         own.into_iter().zip(of_group).for_each(|(corner, normal)| normals[corner] = normal);
     }
-    normals
+    Ok(normals)
 }
 
 /// The normals of some corners, as if there were no others.
-fn smoothed_alone(obj: &Obj, corners: &[Corner], own: &[usize]) -> Vec<[f32; 3]> {
+fn smoothed_alone(obj: &Obj, corners: &[Corner], own: &[usize]) -> Result<Vec<[f32; 3]>> {
     let used: Vec<u32> = own.iter().map(|&corner| corners[corner].position).collect();
     let mut known: Vec<u32> = used.clone();
     known.sort_unstable();
@@ -162,8 +162,8 @@ fn smoothed_alone(obj: &Obj, corners: &[Corner], own: &[usize]) -> Vec<[f32; 3]>
     let positions: Vec<[f32; 3]> = known.iter().map(|&at| obj.positions[at as usize]).collect();
     let local = |position: &u32| known.partition_point(|other| other < position) as u32;
     let indices: Vec<u32> = used.iter().map(local).collect();
-    let smoothed = split_by_angle(&positions, &indices, ALL_FACES);
-    smoothed.indices.iter().map(|&index| smoothed.normals[index as usize]).collect()
+    let smoothed = split_by_angle(&positions, &indices, ALL_FACES)?;
+    Ok(smoothed.indices.iter().map(|&index| smoothed.normals[index as usize]).collect())
 }
 
 /// The normal of some triangles together, each as heavy as its area.
