@@ -38,8 +38,9 @@
 //!
 //! # Features
 //! - `parallel` (default): shares the work on one large mesh out among threads.
-//! - `check`: the checker of whole meshes.
+//! - `check`: the checker of whole meshes; in the repository only, not in the published crate.
 //! - `shapes`: models made by code, for demonstrations and tests.
+//! - `header`: makes the C header anew, for the library's own tests.
 
 #![warn(missing_debug_implementations)]
 

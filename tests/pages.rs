@@ -18,7 +18,7 @@ fn assert_shown(page: &str, language: &str, path: &str) {
 #[test]
 fn the_readme_shows_the_examples_that_are_tested() {
     let page = include_str!("../README.md");
-    assert_shown(page, "rust", "examples/chamfer_cube.rs");
+    assert_shown(page, "rust", "examples/rust/chamfer_cube.rs");
     assert_shown(page, "c", "examples/c/chamfer_cube.c");
     assert_shown(page, "python", "examples/python/chamfer_cube.py");
     let page = include_str!("../python/README.md");

@@ -3,12 +3,19 @@
 //! A file is read into a [`Document`]: meshes in the layout of the core, and all the rest as it
 //! stood. Chamfered meshes go back into it with [`encode`]. Which formats there are, how files of
 //! each are named and what they can become stands in one table, [`FORMATS`].
+//!
+//! # Features
+//! `fbx`, `draco` and `meshopt`, all on by default: the readers of FBX, and of glTF that is compressed by
+//! these two. Without one, a file that needs it is refused with what to do.
 
 mod document;
+#[cfg(feature = "fbx")]
 pub mod fbx_file;
 mod foreign;
 pub mod glb;
 pub mod gltf_file;
+#[cfg(not(all(feature = "draco", feature = "fbx", feature = "meshopt")))]
+mod left_out;
 pub mod obj_file;
 mod parts;
 pub mod paths;

@@ -4,6 +4,7 @@ use serde_json::{Value, json};
 
 const ARRAY_BUFFER: u32 = 34962;
 const ELEMENT_ARRAY_BUFFER: u32 = 34963;
+#[cfg(feature = "fbx")]
 const UNSIGNED_SHORT: u32 = 5123;
 const UNSIGNED_INT: u32 = 5125;
 const FLOAT: u32 = 5126;
@@ -34,6 +35,7 @@ impl Parts {
     }
 
     /// An accessor of the numbers of joints.
+    #[cfg(feature = "fbx")]
     pub fn joints(&mut self, values: &[[u16; 4]]) -> usize {
         let bytes = values.as_flattened().iter().flat_map(|value| value.to_le_bytes());
         let view = self.view(bytes, Some(ARRAY_BUFFER));
@@ -41,6 +43,7 @@ impl Parts {
     }
 
     /// An accessor of matrices, column by column.
+    #[cfg(feature = "fbx")]
     pub fn matrices(&mut self, values: &[[f32; 16]]) -> usize {
         let bytes = values.as_flattened().iter().flat_map(|value| value.to_le_bytes());
         let view = self.view(bytes, None);

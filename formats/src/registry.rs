@@ -8,7 +8,7 @@ use chamfer::Chamfered;
 
 use crate::document::{Document, Encoded, Format, ReadOptions};
 use crate::gltf_file::GltfDocument;
-use crate::{fbx_file, foreign, obj_file, stl_file};
+use crate::{foreign, obj_file, stl_file};
 
 /// A document that was read, of any format.
 pub type Read = Box<dyn Document + Send>;
@@ -61,10 +61,20 @@ pub static FORMATS: [Row; 5] = [
         format: Format::Fbx,
         name: "FBX, binary or ASCII",
         ending: "fbx",
-        reader: |path, bytes, options| Ok(Box::new(fbx_file::decode(path, &bytes, options)?)),
+        reader: fbx,
         writes: &[Format::Glb, Format::Gltf],
     },
 ];
+
+#[cfg(feature = "fbx")]
+fn fbx(path: &Path, bytes: Vec<u8>, options: &ReadOptions) -> Result<Read> {
+    Ok(Box::new(crate::fbx_file::decode(path, &bytes, options)?))
+}
+
+#[cfg(not(feature = "fbx"))]
+fn fbx(_: &Path, _: Vec<u8>, _: &ReadOptions) -> Result<Read> {
+    Err(crate::left_out::left_out("FBX", "fbx"))
+}
 
 impl Row {
     /// The row of what a model of this format becomes where nobody asks for another.

@@ -18,6 +18,10 @@ mod budget;
 mod compressed;
 mod container;
 mod core_mesh;
+#[cfg(feature = "draco")]
+mod draco_mesh;
+#[cfg(not(feature = "draco"))]
+#[path = "draco_left_out.rs"]
 mod draco_mesh;
 mod element;
 mod extensions;
@@ -25,6 +29,8 @@ mod fold;
 mod follow;
 mod geometry;
 mod json;
+#[cfg(feature = "meshopt")]
+mod meshopt_codec;
 mod meshopt_views;
 mod names;
 mod quantized;
