@@ -208,7 +208,10 @@ extern "C" {
  */
 typedef struct chamfer_result chamfer_result;
 
-/** How to chamfer a mesh. `chamfer_options_init` fills in the defaults. */
+/**
+ * How to chamfer a mesh. `chamfer_options_init` fills in the defaults. One in which all but the size is
+ * zero stands for them too; where anything else is set, all fields count as they are.
+ */
 typedef struct chamfer_options {
     /** `sizeof(chamfer_options)`. */
     uint32_t struct_size;

@@ -17,8 +17,8 @@ int main(void) {
     chamfer_mesh mesh = {
         .struct_size = sizeof mesh, .vertex_count = 24,
         .positions = positions[0], .normals = normals[0],
-        .submesh_count = 1, .submesh_index_counts = &index_count,
-        .index_count = index_count, .indices = indices,
+        .submesh_count = 1, .index_count = index_count,
+        .submesh_index_counts = &index_count, .indices = indices,
     };
     chamfer_error error = {.struct_size = sizeof error};
     chamfer_result *result;

@@ -129,6 +129,9 @@ pub unsafe fn read_options(options: *const chamfer_options) -> Result<Options, F
     }
     // SAFETY: as this function's.
     let options = unsafe { sized::read(options, "options") }?;
+    if is_blank(&options) {
+        return Ok(Options::default());
+    }
     Ok(Options {
         width: match options.width_unit {
             CHAMFER_WIDTH_MESH_UNITS => Width::Units(options.width),
@@ -153,6 +156,16 @@ pub unsafe fn read_options(options: *const chamfer_options) -> Result<Options, F
         },
         threads: options.threads,
     })
+}
+
+/// Nothing but the size is set, as by `= {sizeof options}`: whoever writes that wants the defaults, and
+/// not a width of 0, which would give the mesh back as it is.
+fn is_blank(options: &chamfer_options) -> bool {
+    let chamfer_options { struct_size, width, width_unit, verify, submesh_mode, .. } = *options;
+    let chamfer_options { submesh, threads, least_breadth, .. } = *options;
+    let has_breadth = struct_size as usize >= size_of::<chamfer_options>();
+    let numbers = [width_unit, verify, submesh_mode, submesh, threads];
+    numbers == [0; 5] && width == 0.0 && !(has_breadth && least_breadth != 0.0)
 }
 
 fn bad_option(field: &str, value: u32) -> Failure {
@@ -228,5 +241,28 @@ mod tests {
         let defaults = chamfer_options::defaults();
         // SAFETY: the struct states its size.
         assert_eq!(unsafe { read_options(&defaults) }.unwrap(), Options::default());
+    }
+
+    /// Of the size of `today` or shorter, with all else zero but for what `set` does.
+    fn zeroed(size: usize, set: impl Fn(&mut chamfer_options)) -> Options {
+        // SAFETY: numbers only, so that zero bytes are a value.
+        let mut options: chamfer_options = unsafe { std::mem::zeroed() };
+        options.struct_size = size as u32;
+        set(&mut options);
+        // SAFETY: the struct states its size.
+        unsafe { read_options(&options) }.unwrap()
+    }
+
+    #[test]
+    fn zeroed_options_are_the_defaults_unless_something_is_set() {
+        for &size in chamfer_options::SIZES {
+            assert_eq!(zeroed(size, |_| {}), Options::default());
+            let on_one_thread = zeroed(size, |options| options.threads = 1);
+            assert_eq!(on_one_thread.width, Width::Units(0.0));
+            let wide = zeroed(size, |options| options.width = 0.5);
+            assert_eq!((wide.width, wide.verify), (Width::Units(0.5), Verify::Fast));
+        }
+        let least = zeroed(size_of::<chamfer_options>(), |options| options.least_breadth = 0.5);
+        assert_eq!((least.width, least.least_breadth), (Width::Units(0.0), 0.5));
     }
 }

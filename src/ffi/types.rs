@@ -200,7 +200,8 @@ pub struct chamfer_object {
     pub transform: [f32; 16],
 }
 
-/// How to chamfer a mesh. `chamfer_options_init` fills in the defaults.
+/// How to chamfer a mesh. `chamfer_options_init` fills in the defaults. One in which all but the size is
+/// zero stands for them too; where anything else is set, all fields count as they are.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct chamfer_options {

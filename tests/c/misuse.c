@@ -775,6 +775,19 @@ struct row {
 
 #define ROW(misuse, name, try_it) {misuse, #name, CHAMFER_STATUS_##name, try_it}
 
+static void zeroed_options(int32_t expected) {
+    chamfer_options blank;
+    chamfer_totals found;
+    chamfer_result *result = NULL;
+    memset(&blank, 0, sizeof blank);
+    blank.struct_size = sizeof blank;
+    run(expected, &mesh, &blank);
+    CHECK(chamfer_run(&mesh, &blank, NULL, NULL, &result, NULL) == expected);
+    found.struct_size = sizeof found;
+    CHECK(chamfer_result_totals(result, &found) == expected && found.hard_edges > 0);
+    chamfer_result_destroy(result);
+}
+
 static const struct row rows[] = {
     ROW("`mesh`, `out`, a getter's `result` or a place to write to is NULL", NULL_POINTER,
         null_structs),
@@ -796,6 +809,7 @@ static const struct row rows[] = {
     ROW("the `error` struct itself is of unknown size", STRUCT_SIZE, wrong_error_size),
     ROW("a count so large that the array would wrap around the address space", COUNT_OVERFLOW,
         past_the_address_space),
+    ROW("a zeroed `chamfer_options` that states its size", OK, zeroed_options),
     ROW("`width_unit`, `verify` or `submesh_mode` is none of its constants", BAD_OPTION,
         unknown_choices),
     ROW("`least_breadth` is negative, above 1 or NaN", BAD_OPTION, wrong_breadths),

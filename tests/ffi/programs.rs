@@ -49,6 +49,16 @@ fn the_example_chamfers_a_cube() {
     assert_eq!(printed, "24 vertices, 44 triangles\n");
 }
 
+/// It is what readers of the README copy into programs of theirs.
+#[test]
+fn the_example_is_cpp_too() {
+    let mut compile = Command::new(env::var_os("CXX").unwrap_or("c++".into()));
+    compile.args(["-std=c++20", "-Wall", "-pedantic", "-Werror", "-fsyntax-only", "-x", "c++"]);
+    compile.arg("-I").arg(source("include")).arg(source("examples/c/chamfer_cube.c"));
+    let status = compile.status().expect("a C++ compiler: install c++ or set CXX");
+    assert!(status.success(), "{compile:?}");
+}
+
 /// Rows of the table that nobody can try: the library has no known fault, and what is undefined has
 /// no outcome.
 const UNTRIED: [&str; 2] = [
