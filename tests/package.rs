@@ -260,29 +260,63 @@ fn tests_that_the_workflows_name_are_there() {
     }
 }
 
-/// Packing needs GNU tar.
 #[cfg(target_os = "linux")]
 mod archive {
     use std::process::Command;
 
     use super::*;
 
-    /// The files of an archive of libraries that were built elsewhere: here, empty ones.
-    fn archived() -> Vec<String> {
-        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("archive");
+    const LIBRARIES: [&str; 3] = ["libchamfer.so", "chamfer.dll", "libchamfer.dylib"];
+
+    /// Packs libraries that were built elsewhere, here empty ones: whether that went well, and the archive.
+    fn pack(name: &str, libraries: &[&str], tar: &str, options: &[&str]) -> (bool, PathBuf) {
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
         let _ = fs::remove_dir_all(&folder);
         fs::create_dir_all(&folder).unwrap();
-        for library in ["libchamfer.so", "chamfer.dll", "libchamfer.dylib"] {
+        for library in libraries {
             fs::write(folder.join(library), "").unwrap();
         }
         let script = concat!(env!("CARGO_MANIFEST_DIR"), "/scripts/package-unity");
         let mut pack = Command::new("bash");
-        pack.args([script, "--strict", "--libraries"]).arg(&folder).arg("--output").arg(&folder);
-        assert!(pack.output().unwrap().status.success());
-        let name = format!("com.chamfer.unity-{}.tgz", env!("CARGO_PKG_VERSION"));
-        let list = Command::new("tar").arg("-tzf").arg(folder.join(name)).output().unwrap();
+        pack.env("TAR", tar).arg(script).args(options);
+        pack.arg("--libraries").arg(&folder).arg("--output").arg(&folder);
+        let went_well = pack.output().unwrap().status.success();
+        (went_well, folder.join(format!("com.chamfer.unity-{}.tgz", env!("CARGO_PKG_VERSION"))))
+    }
+
+    fn archived() -> Vec<String> {
+        let (went_well, archive) = pack("archive", &LIBRARIES, "tar", &["--strict"]);
+        assert!(went_well);
+        let list = Command::new("tar").arg("-tzf").arg(archive).output().unwrap();
         let paths = String::from_utf8(list.stdout).unwrap();
         paths.lines().map(|path| path.trim_end_matches('/').to_owned()).collect()
+    }
+
+    #[test]
+    fn a_missing_library_is_told_and_without_any_there_is_no_package() {
+        let (one, strict) = (&LIBRARIES[..1], ["--strict"]);
+        let (went_well, archive) = pack("archive_one", one, "tar", &[]);
+        assert!(went_well && archive.is_file());
+        assert!(!pack("archive_strict", one, "tar", &strict).0);
+        let (went_well, archive) = pack("archive_none", &[], "tar", &[]);
+        assert!(!went_well && !archive.exists());
+    }
+
+    /// As on macOS. The files are the same; how the two write down folders is not.
+    #[test]
+    fn the_tar_of_bsd_packs_the_same_files() {
+        if Command::new("bsdtar").arg("--version").output().is_err() {
+            let line = b"SKIPPED: no bsdtar, so the package is packed by GNU's tar alone\n";
+            std::io::Write::write_all(&mut std::io::stderr(), line).unwrap();
+            return;
+        }
+        let listed = |name: &str, tar: &str| {
+            let (went_well, archive) = pack(name, &LIBRARIES, tar, &[]);
+            assert!(went_well, "{tar}");
+            let list = Command::new("tar").arg("-tvzf").arg(archive).output().unwrap();
+            String::from_utf8(list.stdout).unwrap()
+        };
+        assert_eq!(listed("archive_bsd", "bsdtar"), listed("archive_gnu", "tar"));
     }
 
     #[test]
@@ -296,6 +330,7 @@ mod archive {
             "LICENSE.md",
             "LICENSE-MIT.md",
             "LICENSE-APACHE.md",
+            "Third Party Notices.md",
             "Documentation~/index.md",
             "Samples~/Pipeline/ChamferChildren.cs",
             "Runtime/Plugins/x86_64/libchamfer.so",

@@ -93,4 +93,32 @@ fn notices_name_all_that_is_linked_in() {
         let name = line.split(' ').next().unwrap();
         assert!(name == "chamfer" || notices.contains(&format!("| {name} |")), "{name}");
     }
+    let wheel = fs::read_to_string(format!("{ROOT}/python/THIRD-PARTY.md")).unwrap();
+    assert_eq!(
+        wheel, notices,
+        "copy unity-package/Third Party Notices.md to python/THIRD-PARTY.md"
+    );
+}
+
+/// Those of the command are made when it is packed: each crate with the text of its licence.
+#[test]
+fn notices_of_the_command_have_every_text() {
+    let Ok(output) =
+        Command::new("python3").arg(format!("{ROOT}/scripts/notices")).arg("chamfer-cli").output()
+    else {
+        let line = b"SKIPPED: no python3, so the notices of the command are not made\n";
+        std::io::Write::write_all(&mut std::io::stderr(), line).unwrap();
+        return;
+    };
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let notices = String::from_utf8(output.stdout).unwrap();
+    for name in ["clap", "draco-core", "glam", "meshopt", "ufbx"] {
+        assert!(notices.contains(&format!("| {name} | ")), "{name}");
+        let is_headed = |line: &str| {
+            line.strip_prefix("## ").is_some_and(|names| names.split(", ").any(|n| n == name))
+        };
+        assert!(notices.lines().any(is_headed), "{name} has no text");
+    }
+    assert!(!notices.contains("| criterion |") && !notices.contains("| chamfer"), "{notices}");
+    assert!(notices.contains("Permission is hereby granted") && notices.contains("Apache License"));
 }
