@@ -21,7 +21,7 @@ use drawing::Drawing;
 type Draw = fn() -> Drawing;
 
 /// The stages, in the order of the pipeline.
-const FIGURES: [(&str, Draw); 15] = [
+const FIGURES: [(&str, Draw); 16] = [
     ("view", source::view),
     ("weld", source::weld),
     ("topology", source::topology),
@@ -31,11 +31,12 @@ const FIGURES: [(&str, Draw); 15] = [
     ("sectors", moves::sectors),
     ("offsets", moves::offsets),
     ("limits", moves::limits),
-    ("attributes", texture::attributes),
-    ("seams", texture::seams),
+    ("patches", result::patches),
     ("strips", result::strips),
     ("fills", result::fills),
     ("verdicts", result::verdicts),
+    ("attributes", texture::attributes),
+    ("charts", texture::charts),
     ("output", result::output),
 ];
 

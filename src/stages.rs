@@ -1,4 +1,4 @@
-//! Stages: the values of all stages before the limits, for tests of what comes after.
+//! The values of all stages before the limits, for tests of what comes after.
 
 use crate::attributes::{Attributes, attributes};
 use crate::chamfers::Chamfers;

@@ -1,10 +1,11 @@
-//! What comes out: strips, corners, verdicts, output.
+//! What comes out: patches, strips, fills, verdicts, output.
 
 use glam::{DVec2, DVec3};
 
 use super::drawing::{Anchor, Drawing, GREEN, INK, ORANGE, Pen, RED};
 use super::models::{add_block, add_card, chamfered, nothing};
 use super::scene::{CLAY, Camera, FILL, FRONT, Facet, Paint, STRIP, Scene, triangles};
+use crate::ids::{Id, Patch};
 use crate::mesh::MeshBuffers;
 use crate::report::{Chamfered, Outcome, TriangleKind};
 use crate::shapes;
@@ -31,6 +32,47 @@ fn draw_result(drawing: &mut Drawing, result: &Chamfered, camera: Camera) -> Sce
     scene.outline(drawing, Pen::new(INK, 0.5));
     scene
 }
+
+/// The patches of a pyramid, lifted off its faces, with their joints and their middles.
+pub fn patches() -> Drawing {
+    let mut drawing = Drawing::new(720, 330);
+    drawing.title(360.0, "ten strips and six fills: joints, triangles, and a point in the middle");
+    let pyramid = shapes::pyramid(5);
+    let stages = stages_of(&pyramid, 0.2);
+    let placement = stages.placement();
+    let patches = stages.patches(&placement);
+    let mut facets: Vec<Facet> = (stages.view.triangles())
+        .map(|t| t.corners().map(|corner| placement.position_at(corner)))
+        .map(|points| Facet { points, paint: CLAY })
+        .collect();
+    let mut dots = Vec::new();
+    for patch in (0..patches.len()).map(Patch::new) {
+        let parts = patches.parts(patch);
+        let joints = parts.joints.iter().map(|&joint| placement.position_at(joint));
+        let points: Vec<DVec3> = joints.chain(parts.middles.iter().map(|m| m.position)).collect();
+        let middle = points.iter().sum::<DVec3>() / points.len() as f64;
+        let normal: DVec3 = parts.joints.iter().map(|&joint| placement.normal_at(joint)).sum();
+        let lifted = |point: DVec3| middle + (point - middle) * 0.9 + normal.normalize() * LIFT;
+        let paint = if patches.edge_or_ring(patch).is_ok() { STRIP } else { FILL };
+        facets.extend(parts.triangles.iter().map(|triangle| Facet {
+            points: triangle.map(|place| lifted(points[place as usize])),
+            paint,
+        }));
+        let color = |place: usize| if place < parts.joints.len() { INK } else { RED };
+        dots.extend(points.iter().enumerate().map(|(k, &point)| (lifted(point), color(k))));
+    }
+    let scene = Scene::new(Camera::new(ABOVE, [0.0, 0.3, 0.0], 104.0, [360.0, 170.0]), facets);
+    scene.paint(&mut drawing);
+    scene.outline(&mut drawing, Pen::new(INK, 0.5));
+    for (at, color) in dots {
+        scene.dot(&mut drawing, at, 3.0, color);
+    }
+    drawing.legend(&[("#7dafdc", "strip"), ("#f0ba5f", "fill")]);
+    drawing
+}
+
+/// How far patches are drawn above where they are.
+const LIFT: f64 = 0.12;
 
 pub fn strips() -> Drawing {
     let mut drawing = Drawing::new(720, 320);
