@@ -38,7 +38,7 @@ pub fn patches() -> Drawing {
     let mut drawing = Drawing::new(720, 330);
     drawing.title(360.0, "ten strips and six fills: joints, triangles, and a point in the middle");
     let pyramid = shapes::pyramid(5);
-    let stages = stages_of(&pyramid, 0.2);
+    let stages = stages_of(&pyramid, 0.13);
     let placement = stages.placement();
     let patches = stages.patches(&placement);
     let mut facets: Vec<Facet> = (stages.view.triangles())
@@ -61,10 +61,10 @@ pub fn patches() -> Drawing {
         let color = |place: usize| if place < parts.joints.len() { INK } else { RED };
         dots.extend(points.iter().enumerate().map(|(k, &point)| (lifted(point), color(k))));
     }
-    let scene = Scene::new(Camera::new(ABOVE, [0.0, 0.3, 0.0], 104.0, [360.0, 170.0]), facets);
+    let scene = Scene::new(Camera::new(ABOVE, [0.0, 0.2, 0.0], 128.0, [360.0, 170.0]), facets);
     scene.paint(&mut drawing);
     scene.outline(&mut drawing, Pen::new(INK, 0.5));
-    for (at, color) in dots {
+    for (at, color) in dots.into_iter().filter(|(at, _)| scene.shows(*at)) {
         scene.dot(&mut drawing, at, 3.0, color);
     }
     drawing.legend(&[("#7dafdc", "strip"), ("#f0ba5f", "fill")]);
@@ -72,7 +72,7 @@ pub fn patches() -> Drawing {
 }
 
 /// How far patches are drawn above where they are.
-const LIFT: f64 = 0.12;
+const LIFT: f64 = 0.05;
 
 pub fn strips() -> Drawing {
     let mut drawing = Drawing::new(720, 320);
