@@ -154,14 +154,14 @@ impl Contacts {
         view: &View,
         topology: &Topology,
         faces: &Faces,
-        sides: [Corner; 2],
+        (sides, width): ([Corner; 2], f64),
     ) -> Few<Stretch> {
         let ends = [sides[0], sides[0].next()].map(|corner| view.position_at(corner));
-        if self.near(ends, view.width + self.tolerance).next().is_none() {
+        if self.near(ends, width + self.tolerance).next().is_none() {
             return Few::new();
         }
         let wedge = Wedge::new(view, faces, sides);
-        let stretches = wedge.map(|wedge| self.in_wedge(topology, sides[0], &wedge, view.width));
+        let stretches = wedge.map(|wedge| self.in_wedge(topology, sides[0], &wedge, width));
         stretches.unwrap_or_default()
     }
 

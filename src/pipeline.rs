@@ -18,14 +18,16 @@ use crate::output::{output, unchanged};
 use crate::patches::{Patches, patches};
 use crate::report::{Chamfered, EdgeVerdict, Totals};
 use crate::rests::rests;
+use crate::scale::{Scale, Space};
 use crate::scene::{Placed, chamfer_scene};
 use crate::sectors::sectors;
 use crate::see_through::Eyes;
+use crate::selection::selection;
 use crate::surface::Surface;
 use crate::threads::Threads;
 use crate::topology::topology;
 use crate::verdicts::verdicts;
-use crate::view::{View, view};
+use crate::view::{measured, view};
 use crate::weld::{Weld, weld};
 
 /// Chamfers all hard edges of a mesh: the method of the thesis (Algma 2018, chapter 6), as
@@ -132,12 +134,17 @@ pub fn chamfer_by_stages(
     done(Stage::View)?;
     let weld = weld(&view.mesh);
     done(Stage::Weld)?;
-    let chamfered = if may_be_hard(&view, &weld) {
-        let Made { patches, charts, attributes, verdicts } = make(&view, &weld, options, done)?;
-        let target = options.chamfer_submesh;
-        let output = output(&view, &weld, &patches, &charts, attributes, target);
+    let scale = Scale::new(options)?;
+    let scaled = scale.map(|scale| scale.measured(&view.mesh));
+    let scaled = scaled.as_ref().map(|scaled| measured(scaled.mesh(&view.mesh), options));
+    let scaled = scaled.transpose()?;
+    let space = Space { source: &view, measured: scaled.as_ref().unwrap_or(&view), scale };
+    let chamfered = if may_be_hard(space.measured, &weld) {
+        let Made { patches, charts, attributes, verdicts, largest_width } =
+            make(space, &weld, options, done)?;
+        let output = output(space, &weld, &patches, &charts, attributes, options.chamfer_submesh);
         let (verdicts, totals) = verdicts;
-        Chamfered { verdicts, totals, ..output }
+        Chamfered { verdicts, totals, largest_width, ..output }
     } else {
         memory::ask(memory::of_copy(&view.mesh))?;
         unchanged(&view, options.chamfer_submesh)
@@ -152,10 +159,12 @@ struct Made {
     charts: Charts,
     attributes: Attributes,
     verdicts: (Vec<EdgeVerdict>, Totals),
+    largest_width: f32,
 }
 
 /// The stages between the weld and the output.
-fn make(view: &View, weld: &Weld, options: &Options, done: &mut Done) -> Result<Made, Error> {
+fn make(space: Space, weld: &Weld, options: &Options, done: &mut Done) -> Result<Made, Error> {
+    let view = space.measured;
     let threads = &Threads::new(options.threads, view.corner_count());
     memory::ask(memory::up_to_edges(&view.mesh))?;
     let topology = topology(view, weld);
@@ -164,7 +173,8 @@ fn make(view: &View, weld: &Weld, options: &Options, done: &mut Done) -> Result<
     done(Stage::Faces)?;
     let contacts = contacts(view, &topology, &faces)?;
     done(Stage::Contacts)?;
-    let edges = edges(view, &topology, &faces, &contacts);
+    let selection = selection(view, weld, options);
+    let edges = edges(view, &topology, &faces, &contacts, &selection);
     done(Stage::Edges)?;
     memory::ask(memory::of_sectors(edges.hard.len()))?;
     let sectors = sectors(view, &topology, &edges, &contacts);
@@ -172,7 +182,7 @@ fn make(view: &View, weld: &Weld, options: &Options, done: &mut Done) -> Result<
     let surface = Surface { view, topology: &topology, faces: &faces };
     let chamfers = Chamfers { edges: &edges, sectors: &sectors };
     memory::ask(memory::of_chamfers(&view.mesh, chamfers.work()))?;
-    let offsets = offsets(view, &topology, &faces, &sectors, threads);
+    let offsets = offsets(surface, chamfers, threads);
     let rests = rests(view, &topology, &faces, &edges, &contacts);
     done(Stage::Offsets)?;
     let limits = limits(surface, chamfers, &offsets, &rests, options.verify, threads)?;
@@ -181,9 +191,10 @@ fn make(view: &View, weld: &Weld, options: &Options, done: &mut Done) -> Result<
     let patches = patches(view, chamfers, placement, threads);
     let verdicts = verdicts(view, chamfers, &limits, &patches);
     done(Stage::Patches)?;
-    let attributes = attributes(surface, weld, chamfers, placement);
+    let attributes = attributes(space, surface, weld, chamfers, placement);
     done(Stage::Attributes)?;
     let charts = charts(surface, chamfers, placement, &patches, &attributes, threads);
     done(Stage::Charts)?;
-    Ok(Made { patches, charts, attributes, verdicts })
+    let largest_width = (edges.widest(view.width) / space.largest()) as f32;
+    Ok(Made { patches, charts, attributes, verdicts, largest_width })
 }

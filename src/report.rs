@@ -23,8 +23,11 @@ pub struct Chamfered {
     pub triangle_sources: Vec<TriangleSource>,
     /// `#hard edges` with two sides: what became of each.
     pub verdicts: Vec<EdgeVerdict>,
-    /// The width asked for, in mesh units.
+    /// The width asked for, in mesh units, or in those of [`Options::scale`](crate::Options::scale).
     pub width: f32,
+    /// The largest width asked for of any edge, with all factors, in mesh units: no vertex goes
+    /// farther than three of these.
+    pub largest_width: f32,
     /// Sums over the verdicts.
     pub totals: Totals,
 }

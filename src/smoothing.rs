@@ -10,9 +10,10 @@ use crate::faces::faces;
 use crate::ids::{Corner, Id, IdVec, Vertex};
 use crate::math::unit;
 use crate::mesh::Mesh;
+use crate::options::Options;
 use crate::threads::Threads;
 use crate::topology::{Topology, topology};
-use crate::view::{View, resolution, wide};
+use crate::view::{View, wide};
 use crate::weld::weld;
 
 /// A mesh with normals, its vertices split where normals differ.
@@ -52,7 +53,7 @@ pub fn split_by_angle(positions: &[[f32; 3]], indices: &[u32], angle_degrees: f3
         submesh_index_counts: &counts,
         ..Mesh::default()
     };
-    let view = View { mesh, width: 0.0, least_breadth: 0.0, resolution: resolution(&mesh) };
+    let view = View::new(mesh, Options::default().hard_angle);
     let topology = topology(&view, &weld(&mesh));
     let faces = faces(&view, &topology, &Threads::default()).normal;
     let cosine = libm::cos(f64::from(angle_degrees).to_radians());
