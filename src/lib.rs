@@ -49,6 +49,7 @@ mod output;
 mod pipeline;
 mod placement;
 mod plan;
+mod refine;
 mod report;
 mod resample;
 mod scene;
@@ -69,7 +70,7 @@ pub use mesh::{Held, Mesh, MeshBuffers, UV_CHANNELS, Uv, UvBuffer};
 pub use options::{ChamferSubmesh, Options, Verify, Width};
 pub use pipeline::{Prepared, chamfer, chamfer_with_progress};
 pub use report::{
-    Blend, Chamfered, EdgeVerdict, Outcome, Reason, Totals, TriangleKind, TriangleSource,
+    Blend, Chamfered, EdgeVerdict, Outcome, Piece, Reason, Totals, TriangleKind, TriangleSource,
     VertexSource, VertexSources,
 };
 pub use scene::{ChamferedScene, Placed, chamfer_scene, scene_triangles};

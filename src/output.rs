@@ -162,6 +162,7 @@ impl Surface<'_> {
             mesh: MeshBuffers { indices, submesh_index_counts: index_counts, ..streams.vertices },
             vertex_sources: streams.sources,
             triangle_sources: sources,
+            pieces: Vec::new(),
             totals: totals(self.plan, &verdicts),
             verdicts,
             width: self.plan.view.width as f32,

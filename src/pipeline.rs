@@ -8,13 +8,15 @@ use crate::contacts::contacts;
 use crate::edges::{edges, may_be_hard};
 use crate::error::Error;
 use crate::faces::faces;
+use crate::ids::{IdVec, Sector};
 use crate::limits::limits;
 use crate::memory;
 use crate::mesh::Mesh;
-use crate::offsets::offsets;
+use crate::offsets::{Known, Offset, offsets};
 use crate::options::{Options, Verify, Width};
 use crate::output::{output, unchanged};
 use crate::plan::{Plan, Shape};
+use crate::refine::{Origins, Refined, refine, restored, shape as finer_shape};
 use crate::report::Chamfered;
 use crate::scene::{Placed, chamfer_scene};
 use crate::sectors::sectors;
@@ -232,12 +234,18 @@ pub(crate) fn shape(view: &View, weld: Weld, done: &mut Done) -> Result<Shape, E
 }
 
 /// All that is known before the limits.
+#[cfg(test)]
 pub(crate) fn plan<'a>(view: View<'a>, shape: &Shape) -> Plan<'a> {
-    let offsets = offsets(&view, &shape.topology, &shape.faces, &shape.sectors);
+    let offsets = offsets_of(&view, shape, None);
     Plan::new(view, shape, offsets)
 }
 
-/// The stages that depend on the width.
+fn offsets_of(view: &View, shape: &Shape, known: Option<&Known>) -> IdVec<Sector, Offset> {
+    offsets(view, &shape.topology, &shape.faces, &shape.sectors, known)
+}
+
+/// The stages that depend on the width. Where only a part of an edge can have a chamfer, the mesh
+/// gets vertices before it goes on.
 fn chamfer_shape(
     view: View,
     shape: Option<&Shape>,
@@ -249,15 +257,49 @@ fn chamfer_shape(
         done(Stage::Output)?;
         return Ok(chamfered);
     };
-    let plan = plan(view, shape);
+    let offsets = offsets_of(&view, shape, None);
+    match refine(&view, shape, &offsets) {
+        Some(refined) => chamfer_refined(view, shape, offsets, &refined, options, done),
+        None => {
+            done(Stage::Offsets)?;
+            chamfer_plan(&Plan::new(view, shape, offsets), options, done)
+        }
+    }
+}
+
+/// The same on a finer mesh.
+fn chamfer_refined(
+    view: View,
+    shape: &Shape,
+    offsets: IdVec<Sector, Offset>,
+    refined: &Refined,
+    options: &Options,
+    done: &mut Done,
+) -> Result<Chamfered, Error> {
+    let source = view.mesh;
+    let fine = View { mesh: refined.as_mesh(&source), ..view };
+    let Some(finer) = finer_shape(&fine, refined, shape) else {
+        done(Stage::Offsets)?;
+        let plan = Plan::new(View { mesh: source, ..fine }, shape, offsets);
+        return chamfer_plan(&plan, options, done);
+    };
+    let known = Known { sectors: &shape.sectors, offsets: &offsets, is_new: &refined.is_new() };
+    let offsets = offsets_of(&fine, &finer, Some(&known));
     done(Stage::Offsets)?;
-    let limits = limits(&plan, options.verify);
+    let chamfered = chamfer_plan(&Plan::new(fine, &finer, offsets), options, done)?;
+    let origins = Origins::new(&source, refined, &shape.edges.hard, &finer.edges.hard);
+    Ok(restored(&origins, chamfered))
+}
+
+/// The stages from the limits on.
+fn chamfer_plan(plan: &Plan, options: &Options, done: &mut Done) -> Result<Chamfered, Error> {
+    let limits = limits(plan, options.verify);
     done(Stage::Limits)?;
-    let cuts = strips(&plan, &limits.placement);
+    let cuts = strips(plan, &limits.placement);
     done(Stage::Strips)?;
-    let attributes = attributes(&plan, &limits.placement);
+    let attributes = attributes(plan, &limits.placement);
     done(Stage::Attributes)?;
-    let chamfered = output(&plan, &limits, &cuts, attributes, options.chamfer_submesh);
+    let chamfered = output(plan, &limits, &cuts, attributes, options.chamfer_submesh);
     done(Stage::Output)?;
     Ok(chamfered)
 }

@@ -5,7 +5,8 @@ use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 use chamfer::{
-    MeshBuffers, Options, UvBuffer, Verify, Width, chamfer_with_progress, most_memory, shapes,
+    Held, Mesh, MeshBuffers, Options, UvBuffer, Verify, Width, chamfer_with_progress, most_memory,
+    shapes,
 };
 
 #[path = "support/shaded.rs"]
@@ -38,9 +39,9 @@ unsafe impl GlobalAlloc for Counting {
 static ALLOCATOR: Counting = Counting;
 
 /// The most bytes that a call takes beside its input. What it asks for beforehand is left out.
-fn most_during(mesh: &MeshBuffers, options: &Options) -> u64 {
+fn most_during(mesh: &Mesh, options: &Options) -> u64 {
     let before = NOW.load(Relaxed);
-    let result = chamfer_with_progress(&mesh.as_mesh(), options, &mut |done| {
+    let result = chamfer_with_progress(mesh, options, &mut |done| {
         if done < 0.2 {
             MOST.store(NOW.load(Relaxed), Relaxed);
         }
@@ -93,7 +94,7 @@ fn a_call_takes_no_more_memory_than_it_asked_for() {
                 let width = Width::PercentOfExtent(percent);
                 let options = Options { width, verify, ..Options::default() };
                 let (bound, most) =
-                    (most_memory(&mesh.as_mesh(), verify), most_during(&mesh, &options));
+                    (most_memory(&mesh.as_mesh(), verify), most_during(&mesh.as_mesh(), &options));
                 println!("{name}, {verify:?}, {percent} %: {most} of {bound}");
                 // Half of it is for allocators, which lose some between the pieces.
                 // A call that looks may run again, and then asks for what it takes once more.
@@ -105,4 +106,26 @@ fn a_call_takes_no_more_memory_than_it_asked_for() {
         }
     }
     assert!(fullest > 0.25, "the bound is far too high: at most {fullest} of it is used");
+}
+
+/// Cubes on whose edges something rests in the middle: as many vertices as a mesh may get.
+#[test]
+fn edges_that_get_vertices_take_no_more() {
+    let cubes = dressed(shapes::cube_field(600));
+    let middles = cubes.indices.chunks_exact(36).take(200).map(|cube| {
+        let at = |corner: usize| cubes.positions[cube[corner] as usize];
+        let (from, to) = (at(0), at(1));
+        let mix = |share: f32| std::array::from_fn(|k| from[k] + (to[k] - from[k]) * share);
+        Held { from: mix(0.45), to: mix(0.55), radius: 0.0 }
+    });
+    let held: Vec<Held> = middles.collect();
+    let mesh = Mesh { held: &held, ..cubes.as_mesh() };
+    for verify in [Verify::Fast, Verify::Full] {
+        let options = Options { width: Width::PercentOfExtent(0.1), verify, ..Options::default() };
+        let result = chamfer_with_progress(&mesh, &options, &mut |_| ControlFlow::Continue(()));
+        assert!(result.unwrap().pieces.len() > 800, "they are cut");
+        let (bound, most) = (most_memory(&mesh, verify), most_during(&mesh, &options));
+        println!("held cubes, {verify:?}: {most} of {bound}");
+        assert!(2 * most <= bound, "{verify:?}: {most} of {bound}");
+    }
 }
