@@ -133,7 +133,7 @@ pub fn refine(view: &View, shape: &Shape, offsets: &IdVec<Sector, Offset>) -> Op
         let bad = splits::bad_triangles(view, shape, &refined);
         if bad.is_empty() {
             let [before, after] =
-                [&view.mesh.indices[..], &refined.mesh.indices].map(|all| all.len() as f64);
+                [view.mesh.indices, &refined.mesh.indices].map(|all| all.len() as f64);
             return (after <= before * (1.0 + MOST_GROWTH) + FEW_CORNERS).then_some(refined);
         }
         let is_good = |side: &Corner| bad.binary_search(&side.triangle()).is_err();

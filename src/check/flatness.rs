@@ -60,8 +60,9 @@ pub(super) fn check_flatness(
     let least_height = LEAST_HEIGHT * before.rounding();
     for (triangle, source) in (0u32..).zip(&origins.triangles) {
         let Some(source) = source else { continue };
-        // A line or a point has no plane and shows no normal.
-        if normal_with_area(before.triangle(source[0] / 3)).is_none() {
+        // A line or a point has no plane and shows no normal; of a piece the corners are guessed.
+        if origins.is_guess(triangle) || normal_with_area(before.triangle(source[0] / 3)).is_none()
+        {
             continue;
         }
         let alone = || Fan::of_triangle(before, source[0] / 3, least_height);

@@ -19,6 +19,16 @@ const OFF_TRIANGLE: f64 = 1e-5;
 /// A triangle is hardly ever cut into so many pieces in a row.
 const MOST_IN_A_ROW: usize = 64;
 
+/// What of a piece has to lie within its triangle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Within {
+    /// All its corners.
+    Corners,
+    /// Its middle: a corner that moved may stand right beside the triangle, on a neighbour in the
+    /// same plane.
+    Middle,
+}
+
 /// What is known of a triangle that is a piece of another one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Cut {
@@ -78,6 +88,7 @@ fn share_of_area(piece: &Piece) -> f64 {
 /// over an edge with the same vertices. Sets what they come from.
 pub(super) fn pieces_in_order(
     [before, after]: &[Surface; 2],
+    within: Within,
     triangles: &mut [Option<[u32; 3]>],
 ) -> Cuts {
     let mut pairs = Vec::new();
@@ -99,7 +110,7 @@ pub(super) fn pieces_in_order(
         for [one, other] in pairs.iter().flat_map(|&[one, other]| [[one, other], [other, one]]) {
             if let (Some(corners), None) = (triangles[one as usize], triangles[other as usize]) {
                 let source = corners[0] / 3;
-                if lies_on(before.triangle(source), after.triangle(other), off) {
+                if lies_on(before.triangle(source), after.triangle(other), within, off) {
                     triangles[other as usize] = Some(corners);
                     members.entry(source).or_insert_with(|| vec![one]).push(other);
                 }
@@ -129,15 +140,21 @@ fn add_cuts([before, after]: [&Surface; 2], source: u32, members: &[u32], cuts: 
     }
 }
 
-/// Whether a triangle lies within another one.
-fn lies_on(source: [DVec3; 3], triangle: [DVec3; 3], off: f64) -> bool {
+/// Whether a triangle lies on another one, and within it.
+fn lies_on(source: [DVec3; 3], triangle: [DVec3; 3], within: Within, off: f64) -> bool {
     let Some(normal) = normal_with_area(source).map(DVec3::normalize) else { return false };
     let faces = normal_with_area(triangle).is_some_and(|facing| facing.dot(normal) > 0.0);
-    let is_inside = |point: &DVec3| {
+    let is_inside = |point: DVec3| {
         (0..3).all(|k| {
             let (from, to) = (source[k], source[(k + 1) % 3]);
-            normal.cross((to - from).normalize()).dot(*point - from) >= -off
-        }) && (*point - source[0]).dot(normal).abs() <= off
+            normal.cross((to - from).normalize()).dot(point - from) >= -off
+        })
     };
-    faces && triangle.iter().all(is_inside)
+    let is_level = |point: &DVec3| (*point - source[0]).dot(normal).abs() <= off;
+    faces
+        && triangle.iter().all(is_level)
+        && match within {
+            Within::Corners => triangle.into_iter().all(is_inside),
+            Within::Middle => is_inside((triangle[0] + triangle[1] + triangle[2]) / 3.0),
+        }
 }
