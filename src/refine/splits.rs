@@ -22,8 +22,9 @@ const FROM_BAD_END: f64 = 3.0;
 /// Of a strip that is no longer than so many widths a third is near its bad end anyhow.
 const LEAST_LENGTH: f64 = 10.0;
 
-/// Nearer than so many widths to an end, the end itself will do.
-const LEAST_GAP: f64 = 0.5;
+/// No vertex is nearer than so many widths to an end: the end itself goes one width along the edge,
+/// and as much has to be left.
+const LEAST_GAP: f64 = 2.0;
 
 /// An edge on which more stretches rest apart from each other is left alone: what it would gain are
 /// crumbs, and what a call takes stays bounded.
@@ -120,12 +121,16 @@ impl EdgeOf<'_> {
         for [from, to] in held {
             match joined.last_mut() {
                 // Between two of them there has to be room to open and to close.
-                Some(last) if from < last[1] + 2.0 * room => last[1] = last[1].max(to),
+                Some(last) if from < last[1] + (2.0 * TAPER + LEAST_GAP) * width => {
+                    last[1] = last[1].max(to)
+                }
                 _ => joined.push([from, to]),
             }
         }
         let mut found = Found { stake: self.length, ..Found::default() };
         for [from, to] in joined {
+            let gap = LEAST_GAP * width;
+            let (from, to) = (from.min(self.length - gap), to.max(gap));
             if from > room {
                 found.at.extend([from - TAPER * width, from]);
             }
