@@ -13,7 +13,8 @@ use std::path::Path;
 use std::time::Duration;
 
 use chamfer::{MeshBuffers, Options, Stage, Verify, Width, chamfer};
-use chamfer_cli::{document::ReadOptions, format};
+use chamfer_formats as formats;
+use chamfer_formats::ReadOptions;
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
 
@@ -40,8 +41,8 @@ fn model(criterion: &mut Criterion, name: &str, mesh: &MeshBuffers) {
     group.bench_function("copy", |b| b.iter(|| models::copy(mesh, &result)));
     drop(result);
     whole(&mut group, "fast", mesh, one);
-    whole(&mut group, "fast, two threads", mesh, Options { threads: 2, ..one });
-    whole(&mut group, "full", mesh, Options { verify: Verify::Full, ..one });
+    whole(&mut group, "fast, two threads", mesh, one.with_threads(2));
+    whole(&mut group, "full", mesh, one.with_verify(Verify::Full));
     for (stage, _) in models::stage_times(mesh, &one) {
         group.bench_function(format!("stage {stage:?}"), |b| {
             b.iter_custom(|rounds| (0..rounds).map(|_| time_of(mesh, &one, stage)).sum());
@@ -60,10 +61,10 @@ fn time_of(mesh: &MeshBuffers, options: &Options, wanted: Stage) -> Duration {
 
 /// All models of the corpus, one after the other; nothing without them.
 fn corpus(criterion: &mut Criterion) {
-    let read = ReadOptions { smoothing_angle: 30.0 };
+    let read = ReadOptions::default();
     let documents: Vec<_> = measure::models(Path::new(measure::FOLDER))
         .iter()
-        .filter_map(|path| format::read(path, &read).ok())
+        .filter_map(|path| formats::read(path, &read).ok())
         .collect();
     if documents.is_empty() {
         return println!("SKIPPED: no models in {}", measure::FOLDER);
@@ -72,7 +73,7 @@ fn corpus(criterion: &mut Criterion) {
     group.sample_size(10);
     for verify in [Verify::Fast, Verify::Full] {
         let width = Width::PercentOfExtent(CORPUS_PERCENT);
-        let options = Options { width, verify, threads: 1, ..Options::default() };
+        let options = Options::default().with_width(width).with_verify(verify).with_threads(1);
         group.bench_function(format!("{verify:?}").to_lowercase(), |b| {
             b.iter(|| {
                 for source in documents.iter().flat_map(|document| document.meshes()) {

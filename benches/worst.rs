@@ -36,7 +36,7 @@ const SHAPES: &[(&str, u32, Make)] = &[
 
 fn worst_shapes(criterion: &mut Criterion) {
     let options =
-        Options { width: Width::PercentOfExtent(1.0), verify: Verify::Full, ..Options::default() };
+        Options::default().with_width(Width::PercentOfExtent(1.0)).with_verify(Verify::Full);
     for &(name, size, make) in SHAPES {
         let mut group = criterion.benchmark_group(name);
         group.sample_size(10);

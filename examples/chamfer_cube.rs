@@ -24,7 +24,7 @@ fn main() -> Result<(), chamfer::Error> {
         submesh_index_counts: &[indices.len() as u32],
         ..Mesh::default()
     };
-    let result = chamfer(&mesh, &Options { width: Width::Units(0.1), ..Options::default() })?;
+    let result = chamfer(&mesh, &Options::default().with_width(Width::Units(0.1)))?;
     let triangles = result.mesh.indices.len() / 3;
     println!("{} vertices, {triangles} triangles", result.mesh.positions.len());
     println!("{} of {} hard edges full", result.totals.chamfered, result.totals.hard_edges);

@@ -11,8 +11,8 @@ mod measure;
 use std::path::Path;
 
 use chamfer::{Options, Verify, Width, chamfer, shapes};
-use chamfer_cli::document::ReadOptions;
-use chamfer_cli::format;
+use chamfer_formats as formats;
+use chamfer_formats::ReadOptions;
 use fingerprint::fingerprint;
 
 fn main() {
@@ -32,9 +32,9 @@ fn main() {
     for (percent, path) in percents.iter().flat_map(|&percent| {
         measure::models(Path::new(&folder)).into_iter().map(move |path| (percent, path))
     }) {
-        let options = Options { width: Width::PercentOfExtent(percent), ..options };
+        let options = options.with_width(Width::PercentOfExtent(percent));
         let file = path.file_name().unwrap_or_default().to_string_lossy();
-        match format::read(&path, &ReadOptions { smoothing_angle: 30.0 }) {
+        match formats::read(&path, &ReadOptions::default()) {
             Err(error) => println!("{percent} % {file}: {error:#}"),
             Ok(document) => {
                 for (place, source) in document.meshes().iter().enumerate() {

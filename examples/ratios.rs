@@ -17,7 +17,8 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use chamfer::{MeshBuffers, Options, Prepared, Verify, Width, chamfer};
-use chamfer_cli::{document::ReadOptions, format};
+use chamfer_formats as formats;
+use chamfer_formats::ReadOptions;
 use models::{CUBES, copy, cube_field, options, position_remap, smooth_sphere, stage_times};
 
 /// In percent of each model's extent.
@@ -56,15 +57,15 @@ fn main() {
 
 /// The corpus as a whole, `full` in terms of `fast`, and the meshes that are slow to drag.
 fn corpus(rounds: usize) {
-    let read = ReadOptions { smoothing_angle: 30.0 };
+    let read = ReadOptions::default();
     let (mut fast, mut full, mut triangles) = (Duration::ZERO, Duration::ZERO, 0);
     for path in measure::models(Path::new(measure::FOLDER)) {
-        let Ok(document) = format::read(&path, &read) else { continue };
+        let Ok(document) = formats::read(&path, &read) else { continue };
         for source in document.meshes() {
             let mesh = source.mesh.as_mesh();
             let time = |verify| {
                 let width = Width::PercentOfExtent(CORPUS_PERCENT);
-                let options = Options { width, verify, ..Options::default() };
+                let options = Options::default().with_width(width).with_verify(verify);
                 median(rounds, || drop(black_box(chamfer(&mesh, &options))))
             };
             let [own_fast, own_full] = [Verify::Fast, Verify::Full].map(time);

@@ -14,11 +14,11 @@ use std::time::Instant;
 use chamfer::see_through::{Eyes, Leak, SceneTriangle, leaks};
 use chamfer::{Mesh, Options, Placed, Reason, Totals, Verify, Width, chamfer, chamfer_scene};
 use chamfer_cli::close_up::close_up;
-use chamfer_cli::document::ReadOptions;
-use chamfer_cli::format;
 use chamfer_cli::pictures::write_png;
 use chamfer_cli::preview::{Panel, contact_sheet};
 use chamfer_cli::scene::{largest_length, placed, scene_triangles};
+use chamfer_formats as formats;
+use chamfer_formats::ReadOptions;
 use glam::{Quat, Vec3};
 
 struct Request {
@@ -43,10 +43,10 @@ impl Request {
             is_verbose: false,
             is_held: false,
             is_turned: false,
-            judge: Eyes::with_threads(0),
+            judge: Eyes::default().with_threads(0),
             only: None,
             folder: measure::FOLDER.to_owned(),
-            eyes: Eyes::with_threads(0),
+            eyes: Eyes::default().with_threads(0),
             close_ups: None,
             percents: Vec::new(),
         };
@@ -104,19 +104,16 @@ fn main() {
 /// How many samples leak in a file. Prints where.
 fn look(request: &Request, path: &Path, percent: f32) -> usize {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let read = ReadOptions { smoothing_angle: 30.0 };
-    let document = match format::read(path, &read) {
+    let read = ReadOptions::default();
+    let document = match formats::read(path, &read) {
         Ok(document) => document,
         Err(error) => {
             println!("{name}: {error:#}");
             return 0;
         }
     };
-    let options = Options {
-        width: Width::PercentOfExtent(percent),
-        verify: request.verify,
-        ..Options::default()
-    };
+    let options =
+        Options::default().with_width(Width::PercentOfExtent(percent)).with_verify(request.verify);
     let meshes: Vec<Mesh> = document.meshes().iter().map(|mesh| mesh.mesh.as_mesh()).collect();
     let objects: Vec<Placed> = document
         .instances()
@@ -129,8 +126,8 @@ fn look(request: &Request, path: &Path, percent: f32) -> usize {
     let (chamfered, rounds) = (scene.meshes, scene.rounds);
     let counts = chamfered.iter().fold([0; 3], |[hard, contact, skipped], mesh| {
         let Totals { hard_edges, skipped: left, .. } = mesh.totals;
-        let held = left[Reason::Contact as usize];
-        [hard + hard_edges, contact + held, skipped + left.iter().sum::<u32>()]
+        let held = left[Reason::Contact];
+        [hard + hard_edges, contact + held, skipped + left.total()]
     });
     let before = scene_triangles(&*document, |mesh| &document.meshes()[mesh].mesh);
     let after = scene_triangles(&*document, |mesh| &chamfered[mesh].mesh);

@@ -14,378 +14,435 @@
  * CHAMFER_UPDATE_HEADER=1 cargo test --test header
  */
 
-
 #ifndef CHAMFER_H
 #define CHAMFER_H
 
 #include <stdint.h>
 
-/// The version of this interface that the header describes. A program checks that
-/// `chamfer_abi_version` gives the same before it calls anything else.
-#define CHAMFER_ABI_VERSION 1
-
-/// The call did what was asked.
-#define CHAMFER_STATUS_OK 0
-
-/// The progress callback asked to stop.
-#define CHAMFER_STATUS_CANCELLED 1
-
-/// A pointer that is needed is NULL.
-#define CHAMFER_STATUS_NULL_POINTER 100
-
-/// A pointer is not aligned for what it points to.
-#define CHAMFER_STATUS_MISALIGNED 101
-
-/// A `struct_size` is no size that this library knows, or fields that it does not know are set.
-#define CHAMFER_STATUS_STRUCT_SIZE 102
-
-/// A count asks for an array that does not fit the address space.
-#define CHAMFER_STATUS_COUNT_OVERFLOW 103
-
-/// The width is negative, infinite or not a number.
-#define CHAMFER_STATUS_BAD_WIDTH 104
-
-/// An option holds none of its constants, or is out of its range.
-#define CHAMFER_STATUS_BAD_OPTION 105
-
-/// The submesh that chamfers are to go to does not exist. Element: that submesh.
-#define CHAMFER_STATUS_SUBMESH_RANGE 106
-
-/// The angle is not between 0 and 180 degrees.
-#define CHAMFER_STATUS_BAD_ANGLE 107
-
-/// The place for the result or for the error lies in the mesh. Neither is written.
-#define CHAMFER_STATUS_OVERLAP 108
-
-/// An object of a scene is of a mesh that does not exist. Element: the object.
-#define CHAMFER_STATUS_OBJECT_MESH 109
-
-/// The transform of an object is infinite or not a number. Element: the object.
-#define CHAMFER_STATUS_BAD_TRANSFORM 110
-
-/// The mesh has no normals.
-#define CHAMFER_STATUS_MISSING_NORMALS 200
-
-/// A stream has another length than the positions.
-#define CHAMFER_STATUS_STREAM_LENGTH 201
-
-/// A UV channel is neither absent nor 2 to 4 wide. Element: the channel.
-#define CHAMFER_STATUS_UV_COMPONENTS 202
-
-/// A value is infinite or not a number. Element: the vertex.
-#define CHAMFER_STATUS_NOT_FINITE 203
-
-/// The submesh index counts do not add up to the index count.
-#define CHAMFER_STATUS_INDEX_TOTAL 204
-
-/// A submesh's index count is not a multiple of three. Element: the submesh.
-#define CHAMFER_STATUS_INDEX_COUNT 205
-
-/// An index points past the last vertex. Element: its place among the indices.
-#define CHAMFER_STATUS_INDEX_RANGE 206
-
-/// The result would not fit 32-bit indices.
-#define CHAMFER_STATUS_TOO_LARGE 300
-
-/// Memory for the result could not be had.
-#define CHAMFER_STATUS_OUT_OF_MEMORY 301
-
-/// A fault of this library, caught at its border: please report it.
-#define CHAMFER_STATUS_INTERNAL 900
-
-/// The `element` of an error that concerns no single element.
-#define CHAMFER_NO_ELEMENT 4294967295
-
-/// How many bytes an error message has room for, the final NUL included.
-#define CHAMFER_MESSAGE_SIZE 256
-
-/// How many UV channels a mesh has room for.
-#define CHAMFER_UV_CHANNELS 8
-
-/// `width_unit`: the width is in mesh units.
-#define CHAMFER_WIDTH_MESH_UNITS 0
-
-/// `width_unit`: the width is in percent of the largest side of the mesh's box.
-#define CHAMFER_WIDTH_PERCENT 1
-
-/// `verify`: nothing opens, flips or degenerates.
-#define CHAMFER_VERIFY_FAST 0
-
-/// `verify`: also, no part of the mesh cuts through itself where it did not before.
-#define CHAMFER_VERIFY_FULL 1
-
-/// `verify`: also, no light shows through the mesh where none did before, seen from many sides.
-#define CHAMFER_VERIFY_SEEN 2
-
-/// `submesh_mode`: new triangles go to the submesh of the face whose texture chart they continue.
-#define CHAMFER_SUBMESH_OWNER 0
-
-/// `submesh_mode`: new triangles go to a new submesh behind all others.
-#define CHAMFER_SUBMESH_OWN 1
-
-/// `submesh_mode`: new triangles go to the submesh that the field `submesh` names.
-#define CHAMFER_SUBMESH_GIVEN 2
-
-/// `outcome`: chamfered at the width asked for.
-#define CHAMFER_OUTCOME_FULL 0
-
-/// `outcome`: chamfered, but narrower somewhere.
-#define CHAMFER_OUTCOME_NARROWED 1
-
-/// `outcome`: left as it was.
-#define CHAMFER_OUTCOME_SKIPPED 2
-
-/// `reason`: the edge has full width.
-#define CHAMFER_REASON_NONE 0
-
-/// `reason`: a face beside the edge has no room, it would fold or lose its area.
-#define CHAMFER_REASON_NO_ROOM 1
-
-/// `reason`: the strip, or the fill at an end, would fold.
-#define CHAMFER_REASON_FOLDS 2
-
-/// `reason`: an end lies in a corner so sharp that the full distance would shoot out as a spike.
-#define CHAMFER_REASON_MITER 3
-
-/// `reason`: the chamfer would cut through the mesh.
-#define CHAMFER_REASON_INTERSECTS 4
-
-/// `reason`: nothing can be pulled at either end, both lie inside smooth areas or on borders.
-#define CHAMFER_REASON_NO_END 5
-
-/// `reason`: the faces beside the edge lie back to back.
-#define CHAMFER_REASON_ZERO_THICKNESS 6
-
-/// `reason`: a triangle beside the edge has no area.
-#define CHAMFER_REASON_NO_AREA 7
-
-/// `reason`: the width is too small for the precision of the positions here.
-#define CHAMFER_REASON_TOO_FINE 8
-
-/// `reason`: something rests on the edge, or right beside it; light would show behind a chamfer.
-#define CHAMFER_REASON_CONTACT 9
-
-/// How many reasons `skipped_by_reason` has room for: more than there are, so that reasons can be
-/// added.
-#define CHAMFER_REASON_SLOTS 16
-
-/// `kind`: the triangle is the source triangle of that index.
-#define CHAMFER_TRIANGLE_SOURCE 0
-
-/// `kind`: the triangle chamfers the hard edge whose verdict has that index.
-#define CHAMFER_TRIANGLE_EDGE 1
-
-/// `kind`: the triangle fills the corner at the source vertex of that index.
-#define CHAMFER_TRIANGLE_CORNER 2
-
-/// A copy of a mesh, with all that is known of it before anybody asks for a width. It never
-/// changes, so any number of threads may run it at once.
-typedef struct chamfer_prepared chamfer_prepared;
-
-/// What a call made: a mesh, where each of its elements came from, and a verdict for each hard
-/// edge. It never changes, so any number of threads may read it at once.
-typedef struct chamfer_result chamfer_result;
-
-/// How to chamfer a mesh. `chamfer_options_init` fills in the defaults.
-typedef struct chamfer_options {
-    /// `sizeof(chamfer_options)`.
-    uint32_t struct_size;
-    /// The distance between an old edge and the pulled one, in `width_unit`. Default: 1 percent.
-    float width;
-    /// One of `CHAMFER_WIDTH_MESH_UNITS`, `CHAMFER_WIDTH_PERCENT` (default).
-    uint32_t width_unit;
-    /// One of `CHAMFER_VERIFY_FAST`, `CHAMFER_VERIFY_FULL` (default), `CHAMFER_VERIFY_SEEN`.
-    uint32_t verify;
-    /// One of `CHAMFER_SUBMESH_OWNER` (default), `CHAMFER_SUBMESH_OWN`, `CHAMFER_SUBMESH_GIVEN`.
-    uint32_t submesh_mode;
-    /// With `CHAMFER_SUBMESH_GIVEN`, the submesh that new triangles go to; else ignored.
-    uint32_t submesh;
-    /// How many threads may work; 0 for as many as there are cores. Default: 1. The result is the
-    /// same.
-    uint32_t threads;
-    /// How much of the breadth of each face has to stay between its chamfers, as a share up to 1.
-    /// 0 for the default, a fifth; a tiny share for nothing.
-    float least_breadth;
-} chamfer_options;
-
-/// One UV channel of a mesh.
-typedef struct chamfer_uv {
-    /// Floats per vertex: 2 to 4, or 0 where the channel is absent.
-    uint32_t components;
-    /// `#vertices by components`; ignored where the channel is absent.
-    const float *values;
-} chamfer_uv;
-
-/// A place where the surface of a mesh is not to be cut away: all within a radius of a segment.
-///
-/// With radius 0 it is a line that rests on the surface, such as the open rim of another object of
-/// the scene: chamfers are narrowed to leave what it lies on. With a larger one, hard edges that
-/// come nearer stay as they are.
-typedef struct chamfer_held {
-    /// Where the segment begins, in mesh units.
-    float from[3];
-    /// Where it ends; the same for a point.
-    float to[3];
-    /// In mesh units.
-    float radius;
-} chamfer_held;
-
-/// A triangle mesh, vertex streams first, as the engines hold it. An absent stream is NULL. The
-/// library reads the arrays during the call only, and never writes them.
-typedef struct chamfer_mesh {
-    /// `sizeof(chamfer_mesh)`.
-    uint32_t struct_size;
-    /// How many vertices each stream has.
-    uint32_t vertex_count;
-    /// `#vertices by 3`, in mesh units.
-    const float *positions;
-    /// `#vertices by 3`, unit length. Hard edges are found by them.
-    const float *normals;
-    /// `#vertices by 4` or NULL: a unit vector and the handedness, +1 or -1.
-    const float *tangents;
-    /// `#vertices by 4` or NULL: red, green, blue, alpha.
-    const float *colors;
-    /// The UV channels.
-    struct chamfer_uv uvs[CHAMFER_UV_CHANNELS];
-    /// How many submeshes the triangles are divided into.
-    uint32_t submesh_count;
-    /// How many indices there are in all submeshes together.
-    uint32_t index_count;
-    /// `#submeshes`: how many of the indices belong to each, a multiple of three.
-    const uint32_t *submesh_index_counts;
-    /// `#triangles by 3`: the triangles of all submeshes, one submesh after the other.
-    const uint32_t *indices;
-    /// How many places are held.
-    uint32_t held_count;
-    /// `#held`, or NULL: where something outside of the mesh rests on it. Results hold none.
-    const struct chamfer_held *held;
-} chamfer_mesh;
-
-/// Called on the calling thread with the share done (0 to 1). A result other than 0 cancels. It
-/// must return to its caller: no exception, no `longjmp`.
-typedef int32_t (*chamfer_progress)(void *user, float done);
-
-/// What went wrong, in detail. Callers set `struct_size`; a call fills in the rest, also when it
-/// succeeds.
-typedef struct chamfer_error {
-    /// `sizeof(chamfer_error)`.
-    uint32_t struct_size;
-    /// The status that the call returned.
-    int32_t status;
-    /// The element at fault; the status says what it counts. `CHAMFER_NO_ELEMENT` if none.
-    uint32_t element;
-    /// One English sentence in UTF-8, ended by NUL: the element, the rule, what to do. Empty on
-    /// success.
-    char message[CHAMFER_MESSAGE_SIZE];
-    /// The mesh at fault, where there are several. `CHAMFER_NO_ELEMENT` if none.
-    uint32_t mesh;
-} chamfer_error;
-
-/// Sums over the verdicts of a result.
-typedef struct chamfer_totals {
-    /// `sizeof(chamfer_totals)`.
-    uint32_t struct_size;
-    /// Hard edges with two sides.
-    uint32_t hard_edges;
-    /// Those at full width.
-    uint32_t chamfered;
-    /// Those chamfered, but narrower somewhere.
-    uint32_t narrowed;
-    /// Those left as they were.
-    uint32_t skipped;
-    /// The width asked for, in mesh units.
-    float width;
-    /// Mean width of the hard edges, as a share (0 to 1) of the width asked for, weighted by edge
-    /// length; 0 without hard edges. Skipped edges have none; ends at which both sides stay put
-    /// at any width do not count: where the edge runs out in a smooth area, at a T-junction, or
-    /// where several creases hold the vertex.
-    float mean_width;
-    /// The skipped edges by reason; places past the last reason are 0.
-    uint32_t skipped_by_reason[CHAMFER_REASON_SLOTS];
-} chamfer_totals;
-
-/// What became of one hard edge.
-typedef struct chamfer_edge_verdict {
-    /// The source vertices at its ends, on the side of the first triangle that uses it.
-    uint32_t vertices[2];
-    /// One of `CHAMFER_OUTCOME_*`.
-    uint32_t outcome;
-    /// Why it is not at full width: one of `CHAMFER_REASON_*`.
-    uint32_t reason;
-    /// At each end, the mean of the distances from the old edge to its two pulled sides, in mesh
-    /// units.
-    float widths[2];
-} chamfer_edge_verdict;
-
-/// A weighted mean of up to three source vertices.
-typedef struct chamfer_blend {
-    /// Source vertex indices.
-    uint32_t vertices[3];
-    /// Their weights, of sum 1; 0 in unused places, negative where a vertex moved past a triangle.
-    float weights[3];
-} chamfer_blend;
-
-/// What an output vertex was re-sampled from. With it, callers carry streams of their own.
-typedef struct chamfer_vertex_source {
-    /// For what belongs to the surface: position, normal, skin weights, morph targets.
-    struct chamfer_blend surface;
-    /// For what belongs to the vertex's own texture chart: colour, and the UV channels and tangent
-    /// that `owner_channels` does not name.
-    struct chamfer_blend chart;
-    /// A place in the chart that the chamfer continues over a seam; the same as `chart` where
-    /// `owner_channels` is 0.
-    struct chamfer_blend owner;
-    /// The UV channels that follow `owner`: channel `k` where bit `k` is set. The tangent goes with
-    /// channel 0.
-    uint32_t owner_channels;
-} chamfer_vertex_source;
-
-/// What an output triangle came from.
-typedef struct chamfer_triangle_source {
-    /// What `index` counts: one of `CHAMFER_TRIANGLE_*`.
-    uint32_t kind;
-    /// A source triangle, a verdict, or a source vertex.
-    uint32_t index;
-} chamfer_triangle_source;
-
-/// A mesh that stands somewhere in a scene. One mesh may stand there several times.
-typedef struct chamfer_object {
-    /// Its number among the meshes of the scene.
-    uint32_t mesh;
-    /// From mesh to scene, column by column; the last row is taken for 0, 0, 0, 1. It may mirror.
-    /// An object that it flattens is not there for the others.
-    float transform[16];
-} chamfer_object;
+/*
+ * What each function is declared with. On Windows, define CHAMFER_DLL where the library is linked as a
+ * DLL, and CHAMFER_EXPORTS where you build a DLL that defines these functions itself, such as a
+ * stand-in for tests. Elsewhere the functions are visible, also with -fvisibility=hidden.
+ */
+#ifndef CHAMFER_API
+#if defined(_WIN32) && defined(CHAMFER_EXPORTS)
+#define CHAMFER_API __declspec(dllexport)
+#elif defined(_WIN32) && defined(CHAMFER_DLL)
+#define CHAMFER_API __declspec(dllimport)
+#elif !defined(_WIN32) && defined(__GNUC__)
+#define CHAMFER_API __attribute__((visibility("default")))
+#else
+#define CHAMFER_API
+#endif
+#endif
 
 #ifdef __cplusplus
 extern "C" {
-#endif // __cplusplus
+#endif
 
-/// The version of this interface that the library was built with: `CHAMFER_ABI_VERSION` of its
-/// header.
-uint32_t chamfer_abi_version(void);
+/**
+ * The version of this interface that the header describes. A program checks that
+ * `chamfer_abi_version` gives the same before it calls anything else.
+ */
+#define CHAMFER_ABI_VERSION 1
 
-/// The version of the library, such as "1.2.3". It lives as long as the library.
-const char *chamfer_version_string(void);
+/** The call did what was asked. */
+#define CHAMFER_STATUS_OK 0
 
-/// What a status means, in a few English words. It lives as long as the library; never NULL.
-const char *chamfer_status_string(int32_t status);
+/** The progress callback asked to stop. */
+#define CHAMFER_STATUS_CANCELLED 1
 
-/// The short name of a `CHAMFER_REASON_*`, in lower case with underscores. It lives as long as the
-/// library; never NULL.
-const char *chamfer_reason_string(uint32_t reason);
+/** A pointer that is needed is NULL. */
+#define CHAMFER_STATUS_NULL_POINTER 100
 
-/// Fills in the default options. Set `struct_size` first.
-int32_t chamfer_options_init(struct chamfer_options *options);
+/** A pointer is not aligned for what it points to. */
+#define CHAMFER_STATUS_MISALIGNED 101
 
-/// Makes the mesh empty, with every stream absent. Set `struct_size` first.
-int32_t chamfer_mesh_init(struct chamfer_mesh *mesh);
+/** A `struct_size` is no size that this library knows, or fields that it does not know are set. */
+#define CHAMFER_STATUS_STRUCT_SIZE 102
 
-/// Chamfers all hard edges of a mesh.
-///
-/// `mesh` is borrowed for the call. `options` may be NULL for the defaults, `progress` for none
-/// (`user` is handed to it unchanged), `error` for no details. On success `*out` is a new result,
-/// to be freed with `chamfer_result_destroy`; on failure it is NULL.
+/** A count asks for an array that does not fit the address space. */
+#define CHAMFER_STATUS_COUNT_OVERFLOW 103
+
+/** The width is negative, infinite or not a number. */
+#define CHAMFER_STATUS_BAD_WIDTH 104
+
+/** An option holds none of its constants, or is out of its range. */
+#define CHAMFER_STATUS_BAD_OPTION 105
+
+/** The submesh that chamfers are to go to does not exist. Element: that submesh. */
+#define CHAMFER_STATUS_SUBMESH_RANGE 106
+
+/** The angle is not between 0 and 180 degrees. */
+#define CHAMFER_STATUS_BAD_ANGLE 107
+
+/** The place for the result or for the error lies in the mesh. Neither is written. */
+#define CHAMFER_STATUS_OVERLAP 108
+
+/** An object of a scene is of a mesh that does not exist. Element: the object. */
+#define CHAMFER_STATUS_OBJECT_MESH 109
+
+/** The transform of an object is infinite or not a number. Element: the object. */
+#define CHAMFER_STATUS_BAD_TRANSFORM 110
+
+/** The mesh has no normals. */
+#define CHAMFER_STATUS_MISSING_NORMALS 200
+
+/** A stream has another length than the positions. */
+#define CHAMFER_STATUS_STREAM_LENGTH 201
+
+/** A UV channel is neither absent nor 2 to 4 wide. Element: the channel. */
+#define CHAMFER_STATUS_UV_COMPONENTS 202
+
+/** A value is infinite or not a number. Element: the vertex. */
+#define CHAMFER_STATUS_NOT_FINITE 203
+
+/** The submesh index counts do not add up to the index count. */
+#define CHAMFER_STATUS_INDEX_TOTAL 204
+
+/** A submesh's index count is not a multiple of three. Element: the submesh. */
+#define CHAMFER_STATUS_INDEX_COUNT 205
+
+/** An index points past the last vertex. Element: its place among the indices. */
+#define CHAMFER_STATUS_INDEX_RANGE 206
+
+/** The result would not fit 32-bit indices. */
+#define CHAMFER_STATUS_TOO_LARGE 300
+
+/** Memory for the result could not be had. */
+#define CHAMFER_STATUS_OUT_OF_MEMORY 301
+
+/** A fault of this library, caught at its border: please report it. */
+#define CHAMFER_STATUS_INTERNAL 900
+
+/** The `element` of an error that concerns no single element. */
+#define CHAMFER_NO_ELEMENT UINT32_MAX
+
+/** How many bytes an error message has room for, the final NUL included. */
+#define CHAMFER_MESSAGE_SIZE 256
+
+/** How many UV channels a mesh has room for. */
+#define CHAMFER_UV_CHANNELS 8
+
+/** `width_unit`: the width is in mesh units. */
+#define CHAMFER_WIDTH_MESH_UNITS 0
+
+/** `width_unit`: the width is in percent of the largest side of the mesh's box. */
+#define CHAMFER_WIDTH_PERCENT 1
+
+/** `verify`: nothing opens, flips or degenerates. */
+#define CHAMFER_VERIFY_FAST 0
+
+/** `verify`: also, no part of the mesh cuts through itself where it did not before. */
+#define CHAMFER_VERIFY_FULL 1
+
+/** `verify`: also, no light shows through the mesh where none did before, seen from many sides. */
+#define CHAMFER_VERIFY_SEEN 2
+
+/** `submesh_mode`: new triangles go to the submesh of the face whose texture chart they continue. */
+#define CHAMFER_SUBMESH_OWNER 0
+
+/** `submesh_mode`: new triangles go to a new submesh behind all others. */
+#define CHAMFER_SUBMESH_OWN 1
+
+/** `submesh_mode`: new triangles go to the submesh that the field `submesh` names. */
+#define CHAMFER_SUBMESH_GIVEN 2
+
+/** `outcome`: chamfered at the width asked for. */
+#define CHAMFER_OUTCOME_FULL 0
+
+/** `outcome`: chamfered, but narrower somewhere. */
+#define CHAMFER_OUTCOME_NARROWED 1
+
+/** `outcome`: left as it was. */
+#define CHAMFER_OUTCOME_SKIPPED 2
+
+/** `reason`: the edge has full width. */
+#define CHAMFER_REASON_NONE 0
+
+/** `reason`: a face beside the edge has no room, it would fold or lose its area. */
+#define CHAMFER_REASON_NO_ROOM 1
+
+/** `reason`: the strip, or the fill at an end, would fold. */
+#define CHAMFER_REASON_FOLDS 2
+
+/** `reason`: an end lies in a corner so sharp that the full distance would shoot out as a spike. */
+#define CHAMFER_REASON_MITER 3
+
+/** `reason`: the chamfer would cut through the mesh. */
+#define CHAMFER_REASON_INTERSECTS 4
+
+/** `reason`: nothing can be pulled at either end, both lie inside smooth areas or on borders. */
+#define CHAMFER_REASON_NO_END 5
+
+/** `reason`: the faces beside the edge lie back to back. */
+#define CHAMFER_REASON_ZERO_THICKNESS 6
+
+/** `reason`: a triangle beside the edge has no area. */
+#define CHAMFER_REASON_NO_AREA 7
+
+/** `reason`: the width is too small for the precision of the positions here. */
+#define CHAMFER_REASON_TOO_FINE 8
+
+/** `reason`: something rests on the edge, or right beside it; light would show behind a chamfer. */
+#define CHAMFER_REASON_CONTACT 9
+
+/**
+ * How many reasons `skipped_by_reason` has room for: more than there are, so that reasons can be
+ * added.
+ */
+#define CHAMFER_REASON_SLOTS 16
+
+/** `kind`: the triangle is the source triangle of that index. */
+#define CHAMFER_TRIANGLE_SOURCE 0
+
+/** `kind`: the triangle chamfers the hard edge whose verdict has that index. */
+#define CHAMFER_TRIANGLE_EDGE 1
+
+/** `kind`: the triangle fills the corner at the source vertex of that index. */
+#define CHAMFER_TRIANGLE_CORNER 2
+
+/**
+ * A copy of a mesh, with all that is known of it before anybody asks for a width. It never
+ * changes, so any number of threads may run it at once.
+ */
+typedef struct chamfer_prepared chamfer_prepared;
+
+/**
+ * What a call made: a mesh, where each of its elements came from, and a verdict for each hard
+ * edge. It never changes, so any number of threads may read it at once.
+ */
+typedef struct chamfer_result chamfer_result;
+
+/** How to chamfer a mesh. `chamfer_options_init` fills in the defaults. */
+typedef struct chamfer_options {
+    /** `sizeof(chamfer_options)`. */
+    uint32_t struct_size;
+    /** The distance between an old edge and the pulled one, in `width_unit`. Default: 1 percent. */
+    float width;
+    /** One of `CHAMFER_WIDTH_MESH_UNITS`, `CHAMFER_WIDTH_PERCENT` (default). */
+    uint32_t width_unit;
+    /** One of `CHAMFER_VERIFY_FAST`, `CHAMFER_VERIFY_FULL` (default), `CHAMFER_VERIFY_SEEN`. */
+    uint32_t verify;
+    /** One of `CHAMFER_SUBMESH_OWNER` (default), `CHAMFER_SUBMESH_OWN`, `CHAMFER_SUBMESH_GIVEN`. */
+    uint32_t submesh_mode;
+    /** With `CHAMFER_SUBMESH_GIVEN`, the submesh that new triangles go to; else ignored. */
+    uint32_t submesh;
+    /**
+     * How many threads may work; 0 for as many as there are cores. Default: 1. The result is the
+     * same.
+     */
+    uint32_t threads;
+    /**
+     * How much of the breadth of each face has to stay between its chamfers, as a share up to 1.
+     * 0 for the default, a fifth; a tiny share for nothing.
+     */
+    float least_breadth;
+} chamfer_options;
+
+/** One UV channel of a mesh. */
+typedef struct chamfer_uv {
+    /** Floats per vertex: 2 to 4, or 0 where the channel is absent. */
+    uint32_t components;
+    /** `#vertices by components`; ignored where the channel is absent. */
+    const float *values;
+} chamfer_uv;
+
+/**
+ * A place where the surface of a mesh is not to be cut away: all within a radius of a segment.
+ *
+ * With radius 0 it is a line that rests on the surface, such as the open rim of another object of
+ * the scene: chamfers are narrowed to leave what it lies on. With a larger one, hard edges that
+ * come nearer stay as they are.
+ */
+typedef struct chamfer_held {
+    /** Where the segment begins, in mesh units. */
+    float from[3];
+    /** Where it ends; the same for a point. */
+    float to[3];
+    /** In mesh units. */
+    float radius;
+} chamfer_held;
+
+/**
+ * A triangle mesh, vertex streams first, as the engines hold it. An absent stream is NULL. The
+ * library reads the arrays during the call only, and never writes them.
+ */
+typedef struct chamfer_mesh {
+    /** `sizeof(chamfer_mesh)`. */
+    uint32_t struct_size;
+    /** How many vertices each stream has. */
+    uint32_t vertex_count;
+    /** `#vertices by 3`, in mesh units. */
+    const float *positions;
+    /** `#vertices by 3`, unit length. Hard edges are found by them. */
+    const float *normals;
+    /** `#vertices by 4` or NULL: a unit vector and the handedness, +1 or -1. */
+    const float *tangents;
+    /** `#vertices by 4` or NULL: red, green, blue, alpha. */
+    const float *colors;
+    /** The UV channels. */
+    struct chamfer_uv uvs[CHAMFER_UV_CHANNELS];
+    /** How many submeshes the triangles are divided into. */
+    uint32_t submesh_count;
+    /** How many indices there are in all submeshes together. */
+    uint32_t index_count;
+    /** `#submeshes`: how many of the indices belong to each, a multiple of three. */
+    const uint32_t *submesh_index_counts;
+    /** `#triangles by 3`: the triangles of all submeshes, one submesh after the other. */
+    const uint32_t *indices;
+    /** How many places are held. */
+    uint32_t held_count;
+    /** `#held`, or NULL: where something outside of the mesh rests on it. Results hold none. */
+    const struct chamfer_held *held;
+} chamfer_mesh;
+
+/**
+ * Called on the calling thread with the share done (0 to 1). A result other than 0 cancels. It
+ * must return to its caller: no exception, no `longjmp`.
+ */
+typedef int32_t (*chamfer_progress)(void *user, float done);
+
+/**
+ * What went wrong, in detail. Callers set `struct_size`; a call fills in the rest, also when it
+ * succeeds.
+ */
+typedef struct chamfer_error {
+    /** `sizeof(chamfer_error)`. */
+    uint32_t struct_size;
+    /** The status that the call returned. */
+    int32_t status;
+    /** The element at fault; the status says what it counts. `CHAMFER_NO_ELEMENT` if none. */
+    uint32_t element;
+    /**
+     * One English sentence in UTF-8, ended by NUL: the element, the rule, what to do. Empty on
+     * success.
+     */
+    char message[CHAMFER_MESSAGE_SIZE];
+    /** The mesh at fault, where there are several. `CHAMFER_NO_ELEMENT` if none. */
+    uint32_t mesh;
+} chamfer_error;
+
+/** Sums over the verdicts of a result. */
+typedef struct chamfer_totals {
+    /** `sizeof(chamfer_totals)`. */
+    uint32_t struct_size;
+    /** Hard edges with two sides. */
+    uint32_t hard_edges;
+    /** Those at full width. */
+    uint32_t chamfered;
+    /** Those chamfered, but narrower somewhere. */
+    uint32_t narrowed;
+    /** Those left as they were. */
+    uint32_t skipped;
+    /** The width asked for, in mesh units. */
+    float width;
+    /**
+     * Mean width of the hard edges, as a share (0 to 1) of the width asked for, weighted by edge
+     * length; 0 without hard edges. Skipped edges have none; ends at which both sides stay put
+     * at any width do not count: where the edge runs out in a smooth area, at a T-junction, or
+     * where several creases hold the vertex.
+     */
+    float mean_width;
+    /** The skipped edges by reason; places past the last reason are 0. */
+    uint32_t skipped_by_reason[CHAMFER_REASON_SLOTS];
+} chamfer_totals;
+
+/** What became of one hard edge. */
+typedef struct chamfer_edge_verdict {
+    /** The source vertices at its ends, on the side of the first triangle that uses it. */
+    uint32_t vertices[2];
+    /** One of `CHAMFER_OUTCOME_*`. */
+    uint32_t outcome;
+    /** Why it is not at full width: one of `CHAMFER_REASON_*`. */
+    uint32_t reason;
+    /**
+     * At each end, the mean of the distances from the old edge to its two pulled sides, in mesh
+     * units.
+     */
+    float widths[2];
+} chamfer_edge_verdict;
+
+/** A weighted mean of up to three source vertices. */
+typedef struct chamfer_blend {
+    /** Source vertex indices. */
+    uint32_t vertices[3];
+    /** Their weights, of sum 1; 0 in unused places, negative where a vertex moved past a triangle. */
+    float weights[3];
+} chamfer_blend;
+
+/** What an output vertex was re-sampled from. With it, callers carry streams of their own. */
+typedef struct chamfer_vertex_source {
+    /** For what belongs to the surface: position, normal, skin weights, morph targets. */
+    struct chamfer_blend surface;
+    /**
+     * For what belongs to the vertex's own texture chart: colour, and the UV channels and tangent
+     * that `owner_channels` does not name.
+     */
+    struct chamfer_blend chart;
+    /**
+     * A place in the chart that the chamfer continues over a seam; the same as `chart` where
+     * `owner_channels` is 0.
+     */
+    struct chamfer_blend owner;
+    /**
+     * The UV channels that follow `owner`: channel `k` where bit `k` is set. The tangent goes with
+     * channel 0.
+     */
+    uint32_t owner_channels;
+} chamfer_vertex_source;
+
+/** What an output triangle came from. */
+typedef struct chamfer_triangle_source {
+    /** What `index` counts: one of `CHAMFER_TRIANGLE_*`. */
+    uint32_t kind;
+    /** A source triangle, a verdict, or a source vertex. */
+    uint32_t index;
+} chamfer_triangle_source;
+
+/** A mesh that stands somewhere in a scene. One mesh may stand there several times. */
+typedef struct chamfer_object {
+    /** Its number among the meshes of the scene. */
+    uint32_t mesh;
+    /**
+     * From mesh to scene, column by column; the last row is taken for 0, 0, 0, 1. It may mirror.
+     * An object that it flattens is not there for the others.
+     */
+    float transform[16];
+} chamfer_object;
+
+/**
+ * The version of this interface that the library was built with: `CHAMFER_ABI_VERSION` of its
+ * header.
+ */
+CHAMFER_API uint32_t chamfer_abi_version(void);
+
+/** The version of the library, such as "1.2.3". It lives as long as the library. */
+CHAMFER_API const char *chamfer_version_string(void);
+
+/** What a status means, in a few English words. It lives as long as the library; never NULL. */
+CHAMFER_API const char *chamfer_status_string(int32_t status);
+
+/**
+ * The short name of a `CHAMFER_REASON_*`, in lower case with underscores. It lives as long as the
+ * library; never NULL.
+ */
+CHAMFER_API const char *chamfer_reason_string(uint32_t reason);
+
+/** Fills in the default options. Set `struct_size` first. */
+CHAMFER_API int32_t chamfer_options_init(struct chamfer_options *options);
+
+/** Makes the mesh empty, with every stream absent. Set `struct_size` first. */
+CHAMFER_API int32_t chamfer_mesh_init(struct chamfer_mesh *mesh);
+
+/**
+ * Chamfers all hard edges of a mesh.
+ *
+ * `mesh` is borrowed for the call. `options` may be NULL for the defaults, `progress` for none
+ * (`user` is handed to it unchanged), `error` for no details. On success `*out` is a new result,
+ * to be freed with `chamfer_result_destroy`; on failure it is NULL.
+ */
+CHAMFER_API
 int32_t chamfer_run(const struct chamfer_mesh *mesh,
                     const struct chamfer_options *options,
                     chamfer_progress progress,
@@ -393,56 +450,78 @@ int32_t chamfer_run(const struct chamfer_mesh *mesh,
                     struct chamfer_result **out,
                     struct chamfer_error *error);
 
-/// Gives a mesh normals by smoothing angle: faces joined by edges of at most `angle_degrees` (0 to
-/// 180) shade as one surface, and vertices are split where normals differ.
-///
-/// The mesh's own normals are ignored and may be NULL; all other streams are copied along. The
-/// result has no verdicts; `mesh`, `out` and `error` are as for `chamfer_run`.
+/**
+ * Gives a mesh normals by smoothing angle: faces joined by edges of at most `angle_degrees` (0 to
+ * 180) shade as one surface, and vertices are split where normals differ.
+ *
+ * The mesh's own normals are ignored and may be NULL; all other streams are copied along. The
+ * result has no verdicts; `mesh`, `out` and `error` are as for `chamfer_run`.
+ */
+CHAMFER_API
 int32_t chamfer_split_by_angle(const struct chamfer_mesh *mesh,
                                float angle_degrees,
                                struct chamfer_result **out,
                                struct chamfer_error *error);
 
-/// Views the result's mesh. Set `struct_size` of `mesh` first.
-///
-/// Its arrays belong to the result and live until that is destroyed. The view can be given to
-/// `chamfer_run` as it is.
-int32_t chamfer_result_mesh(const struct chamfer_result *result, struct chamfer_mesh *mesh);
+/**
+ * Views the result's mesh. Set `struct_size` of `mesh` first.
+ *
+ * Its arrays belong to the result and live until that is destroyed. The view can be given to
+ * `chamfer_run` as it is.
+ */
+CHAMFER_API
+int32_t chamfer_result_mesh(const struct chamfer_result *result,
+                            struct chamfer_mesh *mesh);
 
-/// Copies the sums over the result's verdicts. Set `struct_size` of `totals` first.
-int32_t chamfer_result_totals(const struct chamfer_result *result, struct chamfer_totals *totals);
+/** Copies the sums over the result's verdicts. Set `struct_size` of `totals` first. */
+CHAMFER_API
+int32_t chamfer_result_totals(const struct chamfer_result *result,
+                              struct chamfer_totals *totals);
 
-/// Views the verdicts: `#hard edges` with two sides. The array lives as long as the result; NULL
-/// if there are none.
+/**
+ * Views the verdicts: `#hard edges` with two sides. The array lives as long as the result; NULL
+ * if there are none.
+ */
+CHAMFER_API
 int32_t chamfer_result_verdicts(const struct chamfer_result *result,
                                 const struct chamfer_edge_verdict **verdicts,
                                 uint32_t *count);
 
-/// Views what each vertex of the result's mesh came from: `#vertices`. The array is made by the
-/// first call, if there is memory for it, and lives as long as the result; NULL if there are none.
+/**
+ * Views what each vertex of the result's mesh came from: `#vertices`. The array is made by the
+ * first call, if there is memory for it, and lives as long as the result; NULL if there are none.
+ */
+CHAMFER_API
 int32_t chamfer_result_vertex_sources(const struct chamfer_result *result,
                                       const struct chamfer_vertex_source **sources,
                                       uint32_t *count);
 
-/// Views what each triangle of the result's mesh came from: `#triangles`. The array lives as long
-/// as the result; NULL if there are none.
+/**
+ * Views what each triangle of the result's mesh came from: `#triangles`. The array lives as long
+ * as the result; NULL if there are none.
+ */
+CHAMFER_API
 int32_t chamfer_result_triangle_sources(const struct chamfer_result *result,
                                         const struct chamfer_triangle_source **sources,
                                         uint32_t *count);
 
-/// Frees a result and every array viewed through it. NULL is allowed.
-void chamfer_result_destroy(struct chamfer_result *result);
+/** Frees a result and every array viewed through it. NULL is allowed. */
+CHAMFER_API void chamfer_result_destroy(struct chamfer_result *result);
 
-/// Prepares a mesh for several widths: each then takes less than `chamfer_run` would.
-///
-/// `mesh` is borrowed for the call and copied, so what becomes of it later does not matter; a mesh
-/// that changed is prepared anew. `error` may be NULL. On success `*out` is to be freed with
-/// `chamfer_prepared_destroy`; on failure it is NULL.
+/**
+ * Prepares a mesh for several widths: each then takes less than `chamfer_run` would.
+ *
+ * `mesh` is borrowed for the call and copied, so what becomes of it later does not matter; a mesh
+ * that changed is prepared anew. `error` may be NULL. On success `*out` is to be freed with
+ * `chamfer_prepared_destroy`; on failure it is NULL.
+ */
+CHAMFER_API
 int32_t chamfer_prepare(const struct chamfer_mesh *mesh,
                         struct chamfer_prepared **out,
                         struct chamfer_error *error);
 
-/// As `chamfer_run` of the mesh that was prepared, to the byte.
+/** As `chamfer_run` of the mesh that was prepared, to the byte. */
+CHAMFER_API
 int32_t chamfer_prepared_run(const struct chamfer_prepared *prepared,
                              const struct chamfer_options *options,
                              chamfer_progress progress,
@@ -450,17 +529,20 @@ int32_t chamfer_prepared_run(const struct chamfer_prepared *prepared,
                              struct chamfer_result **out,
                              struct chamfer_error *error);
 
-/// Frees a prepared mesh. Results that came of it live on. NULL is allowed.
-void chamfer_prepared_destroy(struct chamfer_prepared *prepared);
+/** Frees a prepared mesh. Results that came of it live on. NULL is allowed. */
+CHAMFER_API void chamfer_prepared_destroy(struct chamfer_prepared *prepared);
 
-/// Chamfers meshes that stand together: of each, the edges are held that the open border of
-/// another object rests on. With `CHAMFER_VERIFY_SEEN` the scene is looked at as a whole, and what
-/// lets light through is held too.
-///
-/// `meshes` holds `mesh_count` pointers, and `objects` says where the meshes stand. A mesh that no
-/// object names is chamfered as `chamfer_run` would. On success each of the `mesh_count` places of
-/// `results` is a new result, to be freed with `chamfer_result_destroy`; on failure all are NULL,
-/// and `mesh` of the error is the number of the mesh at fault. All else is as for `chamfer_run`.
+/**
+ * Chamfers meshes that stand together: of each, the edges are held that the open border of
+ * another object rests on. With `CHAMFER_VERIFY_SEEN` the scene is looked at as a whole, and what
+ * lets light through is held too.
+ *
+ * `meshes` holds `mesh_count` pointers, and `objects` says where the meshes stand. A mesh that no
+ * object names is chamfered as `chamfer_run` would. On success each of the `mesh_count` places of
+ * `results` is a new result, to be freed with `chamfer_result_destroy`; on failure all are NULL,
+ * and `mesh` of the error is the number of the mesh at fault. All else is as for `chamfer_run`.
+ */
+CHAMFER_API
 int32_t chamfer_scene_run(const struct chamfer_mesh *const *meshes,
                           uint32_t mesh_count,
                           const struct chamfer_object *objects,
@@ -472,7 +554,7 @@ int32_t chamfer_scene_run(const struct chamfer_mesh *const *meshes,
                           struct chamfer_error *error);
 
 #ifdef __cplusplus
-}  // extern "C"
-#endif  // __cplusplus
+}
+#endif
 
-#endif  /* CHAMFER_H */
+#endif /* CHAMFER_H */

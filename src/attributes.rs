@@ -4,16 +4,20 @@
 //! keeps the index, the others are appended. A flat face keeps its normal to the bit, a curved one
 //! the shading that it had at that place.
 
+mod collapsed;
+mod index;
 pub mod middles;
 mod streams;
 
+use crate::breaks::same_chart;
 use crate::ids::{Corner, Few, IdVec, Sector, Vertex};
 use crate::placement::Placement;
 use crate::plan::Plan;
 use crate::report::Blend;
-use crate::resample::{chart_foot, same_chart, surface_foot};
+use crate::resample::{blended_normal, chart_foot, surface_foot};
 
-pub use streams::{Channels, Streams};
+use streams::Row;
+pub use streams::{Streams, Taken};
 
 /// The vertices of the result, as far as source triangles use them.
 pub struct Attributes {
@@ -31,9 +35,15 @@ pub fn attributes(plan: &Plan, placement: &Placement) -> Attributes {
         streams: Streams::of_source(&plan.view, plan.sectors.fans.len(), copies),
         vertex_at: IdVec::from_vec(vertex_at),
     };
-    let mut taken = staying(plan, placement);
-    for sector in plan.sectors.fans.ids().filter(|&sector| placement.has_moved(plan, sector)) {
-        move_sector(plan, placement, sector, &mut taken, &mut attributes);
+    let (mut taken, mut parted) = (staying(plan, placement), Vec::new());
+    let moved = || plan.sectors.fans.ids().filter(|&sector| placement.has_moved(plan, sector));
+    for sector in moved() {
+        move_sector(plan, placement, sector, (&mut taken, &mut parted), &mut attributes);
+    }
+    attributes.streams.look_up(plan);
+    add_parted(plan, placement, &parted, &mut attributes);
+    if moved().next().is_some() {
+        collapsed::close(plan, &mut attributes.vertex_at);
     }
     attributes
 }
@@ -52,38 +62,47 @@ fn staying(plan: &Plan, placement: &Placement) -> IdVec<Vertex, bool> {
     taken
 }
 
-/// Gives each vertex of a sector its new place: in its own index if that is free, or appended.
+/// A corner whose vertex another sector has taken, and its own sector.
+type Parted = (Sector, Corner);
+
+/// Gives each vertex of a sector its new place: in its own index if that is free; else it is noted,
+/// and past the source vertices its number among those noted stands for it.
 fn move_sector(
     plan: &Plan,
     placement: &Placement,
     sector: Sector,
-    taken: &mut IdVec<Vertex, bool>,
+    (taken, parted): (&mut IdVec<Vertex, bool>, &mut Vec<Parted>),
     attributes: &mut Attributes,
 ) {
-    let mut seen: Few<(Vertex, u32)> = Few::new();
+    let sources = plan.view.mesh.positions.len() as u32;
+    let mut seen: Few<Seen> = Few::new();
     for corner in plan.sectors.corners(&plan.topology, sector) {
         let vertex = plan.view.vertex_at(corner);
-        let known = seen.iter().find(|(other, _)| *other == vertex).map(|(_, output)| *output);
-        let output = known.unwrap_or_else(|| {
+        let known = seen.iter().find(|seen| seen.vertex == vertex).map(|seen| seen.output);
+        attributes.vertex_at[corner] = known.unwrap_or_else(|| {
             let streams = &mut attributes.streams;
-            let output = if taken[vertex] { streams.append(vertex) } else { vertex.0 };
-            resample(plan, placement, sector, corner, output, streams);
-            match twin_of(plan, streams, &seen, vertex, output) {
-                Some(twin) => {
-                    streams.give_back(plan, output);
-                    twin
+            let blends = blends(plan, sector, corner, placement.share[sector]);
+            let row = row(plan, placement, streams, sector, blends);
+            let output = twin_of(plan, streams, &seen, vertex, &row).unwrap_or_else(|| {
+                if taken[vertex] {
+                    parted.push((sector, corner));
+                    return sources + parted.len() as u32 - 1;
                 }
-                None => {
-                    taken[vertex] = true;
-                    output
-                }
-            }
+                taken[vertex] = true;
+                streams.set(vertex, &row, blends);
+                vertex.0
+            });
+            seen.push(Seen { vertex, output, row });
+            output
         });
-        if known.is_none() {
-            seen.push((vertex, output));
-        }
-        attributes.vertex_at[corner] = output;
     }
+}
+
+/// A source vertex of a sector, where it moves, and what stands for it there.
+struct Seen {
+    vertex: Vertex,
+    output: u32,
+    row: Row,
 }
 
 /// The vertex of a sector that another one of it has become equal to, though they differed before:
@@ -91,28 +110,44 @@ fn move_sector(
 fn twin_of(
     plan: &Plan,
     streams: &Streams,
-    seen: &[(Vertex, u32)],
+    seen: &[Seen],
     vertex: Vertex,
-    output: u32,
+    row: &Row,
 ) -> Option<u32> {
-    let is_twin = |&&(other, known): &&(Vertex, u32)| {
-        streams.are_equal(known, output)
-            && !(plan.view.normal(other) == plan.view.normal(vertex)
-                && same_chart(plan, other, vertex))
+    let is_twin = |seen: &&Seen| {
+        streams.are_equal(&seen.row, row)
+            && !(plan.view.normal(seen.vertex) == plan.view.normal(vertex)
+                && same_chart(&plan.view, seen.vertex, vertex))
     };
-    seen.iter().find(is_twin).map(|&(_, known)| known)
+    seen.iter().find(is_twin).map(|seen| seen.output)
 }
 
-fn resample(
+/// Appends the vertices that were noted, and puts them in the place of their numbers.
+fn add_parted(plan: &Plan, placement: &Placement, parted: &[Parted], attributes: &mut Attributes) {
+    let streams = &mut attributes.streams;
+    let add = |&(sector, corner): &Parted| {
+        let blends = blends(plan, sector, corner, placement.share[sector]);
+        let row = row(plan, placement, streams, sector, blends);
+        streams.add_moved(plan.topology.cluster_at[corner], &row, blends)
+    };
+    let added: Vec<u32> = parted.iter().map(add).collect();
+    let sources = plan.view.mesh.positions.len() as u32;
+    for vertex in attributes.vertex_at.iter_mut().filter(|vertex| **vertex >= sources) {
+        *vertex = added[(*vertex - sources) as usize];
+    }
+}
+
+/// The values of a corner's vertex where its sector stands: the normal of the surface there, and all
+/// else of its chart.
+fn row(
     plan: &Plan,
     placement: &Placement,
+    streams: &Streams,
     sector: Sector,
-    corner: Corner,
-    output: u32,
-    streams: &mut Streams,
-) {
-    let blends = blends(plan, sector, corner, placement.share[sector]);
-    streams.resample(plan, output, placement.point[sector], blends);
+    [surface, chart]: [Blend; 2],
+) -> Row {
+    let normal = blended_normal(plan, &surface);
+    streams.blended(plan, (placement.point[sector], normal), &chart)
 }
 
 /// Where a corner's vertex comes from when its sector takes a share of the offset: on the surface,
@@ -126,8 +161,8 @@ fn blends(plan: &Plan, sector: Sector, corner: Corner, share: f64) -> [Blend; 2]
         _ => blend,
     };
 
-    let surface = surface_foot(plan, sector, corner).blend(plan, share);
-    [surface, from_own(chart.blend(plan, share))]
+    let surface = surface_foot(plan, sector, corner).blend(&plan.view, share);
+    [surface, from_own(chart.blend(&plan.view, share))]
 }
 
 #[cfg(test)]
@@ -141,14 +176,14 @@ mod tests {
 
     fn attributes_of(mesh: &MeshBuffers, width: f32) -> Attributes {
         let plan = plan_of(mesh, width);
-        attributes(&plan, &limits(&plan, Verify::Fast).placement)
+        attributes(&plan, &limits(&plan, Verify::Fast).unwrap().placement)
     }
 
     #[test]
     fn a_vertex_of_one_sector_keeps_its_index() {
         let cube = shapes::cube(1.0);
         let result = attributes_of(&cube, 0.1);
-        assert_eq!(result.streams.count(), 24);
+        assert_eq!(result.streams.vertices.positions.len(), 24);
         assert!(result.vertex_at.iter().eq(&cube.indices));
     }
 
@@ -156,7 +191,7 @@ mod tests {
     fn a_vertex_of_two_sectors_becomes_two() {
         let cubes = shapes::extruding_cubes();
         let result = attributes_of(&cubes, 0.1);
-        let sources = result.streams.count() as usize;
+        let sources = result.streams.vertices.positions.len();
         assert_eq!(sources, cubes.positions.len() + 3, "three vertices are corner-connected");
     }
 

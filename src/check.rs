@@ -5,6 +5,7 @@
 //! input is not held against the output.
 
 mod borders;
+mod facts;
 mod flatness;
 mod hardness;
 mod intersections;
@@ -13,6 +14,8 @@ mod nearest;
 mod origins;
 mod pieces;
 mod rules;
+mod solids;
+mod stored;
 mod surface;
 mod triangles;
 mod values;
@@ -23,13 +26,14 @@ use crate::mesh::Mesh;
 use crate::options::Verify;
 use crate::report::Chamfered;
 
+use facts::facts;
 use origins::Origins;
 use pieces::Within;
+use solids::Solids;
 use surface::Surface;
 use widths::Ruler;
 
-pub use rules::{Breach, Element, Facts, Findings, Matching, Rule, Unchecked};
-pub use widths::MeasuredEdge;
+pub use rules::{Breach, Element, Facts, Findings, Matching, MeasuredEdge, Rule, Unchecked};
 
 /// Checks a chamfered mesh against its source, with its provenance and verdicts.
 ///
@@ -69,7 +73,10 @@ pub fn compare(before: &Mesh, after: &Mesh, depth: Verify) -> Findings {
     let (origins, mut findings) = likelier_origins(&surfaces, findings);
     if depth != Verify::Fast {
         let [source, result] = &surfaces;
-        intersections::check_intersections(source, result, &origins, &mut findings);
+        let before = Solids::new(source);
+        let after = before.carried(result, &origins);
+        let solids = [&before, &after];
+        intersections::check_intersections([source, result], solids, &origins, &mut findings);
     }
     findings
 }
@@ -130,8 +137,8 @@ fn well_formed(before: &Mesh, after: &Mesh, findings: &mut Findings) -> bool {
 }
 
 fn state_facts([before, after]: &[Surface; 2], findings: &mut Findings) {
-    findings.before = before.facts();
-    findings.after = after.facts();
+    findings.before = facts(before);
+    findings.after = facts(after);
 }
 
 fn check_geometry(
@@ -150,8 +157,12 @@ fn check_geometry(
     triangles::check_triangles(source, result, origins, findings);
     flatness::check_flatness(source, result, origins, findings);
     hardness::check_hard_edges(source, result, origins, findings);
+    let solids = Solids::new(source);
+    findings.edges = Ruler::new(surfaces, origins).measure_all(&solids);
+    let solids = [&solids, &solids.carried(result, origins)];
+    findings.after.non_manifold_edges = solids[1].crowded_edges(result);
+    solids::check_sides([source, result], solids, origins, findings);
     if depth != Verify::Fast {
-        intersections::check_intersections(source, result, origins, findings);
+        intersections::check_intersections([source, result], solids, origins, findings);
     }
-    findings.edges = Ruler::new(surfaces, origins).measure_all();
 }

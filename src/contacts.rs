@@ -12,19 +12,19 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use crate::bvh::{Aabb, Bounds, Forest};
-use crate::edges::{BACK_TO_BACK_COSINE, Edges};
+use crate::bvh::{Aabb, Tree};
+use crate::error::Error;
 use crate::faces::{Faces, faces};
-use crate::ids::{Corner, Edge, Few, IdVec};
+use crate::ids::{Corner, Few};
+use crate::memory;
 use crate::mesh::Mesh;
 use crate::options::{Options, Width};
-use crate::plan::Plan;
+use crate::tolerance::BACK_TO_BACK_COSINE;
 use crate::topology::{Topology, topology};
 use crate::view::{View, view, wide};
 use crate::weld::weld;
 
-pub use wedge::Stretch;
-use wedge::{Cut, Wedge};
+pub use wedge::{Cut, Stretch, Wedge};
 
 /// Parts that were modelled to touch are off each other by what exporters round to: within this
 /// share of the mesh's extent (a hundredth of a millimetre on a metre) they touch.
@@ -54,14 +54,18 @@ struct Rim {
 pub struct Contacts {
     /// `#rims`.
     rims: Vec<Rim>,
-    forest: Arc<Forest>,
-    bounds: Arc<Bounds>,
+    tree: Arc<Tree>,
     /// Within this distance, in mesh units, something touches.
     tolerance: f64,
 }
 
 /// Gathers what may rest on a mesh.
-pub fn contacts(view: &View, topology: &Topology, faces: &Faces) -> Contacts {
+///
+/// # Errors
+/// [`Error::OutOfMemory`] where what that needs is not to be had.
+pub fn contacts(view: &View, topology: &Topology, faces: &Faces) -> Result<Contacts, Error> {
+    let borders = open_borders(topology).count() + sheet_rims(topology, faces).count();
+    memory::ask(memory::of_rims(borders + view.mesh.held.len()))?;
     let borders = open_borders(topology).chain(sheet_rims(topology, faces)).map(|border| Rim {
         ends: [border, border.next()].map(|corner| view.position_at(corner)),
         radius: 0.0,
@@ -76,12 +80,8 @@ pub fn contacts(view: &View, topology: &Topology, faces: &Faces) -> Contacts {
     let tolerance = if rims.is_empty() { 0.0 } else { tolerance(view) };
     let boxes: Vec<Aabb> =
         rims.iter().map(|rim| around(rim.ends, rim.radius.max(tolerance))).collect();
-    let numbers = (0..rims.len() as u32).collect();
-    let forest = Forest::new(numbers, &[rims.len() as u32], &boxes, None);
-    let tree = forest.tree(0);
-    let boxes = tree.order.iter().map(|&number| boxes[number as usize]).collect();
-    let bounds = Bounds::new(tree, boxes, Vec::new());
-    Contacts { rims, forest: forest.into(), bounds: bounds.into(), tolerance }
+    let tree = Tree::new(&boxes, &[]).into();
+    Ok(Contacts { rims, tree, tolerance })
 }
 
 /// The open borders of a mesh, in mesh units; none of a mesh that breaks a rule.
@@ -153,7 +153,38 @@ impl Contacts {
         let mut rims = self.rims.clone();
         let borders = rims.iter_mut().map(|rim| &mut rim.border).filter(|border| border.is_some());
         borders.for_each(|border| *border = name(*border));
-        Contacts { rims, forest: self.forest.clone(), bounds: self.bounds.clone(), ..*self }
+        Contacts { rims, tree: self.tree.clone(), ..*self }
+    }
+
+    /// How many lines may rest on the mesh.
+    pub fn len(&self) -> usize {
+        self.rims.len()
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.rims.is_empty()
+    }
+
+    /// Within this distance, in mesh units, something touches.
+    pub fn tolerance(&self) -> f64 {
+        self.tolerance
+    }
+
+    /// The stretches that lie in the wedge that an edge loses at full width.
+    pub fn beside(
+        &self,
+        view: &View,
+        topology: &Topology,
+        faces: &Faces,
+        sides: [Corner; 2],
+    ) -> Few<Stretch> {
+        let ends = [sides[0], sides[0].next()].map(|corner| view.position_at(corner));
+        if self.near(ends, view.width + self.tolerance).next().is_none() {
+            return Few::new();
+        }
+        let wedge = Wedge::new(view, faces, sides);
+        let stretches = wedge.map(|wedge| self.in_wedge(topology, sides[0], &wedge, view.width));
+        stretches.unwrap_or_default()
     }
 
     /// Whether something rests on an edge, elsewhere than at its ends alone.
@@ -193,9 +224,8 @@ impl Contacts {
 
     /// What may come within a distance of a segment.
     fn near(&self, segment: [DVec3; 2], reach: f64) -> impl Iterator<Item = &Rim> {
-        let tree = self.forest.tree(0);
-        let places = tree.overlapping(&self.bounds, around(segment, reach));
-        places.map(move |place| &self.rims[tree.order[place] as usize])
+        let near = self.tree.overlapping(around(segment, reach));
+        near.map(|number| &self.rims[number as usize])
     }
 
     /// The stretches of border that lie in the wedge that is cut off along an edge where both its
@@ -263,63 +293,6 @@ fn is_around(topology: &Topology, half_edge: Corner, border: Corner) -> bool {
         leaves = topology.twin[leaves].next();
     }
     border == arrives || border == leaves
-}
-
-/// For each hard edge, the stretches of border in the wedge that it loses at full width.
-#[derive(Default)]
-pub struct Rests {
-    /// `#rests`, edge by edge: each with the wedge that it lies in.
-    stretches: Vec<Stretch>,
-    /// `#hard edges`: where its stretches end; empty where nothing rests on anything.
-    ends: IdVec<Edge, u32>,
-}
-
-/// What rests in the wedges that chamfers of full width cut off.
-pub fn rests(
-    view: &View,
-    topology: &Topology,
-    faces: &Faces,
-    edges: &Edges,
-    contacts: &Contacts,
-) -> Rests {
-    if contacts.rims.is_empty() {
-        return Rests::default();
-    }
-    let mut rests = Rests::default();
-    for edge in edges.hard.iter() {
-        let ends = [edge.sides[0], edge.sides[0].next()].map(|corner| view.position_at(corner));
-        let reach = view.width + contacts.tolerance;
-        if edge.skipped.is_none() && contacts.near(ends, reach).next().is_some() {
-            let wedge = Wedge::new(view, faces, edge.sides);
-            let stretches =
-                wedge.map(|wedge| contacts.in_wedge(topology, edge.sides[0], &wedge, view.width));
-            rests.stretches.extend(stretches.unwrap_or_default());
-        }
-        rests.ends.push(rests.stretches.len() as u32);
-    }
-    rests
-}
-
-impl Rests {
-    /// Whether all that rests beside an edge is still covered where its sides are pulled to these
-    /// ends: `[side][end]`, both sides in the direction of the first.
-    pub fn are_kept(&self, plan: &Plan, edge: Edge, pulled: [[DVec3; 2]; 2]) -> bool {
-        let stretches = self.of(edge);
-        let sides = plan.edges.hard[edge].sides;
-        let Some(wedge) = Wedge::new(&plan.view, &plan.faces, sides) else { return true };
-        let (cut, tolerance) = (Cut::new(&wedge, pulled), plan.contacts.tolerance);
-        !stretches.as_flattened().iter().any(|place| cut.uncovers(place, tolerance))
-    }
-
-    /// What rests beside an edge.
-    #[inline]
-    pub fn of(&self, edge: Edge) -> &[Stretch] {
-        if self.ends.len() == 0 {
-            return &[];
-        }
-        let start = if edge.0 == 0 { 0 } else { self.ends[Edge(edge.0 - 1)] };
-        &self.stretches[start as usize..self.ends[edge] as usize]
-    }
 }
 
 #[cfg(test)]

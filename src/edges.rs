@@ -2,28 +2,16 @@
 
 use glam::DVec3;
 
+use crate::breaks::{is_hard, seam_between};
 use crate::contacts::Contacts;
 use crate::faces::Faces;
-use crate::ids::{Corner, Edge, Id, IdVec, Vertex};
+use crate::ids::{Corner, Edge, IdVec, Vertex};
 use crate::mesh::UV_CHANNELS;
 use crate::report::Reason;
-use crate::resample::uv_at;
+use crate::tolerance::{ALIKE_COSINE, BACK_TO_BACK_COSINE};
 use crate::topology::Topology;
 use crate::view::View;
 use crate::weld::Weld;
-
-/// Normals that differ by less than a degree are one normal: importers quantize them.
-pub const HARD_COSINE: f64 = 0.999_847_695_156_391_2;
-
-/// Two normals that both differ from a third one by less than 0.4 degrees differ by less than one.
-const ALIKE_COSINE: f64 = 0.999_975_630_705_4;
-
-/// Two faces back to back: their normals are opposite to within a tenth of a degree. Between them
-/// there is nothing to cut off.
-pub const BACK_TO_BACK_COSINE: f64 = -0.999_998_476_913_288;
-
-/// UV values that differ by less than this share of their size are one: exporters round.
-pub const EQUAL_UV: f32 = 1e-6;
 
 /// A hard edge with two sides.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,6 +30,9 @@ pub struct Edges {
     pub hard: IdVec<Edge, HardEdge>,
     /// `#corners`: the edge that the half-edge is a side of, where it is to be chamfered.
     pub chamfered_at: IdVec<Corner, Edge>,
+    /// Corners of lines, between the ends of an edge that is chamfered: each stands on that edge, or
+    /// on the line between that and an earlier one.
+    pub spanned: Vec<Corner>,
 }
 
 /// Whether any edge can be hard: at one position at least, normals differ.
@@ -76,19 +67,36 @@ pub fn edges(view: &View, topology: &Topology, faces: &Faces, contacts: &Contact
             chamfered_at[twin] = edge;
         }
     }
-    Edges { hard, chamfered_at }
+    let spanned = spanned(view, topology, faces, &chamfered_at);
+    Edges { hard, chamfered_at, spanned }
 }
 
-/// Whether the stored normals differ between two half-edges that are twins.
-pub fn is_hard(view: &View, side: Corner, other: Corner) -> bool {
-    let differ = |one: Corner, other: Corner| {
-        let (one, other) = (view.vertex_at(one), view.vertex_at(other));
-        one != other && {
-            let (one, other) = (view.normal(one), view.normal(other));
-            one.dot(other) < HARD_COSINE * (one.length_squared() * other.length_squared()).sqrt()
-        }
+/// The corners across from the long sides of lines that reach such a side to a chamfered edge.
+fn spanned(
+    view: &View,
+    topology: &Topology,
+    faces: &Faces,
+    chamfered_at: &IdVec<Corner, Edge>,
+) -> Vec<Corner> {
+    let length =
+        |side: Corner| view.position_at(side).distance_squared(view.position_at(side.next()));
+    let is_long = |side: &Corner| {
+        let shorter = [side.next(), side.prev()].map(length);
+        faces.is_line(side.triangle()) && shorter.iter().all(|other| *other < length(*side))
     };
-    differ(side, other.next()) || differ(side.next(), other)
+    let ends = topology.twin.ids().filter(|&side| chamfered_at[side].is_some());
+    let mut spanned: Vec<Corner> = ends.filter(is_long).map(Corner::prev).collect();
+    let mut done = 0;
+    while done < spanned.len() {
+        let sides = [spanned[done], spanned[done].prev()].map(|side| topology.twin[side]);
+        // A line across a short side of this one spans from here to one of its ends.
+        let behind = sides
+            .into_iter()
+            .filter(|side| side.is_some() && chamfered_at[*side].is_none() && is_long(side));
+        spanned.extend(behind.map(Corner::prev));
+        done += 1;
+    }
+    spanned
 }
 
 /// What keeps a hard edge from being chamfered whatever the width.
@@ -113,13 +121,6 @@ pub fn seam_channels(view: &View, side: Corner, other: Corner) -> u8 {
     };
     let present = (0..UV_CHANNELS).filter(|&channel| view.mesh.uvs[channel].components > 0);
     present.filter(differs).fold(0, |channels, channel| channels | 1 << channel)
-}
-
-/// Whether two corners at one position differ in a UV channel.
-pub fn seam_between(view: &View, channel: usize, one: Corner, other: Corner) -> bool {
-    let uv = &view.mesh.uvs[channel];
-    let [one, other] = [one, other].map(|corner| uv_at(uv, view.vertex_at(corner).index()));
-    one.iter().zip(other).any(|(&a, &b)| (a - b).abs() > EQUAL_UV * a.abs().max(1.0))
 }
 
 #[cfg(test)]
@@ -162,7 +163,7 @@ mod tests {
         let view = view(&mesh, &Options::default()).unwrap();
         let topology = topology(&view, &weld(&mesh));
         let faces = faces(&view, &topology);
-        let contacts = contacts(&view, &topology, &faces);
+        let contacts = contacts(&view, &topology, &faces).unwrap();
         let edges = edges(&view, &topology, &faces, &contacts);
         edges.hard.iter().map(|edge| edge.skipped).collect()
     }

@@ -4,6 +4,7 @@ use std::fmt;
 
 /// A vertex stream of a mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Stream {
     /// Vertex positions.
     Positions,

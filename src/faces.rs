@@ -6,7 +6,7 @@
 
 use glam::DVec3;
 
-use crate::edges::is_hard;
+use crate::breaks::is_hard;
 use crate::ids::{Corner, IdVec, Triangle};
 use crate::math::{area_vector, unit};
 use crate::topology::Topology;

@@ -34,7 +34,7 @@ const FIGURES: [(&str, Draw); 15] = [
     ("attributes", texture::attributes),
     ("seams", texture::seams),
     ("strips", result::strips),
-    ("corners", result::corners),
+    ("fills", result::fills),
     ("verdicts", result::verdicts),
     ("output", result::output),
 ];

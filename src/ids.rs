@@ -133,7 +133,7 @@ impl<I: Id, T> IdVec<I, T> {
         self.items.len()
     }
 
-    pub fn ids(&self) -> impl Iterator<Item = I> + use<I, T> {
+    pub fn ids(&self) -> impl DoubleEndedIterator<Item = I> + use<I, T> {
         (0..self.items.len()).map(I::new)
     }
 

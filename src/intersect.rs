@@ -13,12 +13,11 @@ mod crowds;
 use glam::DVec3;
 use robust::{Coord, Coord3D, orient2d, orient3d};
 
-use crate::bvh::{Aabb, Bounds, Forest, Kin};
+use crate::bvh::{Aabb, Kin, Tree};
 
 use apart::{are_apart, are_apart_but_for_corner};
-use crowds::crowds;
 
-pub(crate) use crowds::Around;
+pub(crate) use crowds::{Around, crowds};
 
 pub(crate) type Triangle = [[f32; 3]; 3];
 
@@ -26,27 +25,32 @@ pub(crate) type Triangle = [[f32; 3]; 3];
 ///
 /// `positions` are `#vertices by 3`, finite; `triangles` `#triangles by 3`, in range. Only pairs
 /// in one part (`part_of: #triangles`) count.
+#[cfg(feature = "check")]
 pub(crate) fn self_intersections(
     positions: &[[f32; 3]],
     triangles: &[[u32; 3]],
     part_of: &[u32],
 ) -> Vec<(u32, u32)> {
-    let corners = |t: u32| triangles[t as usize].map(|v| positions[v as usize]);
-    let numbers: Vec<u32> = (0..triangles.len() as u32).collect();
-    let boxes: Vec<Aabb> = numbers.iter().map(|&t| bounds(&corners(t))).collect();
-    let kin = crowds(triangles.len(), corners);
-    let crowd_of: Option<Vec<u32>> = kin.as_ref().map(|kin| kin.iter().map(Kin::crowd).collect());
-    let forest = Forest::new(numbers, &[triangles.len() as u32], &boxes, crowd_of.as_deref());
-    let tree = forest.tree(0);
-    let at = |t: &u32| *t as usize;
-    let boxes = tree.order.iter().map(|t| boxes[at(t)]).collect();
-    let kin = kin.map(|kin| tree.order.iter().map(|t| kin[at(t)]).collect());
-    let bounds = Bounds::new(tree, boxes, kin.unwrap_or_default());
+    let corners = |triangle: &[u32; 3]| triangle.map(|v| positions[v as usize]);
+    let triangles: Vec<Triangle> = triangles.iter().map(corners).collect();
+    let in_one_part = |a: u32, b: u32| part_of[a as usize] == part_of[b as usize];
+    cutting_pairs(&triangles, &crowds(&triangles).unwrap_or_default(), in_one_part)
+}
+
+/// The pairs of triangles that cut each other, of those that are asked for; the smaller number
+/// first, in ascending order. `kin` is `#triangles`, or none where no crowd meets.
+pub(crate) fn cutting_pairs(
+    triangles: &[Triangle],
+    kin: &[Kin],
+    is_asked: impl Fn(u32, u32) -> bool,
+) -> Vec<(u32, u32)> {
+    let corners = |t: u32| &triangles[t as usize];
+    let boxes: Vec<Aabb> = triangles.iter().map(bounds).collect();
+    let tree = Tree::new(&boxes, kin);
     let mut pairs: Vec<(u32, u32)> = tree
-        .pairs(&bounds)
-        .map(|(a, b)| (tree.order[a], tree.order[b]))
-        .filter(|&(a, b)| part_of[a as usize] == part_of[b as usize])
-        .filter(|&(a, b)| cut_each_other(&corners(a), &corners(b)))
+        .pairs()
+        .map(|(a, b)| (tree.number(a), tree.number(b)))
+        .filter(|&(a, b)| is_asked(a, b) && cut_each_other(corners(a), corners(b)))
         .map(|(a, b)| (a.min(b), a.max(b)))
         .collect();
     pairs.sort_unstable();

@@ -12,7 +12,7 @@
 //! use chamfer::{Options, Outcome, Width, chamfer, shapes};
 //!
 //! let cube = shapes::plain_cube(2.0);
-//! let options = Options { width: Width::Units(0.1), ..Options::default() };
+//! let options = Options::default().with_width(Width::Units(0.1));
 //! let result = chamfer(&cube.as_mesh(), &options)?;
 //!
 //! assert_eq!(result.mesh.positions.len(), 24);
@@ -20,15 +20,39 @@
 //! assert!(result.verdicts.iter().all(|edge| edge.outcome == Outcome::Full));
 //! # Ok::<(), chamfer::Error>(())
 //! ```
+//!
+//! # What may grow
+//! A later version may add to what is `#[non_exhaustive]`:
+//! - [`Options`] and [`see_through::Eyes`], made from their defaults by `with_..`, or by setting fields;
+//! - choices, reasons and errors ([`Width`], [`Verify`], [`ChamferSubmesh`], [`Reason`], [`Stream`],
+//!   [`Error`]): a `match` has an arm for those to come;
+//! - reports ([`Chamfered`], [`ChamferedScene`], [`Smoothed`], [`Totals`] with its [`ByReason`],
+//!   [`see_through::Leak`], and those of the checker), which callers read; who makes a [`Chamfered`] of
+//!   their own sets the fields of its default.
+//!
+//! [`Mesh`] and [`MeshBuffers`] may get further streams too, but are written down as literals by every
+//! caller: end those with `..Mesh::default()`, and a new stream is absent. All else is what it is:
+//! [`Held`], [`Placed`], [`Uv`] and [`UvBuffer`], and the elements of results ([`EdgeVerdict`],
+//! [`Blend`], [`VertexSource`], [`TriangleSource`], with [`Outcome`] and [`TriangleKind`]), which lie in
+//! memory as in the C interface.
+//!
+//! # Features
+//! - `parallel` (default): shares the work on one large mesh out among threads.
+//! - `check`: the checker of whole meshes.
+//! - `shapes`: models made by code, for demonstrations and tests.
 
+#![warn(missing_debug_implementations)]
+
+#[cfg(feature = "check")]
 pub mod check;
 pub mod see_through;
+#[cfg(feature = "shapes")]
 pub mod shapes;
 
 mod attributes;
+mod breaks;
 mod bvh;
 mod contacts;
-mod corners;
 mod edges;
 mod error;
 mod faces;
@@ -36,6 +60,8 @@ mod faces;
 mod ffi;
 #[cfg(test)]
 mod figures;
+mod fills;
+mod foot;
 mod groups;
 mod ids;
 mod intersect;
@@ -52,12 +78,14 @@ mod plan;
 mod refine;
 mod report;
 mod resample;
+mod rests;
 mod scene;
 mod seams;
 mod sectors;
 mod smoothing;
 mod strips;
 mod threads;
+mod tolerance;
 mod topology;
 mod validity;
 mod verdicts;
@@ -65,13 +93,12 @@ mod view;
 mod weld;
 
 pub use error::{Error, Stream};
-pub use memory::most_memory;
 pub use mesh::{Held, Mesh, MeshBuffers, UV_CHANNELS, Uv, UvBuffer};
 pub use options::{ChamferSubmesh, Options, Verify, Width};
 pub use pipeline::{Prepared, chamfer, chamfer_with_progress};
 pub use report::{
-    Blend, Chamfered, EdgeVerdict, Outcome, Piece, Reason, Totals, TriangleKind, TriangleSource,
-    VertexSource, VertexSources,
+    Blend, ByReason, Chamfered, EdgeVerdict, Outcome, Piece, Reason, Totals, TriangleKind,
+    TriangleSource, VertexSource, VertexSources,
 };
 pub use scene::{ChamferedScene, Placed, chamfer_scene, scene_triangles};
 pub use smoothing::{Smoothed, split_by_angle};

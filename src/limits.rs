@@ -6,16 +6,17 @@
 //! A ring that still fails keeps its old position, so the result is never worse than the source.
 
 mod breadth;
-mod cells;
 mod collisions;
-mod parts;
+mod crowds;
 mod room;
 
 use std::cmp::Ordering;
 
 use glam::DVec3;
 
-use crate::corners;
+use crate::contacts::Wedge;
+use crate::error::Error;
+use crate::fills;
 use crate::ids::{Corner, Edge, Few, IdVec, Ring, Sector, Triangle};
 use crate::math::{area_vector, unit};
 use crate::options::Verify;
@@ -24,9 +25,6 @@ use crate::plan::Plan;
 use crate::report::Reason;
 use crate::strips;
 use crate::validity::{opens_along, stays_line, survives};
-
-pub use breadth::deep;
-pub use parts::Parts;
 
 /// How much a sector that takes part in something bad keeps in each round.
 const SHRINK: f64 = 0.5;
@@ -52,7 +50,9 @@ pub struct Limits {
     pub reason: IdVec<Sector, Reason>,
 }
 
-pub fn limits(plan: &Plan, verify: Verify) -> Limits {
+/// # Errors
+/// [`Error::OutOfMemory`] where what collisions need is not to be had.
+pub fn limits(plan: &Plan, verify: Verify) -> Result<Limits, Error> {
     let room = room::room(plan);
     let mut limits = bounded(plan, &room);
     let bad = bad_elements(plan, &limits.placement);
@@ -61,9 +61,9 @@ pub fn limits(plan: &Plan, verify: Verify) -> Limits {
         grow(plan, &room, &mut limits);
     }
     if verify != Verify::Fast {
-        collisions::resolve(plan, &mut limits);
+        collisions::resolve(plan, &mut limits)?;
     }
-    limits
+    Ok(limits)
 }
 
 /// Every sector at the width that its own triangles leave room for.
@@ -79,7 +79,7 @@ fn bounded(plan: &Plan, shares: &IdVec<Sector, f64>) -> Limits {
 }
 
 /// Anything that can go bad.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Element {
     Surface(Triangle),
     Strip(Edge),
@@ -313,7 +313,8 @@ fn contacts_are_kept(plan: &Plan, placement: &Placement, edge: Edge) -> bool {
     }
     let [b1, a1, a2, b2] =
         strips::corners(&plan.edges.hard[edge]).map(|corner| placement.position_at(plan, corner));
-    plan.rests.are_kept(plan, edge, [[a1, b1], [a2, b2]])
+    let wedge = Wedge::new(&plan.view, &plan.faces, plan.edges.hard[edge].sides);
+    wedge.is_none_or(|wedge| plan.rests.are_kept(edge, &wedge, [[a1, b1], [a2, b2]]))
 }
 
 fn fill_is_valid(plan: &Plan, placement: &Placement, ring: Ring) -> bool {
@@ -322,21 +323,21 @@ fn fill_is_valid(plan: &Plan, placement: &Placement, ring: Ring) -> bool {
             let sectors = [a, b, c];
             let points = sectors.map(|sector| placement.point[sector]);
             let normals = sectors.map(|sector| placement.normals[sector][0]);
-            corners::can_fill(points, normals, plan.view.resolution)
+            fills::can_fill(points, normals, plan.view.resolution)
         }
         _ => fill(plan, placement, ring).is_some(),
     }
 }
 
 /// The fill of a ring where its sectors stand now; none if every way to fill it folds.
-pub fn fill(plan: &Plan, placement: &Placement, ring: Ring) -> Option<corners::Fill> {
+pub fn fill(plan: &Plan, placement: &Placement, ring: Ring) -> Option<fills::Fill> {
     let sectors = plan.sectors.ring(ring);
     if sectors.len() < 3 {
-        return Some(corners::Fill::default());
+        return Some(fills::Fill::default());
     }
     let points: Few<_> = sectors.iter().map(|&sector| placement.point[sector]).collect();
     let normals: Few<_> = sectors.iter().map(|&sector| placement.normals[sector][0]).collect();
-    corners::fill(&points, &normals, plan.view.resolution)
+    fills::fill(&points, &normals, plan.view.resolution)
 }
 
 /// Gives back to every sector that was shrunk, up to its room, as much as it can take with all
@@ -388,7 +389,7 @@ mod tests {
     /// The shares of all sectors that can move.
     fn shares(mesh: &MeshBuffers, width: f32) -> Vec<f64> {
         let plan = plan_of(mesh, width);
-        let limits = limits(&plan, Verify::Fast);
+        let limits = limits(&plan, Verify::Fast).unwrap();
         assert!(bad_elements(&plan, &limits.placement).is_empty());
         let movable = plan.sectors.fans.ids().filter(|&sector| plan.offsets[sector].moves());
         movable.map(|sector| limits.placement.share[sector]).collect()

@@ -12,12 +12,12 @@ mod follow;
 
 use glam::DVec3;
 
-use crate::edges::{is_hard, seam_between};
+use crate::breaks::{is_hard, seam_between, uv_at};
 use crate::faces::Faces;
+use crate::foot::{Foot, locate};
 use crate::ids::{Corner, Id, IdVec, Sector};
 use crate::math::{Turn, area_vector, unit};
 use crate::mesh::UV_CHANNELS;
-use crate::resample::{Foot, locate, uv_at};
 use crate::sectors::{Fan, Sectors};
 use crate::topology::Topology;
 use crate::view::View;
@@ -127,7 +127,44 @@ pub fn offsets(
             offsets[sector] = offset;
         }
     }
+    for &corner in &sectors.spanned {
+        let fan: Vec<Corner> = sectors.corners(topology, sectors.sector_of[corner]).collect();
+        if let Some(offset) = span(view, faces, sectors, &offsets, &fan) {
+            offsets[sectors.sector_of[corner]] = offset;
+        }
+    }
     offsets
+}
+
+/// Goes along with the ends of the line that the first corner of a flat fan is in: the line closes
+/// the gap between a chamfered edge and two that meet on it, and stays a line.
+fn span(
+    view: &View,
+    faces: &Faces,
+    sectors: &Sectors,
+    offsets: &IdVec<Sector, Offset>,
+    fan: &[Corner],
+) -> Option<Offset> {
+    let corner = fan[0];
+    let ends = [corner.next(), corner.prev()];
+    let vector = |end: Corner| {
+        let sector = sectors.sector_of[end];
+        if sector.is_none() { DVec3::ZERO } else { offsets[sector].vector }
+    };
+    let at = view.position_at(corner);
+    let distance = |end: Corner| view.position_at(end).distance(at);
+    let share = distance(ends[0]) / (distance(ends[0]) + distance(ends[1]));
+    let vector = vector(ends[0]).lerp(vector(ends[1]), share);
+    let normal = faces.normal[corner.triangle()];
+    let is_level = |corner: &Corner| faces.normal[corner.triangle()].dot(normal) > LEVEL_COSINE;
+    let within = |&corner: &Corner| {
+        let foot = locate(view, corner, at, vector)?;
+        Some(Offset { vector, within: corner, foot, is_capped: false })
+    };
+    let inside = |offset: &Offset| offset.foot.along[0].min(offset.foot.along[1]);
+    let faces = fan.iter().filter(|corner| !faces.is_line(corner.triangle())).filter_map(within);
+    let best = faces.max_by(|one, other| inside(one).total_cmp(&inside(other)));
+    best.filter(|_| vector.is_finite() && fan.iter().all(is_level))
 }
 
 /// A corner of a fan, unfolded into the plane.
@@ -498,7 +535,7 @@ mod tests {
         let sector = plan.sectors.fans.ids().find(at_corner).unwrap();
         let offset = &plan.offsets[sector];
         assert!(offset.vector.y.abs() < 1e-9, "{}", offset.vector);
-        let blend = offset.foot.blend(&plan, 1.0);
+        let blend = offset.foot.blend(&plan.view, 1.0);
         let corners = blend.vertices.map(|v| plan.view.position(crate::ids::Vertex(v)));
         let rebuilt = crate::resample::weighted_sum(&blend, corners);
         assert!(rebuilt.distance(DVec3::ONE + offset.vector) < 1e-6, "{rebuilt}");

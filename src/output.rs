@@ -4,12 +4,10 @@
 //! an equal vertex in place of its own. What is new is appended, per submesh: strips in the order
 //! of their edges, then fills in the order of their rings.
 
-mod collapsed;
-mod copies;
 mod submeshes;
 
 use crate::attributes::{Attributes, middles};
-use crate::corners::MIDDLE_FROM;
+use crate::fills::MIDDLE_FROM;
 use crate::ids::{Edge, IdVec, Ring};
 use crate::limits::{self, Limits};
 use crate::mesh::MeshBuffers;
@@ -22,8 +20,6 @@ use crate::verdicts::{totals, verdicts};
 use crate::view::View;
 
 use submeshes::{Submeshes, Triangles};
-
-pub use copies::Copies;
 
 /// The source as it is, for want of hard edges.
 pub fn unchanged(view: &View, target: ChamferSubmesh) -> Chamfered {
@@ -46,17 +42,13 @@ pub fn output(
     plan: &Plan,
     limits: &Limits,
     cuts: &IdVec<Edge, Cut>,
-    mut attributes: Attributes,
+    attributes: Attributes,
     target: ChamferSubmesh,
 ) -> Chamfered {
     let owners = seams::owners(plan, &limits.placement, cuts, &attributes);
-    let copies = Copies::new(plan, &mut attributes);
-    if plan.sectors.fans.ids().any(|sector| limits.placement.has_moved(plan, sector)) {
-        collapsed::close(plan, &mut attributes.vertex_at);
-    }
     let room = most_new_triangles(plan, cuts);
     let submeshes = Submeshes::of_source(plan, target, &attributes, room);
-    let mut surface = Surface { plan, limits, cuts, owners, attributes, copies, submeshes };
+    let mut surface = Surface { plan, limits, cuts, owners, attributes, submeshes };
     surface.add_strips();
     surface.add_fills();
     surface.finish()
@@ -79,7 +71,6 @@ struct Surface<'a> {
     cuts: &'a IdVec<Edge, Cut>,
     owners: Owners,
     attributes: Attributes,
-    copies: Copies,
     submeshes: Submeshes,
 }
 
@@ -138,9 +129,8 @@ impl Surface<'_> {
         for place in (begin..joints.len()).chain(0..begin) {
             if let Joint { corner, taken: Some(taken) } = &joints[place] {
                 let cluster = self.plan.topology.cluster_at[*corner];
-                let streams = &mut self.attributes.streams;
-                vertices[place] =
-                    self.copies.get(self.plan, streams, cluster, vertices[place], taken);
+                let (streams, own) = (&mut self.attributes.streams, vertices[place]);
+                vertices[place] = streams.add_copy(self.plan, cluster, own, taken);
             }
         }
     }
@@ -150,8 +140,7 @@ impl Surface<'_> {
         let corner = parts.joints[0].corner;
         let sectors = plan.sectors.ring(plan.sectors.fans[plan.sectors.sector_of[corner]].ring);
         let (placement, taken) = (&self.limits.placement, middle.taken.as_ref());
-        middles::append(plan, placement, streams, sectors, &middle.joints, taken);
-        self.copies.settle(streams, plan.topology.cluster_at[corner])
+        middles::add(plan, placement, streams, sectors, &middle.joints, taken)
     }
 
     fn finish(self) -> Chamfered {

@@ -1,7 +1,7 @@
 //! The stages in their order: the only file that knows it.
 
+use std::fmt;
 use std::ops::ControlFlow;
-use std::sync::Arc;
 
 use crate::attributes::attributes;
 use crate::contacts::contacts;
@@ -54,14 +54,14 @@ pub fn chamfer_with_progress(
     // It may be done again, but what is told never falls.
     let mut told = 0.0_f32;
     let each = Options { verify: Verify::Full, ..*options };
-    memory::check(mesh, Verify::Seen)?;
+    memory::ask(memory::of_looking(mesh))?;
     let mut run = |_: usize, mesh: &Mesh| {
         chamfer_by_stages(mesh, &each, &mut |stage| {
             told = told.max(stage.share_done());
             progress(told)
         })
     };
-    let eyes = Some(Eyes::with_threads(options.threads));
+    let eyes = Some(Eyes::default().with_threads(options.threads));
     let mut scene = chamfer_scene(&[*mesh], &alone, eyes, &mut run)?;
     Ok(scene.meshes.swap_remove(0))
 }
@@ -132,7 +132,7 @@ pub fn chamfer_by_stages(
 /// let prepared = Prepared::new(&cube.as_mesh())?;
 /// for step in 1..5 {
 ///     let width = Width::Units(step as f32 / 10.0);
-///     let result = prepared.chamfer(&Options { width, ..Options::default() })?;
+///     let result = prepared.chamfer(&Options::default().with_width(width))?;
 ///     assert_eq!(result.width, step as f32 / 10.0);
 /// }
 /// # Ok::<(), chamfer::Error>(())
@@ -142,6 +142,19 @@ pub struct Prepared<'a> {
     mesh: Mesh<'a>,
     /// None where nothing can be hard.
     shape: Option<Shape>,
+}
+
+impl fmt::Debug for Prepared<'_> {
+    /// Of what it knows, only how much: arrays as long as the mesh help nobody.
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let hard_edges = self.shape.as_ref().map_or(0, |shape| shape.edges.hard.len());
+        let triangles = self.mesh.indices.len() / 3;
+        let mut shown = f.debug_struct("Prepared");
+        shown
+            .field("triangles", &triangles)
+            .field("hard_edges", &hard_edges)
+            .finish_non_exhaustive()
+    }
 }
 
 impl<'a> Prepared<'a> {
@@ -209,7 +222,11 @@ type Done<'a> = dyn FnMut(Stage) -> Result<(), Error> + 'a;
 fn find_shape(view: &View, done: &mut Done) -> Result<Option<Shape>, Error> {
     let weld = weld(&view.mesh);
     done(Stage::Weld)?;
-    if may_be_hard(view, &weld) { shape(view, weld, done).map(Some) } else { Ok(None) }
+    if !may_be_hard(view, &weld) {
+        return Ok(None);
+    }
+    memory::ask(memory::up_to_edges(&view.mesh))?;
+    shape(view, weld, done).map(Some)
 }
 
 pub(crate) fn shape(view: &View, weld: Weld, done: &mut Done) -> Result<Shape, Error> {
@@ -217,9 +234,10 @@ pub(crate) fn shape(view: &View, weld: Weld, done: &mut Done) -> Result<Shape, E
     done(Stage::Topology)?;
     let faces = faces(view, &topology);
     done(Stage::Faces)?;
-    let contacts = contacts(view, &topology, &faces);
+    let contacts = contacts(view, &topology, &faces)?;
     let edges = edges(view, &topology, &faces, &contacts);
     done(Stage::Edges)?;
+    memory::ask(memory::of_sectors(edges.hard.len()))?;
     let sectors = sectors(view, &topology, &edges, &contacts);
     done(Stage::Sectors)?;
     Ok(Shape {
@@ -229,7 +247,6 @@ pub(crate) fn shape(view: &View, weld: Weld, done: &mut Done) -> Result<Shape, E
         contacts: contacts.into(),
         edges: edges.into(),
         sectors: sectors.into(),
-        parts: Arc::default(),
     })
 }
 
@@ -253,12 +270,14 @@ fn chamfer_shape(
     done: &mut Done,
 ) -> Result<Chamfered, Error> {
     let Some(shape) = shape else {
+        memory::ask(memory::of_copy(&view.mesh))?;
         let chamfered = unchanged(&view, options.chamfer_submesh);
         done(Stage::Output)?;
         return Ok(chamfered);
     };
+    memory::ask(memory::of_chamfers(&view.mesh, shape.work()))?;
     let offsets = offsets_of(&view, shape, None);
-    match refine(&view, shape, &offsets) {
+    match refine(&view, shape, &offsets)? {
         Some(refined) => chamfer_refined(view, shape, offsets, &refined, options, done),
         None => {
             done(Stage::Offsets)?;
@@ -284,6 +303,7 @@ fn chamfer_refined(
         return chamfer_plan(&plan, options, done);
     };
     let known = Known { sectors: &shape.sectors, offsets: &offsets, is_new: &refined.is_new() };
+    memory::ask(memory::of_chamfers(&fine.mesh, finer.work()))?;
     let offsets = offsets_of(&fine, &finer, Some(&known));
     done(Stage::Offsets)?;
     let chamfered = chamfer_plan(&Plan::new(fine, &finer, offsets), options, done)?;
@@ -293,7 +313,7 @@ fn chamfer_refined(
 
 /// The stages from the limits on.
 fn chamfer_plan(plan: &Plan, options: &Options, done: &mut Done) -> Result<Chamfered, Error> {
-    let limits = limits(plan, options.verify);
+    let limits = limits(plan, options.verify)?;
     done(Stage::Limits)?;
     let cuts = strips(plan, &limits.placement);
     done(Stage::Strips)?;

@@ -80,7 +80,7 @@ fn normals_at(plan: &Plan, sector: Sector, share: f64, has_moved: bool) -> [DVec
         if !has_moved {
             plan.view.normal_at(corner)
         } else {
-            blended_normal(plan, &surface_foot(plan, sector, corner).blend(plan, share))
+            blended_normal(plan, &surface_foot(plan, sector, corner).blend(&plan.view, share))
         }
     };
     let first = at(fan.first);

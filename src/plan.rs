@@ -1,14 +1,15 @@
 //! Plan: all that is known of a mesh before the limits decide how much of it is done.
 
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
-use crate::contacts::{Contacts, Rests, rests};
+use crate::contacts::Contacts;
 use crate::edges::Edges;
 use crate::faces::Faces;
 use crate::ids::{Cluster, IdVec, Sector};
-use crate::limits::{Parts, deep};
+use crate::memory::Work;
 use crate::offsets::Offset;
-use crate::sectors::Sectors;
+use crate::rests::{Rests, rests};
+use crate::sectors::{Sectors, deep};
 use crate::topology::Topology;
 use crate::view::View;
 use crate::weld::Weld;
@@ -22,8 +23,17 @@ pub struct Shape {
     pub contacts: Arc<Contacts>,
     pub edges: Arc<Edges>,
     pub sectors: Arc<Sectors>,
-    /// Only looked for once collisions are.
-    pub parts: Arc<OnceLock<Parts>>,
+}
+
+impl Shape {
+    /// How much there is to do.
+    pub fn work(&self) -> Work {
+        Work {
+            hard_edges: self.edges.hard.len(),
+            seams: self.edges.hard.iter().filter(|edge| edge.seams != 0).count(),
+            sectors: self.sectors.fans.len(),
+        }
+    }
 }
 
 /// The values of the stages up to the offsets.
@@ -32,10 +42,8 @@ pub struct Plan<'a> {
     pub weld: Arc<Weld>,
     pub topology: Arc<Topology>,
     pub faces: Arc<Faces>,
-    pub contacts: Arc<Contacts>,
     pub edges: Arc<Edges>,
     pub sectors: Arc<Sectors>,
-    parts: Arc<OnceLock<Parts>>,
     /// `#sectors`: the move at full width.
     pub offsets: IdVec<Sector, Offset>,
     /// What must not lose what it rests on.
@@ -47,15 +55,10 @@ pub struct Plan<'a> {
 impl<'a> Plan<'a> {
     /// What is known of a mesh, with the moves at one width.
     pub fn new(view: View<'a>, shape: &Shape, offsets: IdVec<Sector, Offset>) -> Plan<'a> {
-        let Shape { weld, topology, faces, contacts, edges, sectors, parts } = shape.clone();
+        let Shape { weld, topology, faces, contacts, edges, sectors } = shape.clone();
         let rests = rests(&view, &topology, &faces, &edges, &contacts);
         let deep = deep(&topology, &sectors, weld.first_vertex.len());
-        Plan { view, weld, topology, faces, contacts, edges, sectors, parts, offsets, rests, deep }
-    }
-
-    /// The parts with chamfered edges, which no width has a say in either.
-    pub fn parts(&self) -> &Parts {
-        self.parts.get_or_init(|| Parts::new(self))
+        Plan { view, weld, topology, faces, edges, sectors, offsets, rests, deep }
     }
 }
 

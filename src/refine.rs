@@ -21,8 +21,10 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 
+use crate::error::Error;
 use crate::ids::{Corner, Few, IdVec, Sector, Triangle};
 use crate::math::unit;
+use crate::memory;
 use crate::mesh::{Mesh, MeshBuffers};
 use crate::offsets::Offset;
 use crate::plan::Shape;
@@ -126,20 +128,33 @@ const MOST_GROWTH: f64 = 0.25;
 const FEW_CORNERS: f64 = 1024.0;
 
 /// The mesh with vertices where only a part of an edge can have a chamfer; mostly none.
-pub fn refine(view: &View, shape: &Shape, offsets: &IdVec<Sector, Offset>) -> Option<Refined> {
+///
+/// # Errors
+/// [`Error::OutOfMemory`] where what the finer mesh needs is not to be had.
+pub fn refine(
+    view: &View,
+    shape: &Shape,
+    offsets: &IdVec<Sector, Offset>,
+) -> Result<Option<Refined>, Error> {
     let mut splits = splits::splits(view, shape, offsets);
+    if splits.is_empty() {
+        return Ok(None);
+    }
+    let counts = [splits.len(), splits.iter().map(|split| split.at.len()).sum()];
+    memory::ask(memory::of_refined(&view.mesh, shape.work(), shape.contacts.len(), counts))?;
     while !splits.is_empty() {
         let refined = refined(&view.mesh, &splits, LEAST_DEPTH * view.width);
         let bad = splits::bad_triangles(view, shape, &refined);
         if bad.is_empty() {
             let [before, after] =
                 [view.mesh.indices, &refined.mesh.indices].map(|all| all.len() as f64);
-            return (after <= before * (1.0 + MOST_GROWTH) + FEW_CORNERS).then_some(refined);
+            let is_small = after <= before * (1.0 + MOST_GROWTH) + FEW_CORNERS;
+            return Ok(is_small.then_some(refined));
         }
         let is_good = |side: &Corner| bad.binary_search(&side.triangle()).is_err();
         splits.retain(|split| split.sides.iter().all(is_good));
     }
-    None
+    Ok(None)
 }
 
 /// A mesh with more vertices on its hard edges. Each edge is named once. Chamfers will go so deep

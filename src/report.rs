@@ -1,13 +1,16 @@
 //! What a call returns: the mesh, where each element came from, and what became of each edge.
 
+mod reason;
 mod vertex_sources;
 
 use crate::mesh::MeshBuffers;
 
+pub use reason::{ByReason, Reason};
 pub use vertex_sources::VertexSources;
 
 /// A chamfered mesh with its provenance and verdicts.
 #[derive(Clone, Debug, Default)]
+#[non_exhaustive]
 pub struct Chamfered {
     /// The mesh. Source vertices keep their indices and source triangles their order; what is new
     /// stands behind them, per submesh. Where a hard edge got vertices, the triangles beside it are
@@ -152,32 +155,6 @@ pub enum Outcome {
     Skipped = 2,
 }
 
-/// Why a hard edge is narrower than asked for, or not chamfered.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-#[repr(u32)]
-pub enum Reason {
-    /// It has full width.
-    None = 0,
-    /// A face beside it has no room: it would fold or lose its area.
-    NoRoom = 1,
-    /// The strip, or the fill at an end, would fold.
-    Folds = 2,
-    /// An end lies in a corner so sharp that the full distance would shoot out as a spike.
-    Miter = 3,
-    /// The chamfer would cut through the mesh.
-    Intersects = 4,
-    /// Nothing can be pulled at either end: both lie inside smooth areas or on borders.
-    NoEnd = 5,
-    /// The faces beside it lie back to back.
-    ZeroThickness = 6,
-    /// A triangle beside it has no area.
-    NoArea = 7,
-    /// The width is too small for the precision of the positions here.
-    TooFine = 8,
-    /// Something rests on the edge, or on a face right beside it: light would show behind a chamfer.
-    Contact = 9,
-}
-
 impl Outcome {
     /// A short name in lower case, for reports.
     pub fn name(self) -> &'static str {
@@ -189,40 +166,9 @@ impl Outcome {
     }
 }
 
-impl Reason {
-    /// Every reason, in the order of their numbers.
-    pub const ALL: [Reason; 10] = [
-        Reason::None,
-        Reason::NoRoom,
-        Reason::Folds,
-        Reason::Miter,
-        Reason::Intersects,
-        Reason::NoEnd,
-        Reason::ZeroThickness,
-        Reason::NoArea,
-        Reason::TooFine,
-        Reason::Contact,
-    ];
-
-    /// A short name in lower case with underscores, for reports.
-    pub fn name(self) -> &'static str {
-        match self {
-            Reason::None => "none",
-            Reason::NoRoom => "no_room",
-            Reason::Folds => "folds",
-            Reason::Miter => "miter",
-            Reason::Intersects => "intersects",
-            Reason::NoEnd => "no_end",
-            Reason::ZeroThickness => "zero_thickness",
-            Reason::NoArea => "no_area",
-            Reason::TooFine => "too_fine",
-            Reason::Contact => "contact",
-        }
-    }
-}
-
 /// Sums over the verdicts of a mesh.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Totals {
     /// Hard edges with two sides.
     pub hard_edges: u32,
@@ -230,8 +176,8 @@ pub struct Totals {
     pub chamfered: u32,
     /// Those chamfered, but narrower somewhere.
     pub narrowed: u32,
-    /// Those left as they were, by reason (indexed by [`Reason`] as a number).
-    pub skipped: [u32; Reason::ALL.len()],
+    /// Those left as they were, by reason.
+    pub skipped: ByReason,
     /// Mean width of the hard edges, as a share (0 to 1) of the width asked for, weighted by edge
     /// length; 0 without hard edges. Skipped edges have none; ends at which both sides stay put
     /// at any width do not count: where the edge runs out in a smooth area, at a T-junction, or

@@ -9,6 +9,7 @@ use std::collections::BTreeSet;
 
 use glam::{DMat4, DVec3};
 
+use crate::bvh::{Aabb, Tree};
 use crate::contacts::border_lines;
 use crate::mesh::{Held, Mesh};
 use crate::report::Chamfered;
@@ -26,6 +27,7 @@ pub struct Placed {
 
 /// The meshes of a scene, chamfered.
 #[derive(Clone, Debug, Default)]
+#[non_exhaustive]
 pub struct ChamferedScene {
     /// `#meshes`.
     pub meshes: Vec<Chamfered>,
@@ -149,9 +151,14 @@ fn contacts_across(meshes: &[Mesh], objects: &[Object]) -> Vec<Vec<Held>> {
     }
     let borders: Vec<Vec<[DVec3; 2]>> = meshes.iter().map(border_lines).collect();
     let bounds: Vec<[DVec3; 2]> = objects.iter().map(|o| bounds(o, &meshes[o.mesh])).collect();
+    let boxes: Vec<Aabb> = bounds.iter().map(aabb).collect();
+    let tree = Tree::new(&boxes, &[]);
     for (number, object) in objects.iter().enumerate() {
         let Some(to_mesh) = object.to_mesh else { continue };
-        for (other_number, other) in objects.iter().enumerate() {
+        let mut near: Vec<u32> = tree.overlapping(boxes[number]).collect();
+        near.sort_unstable();
+        for other_number in near.into_iter().map(|other| other as usize) {
+            let other = &objects[other_number];
             if number == other_number || !overlap(bounds[number], bounds[other_number]) {
                 continue;
             }
@@ -183,6 +190,13 @@ fn bounds(object: &Object, mesh: &Mesh) -> [DVec3; 2] {
     let [low, high] = points.fold(start, |[low, high], point| [low.min(point), high.max(point)]);
     let slack = (high - low).max_element() / 1000.0;
     [low - slack, high + slack]
+}
+
+/// In single precision; what is not finite is nowhere.
+fn aabb(bounds: &[DVec3; 2]) -> Aabb {
+    let corners = bounds.map(|corner| corner.as_vec3());
+    let is_finite = corners.iter().all(|corner| corner.is_finite());
+    if is_finite { Aabb::around(&corners.map(|corner| corner.to_array())) } else { Aabb::EMPTY }
 }
 
 fn overlap(one: [DVec3; 2], other: [DVec3; 2]) -> bool {

@@ -8,6 +8,7 @@
 mod density;
 mod feet;
 mod fill_map;
+mod fit;
 mod ground;
 mod owners;
 mod patch;
@@ -23,7 +24,7 @@ use density::uv_point;
 
 pub use fill_map::add_fill;
 pub use owners::{Owners, owners};
-pub use patch::{Joint, Middle, Parts, Patches, Taken};
+pub use patch::{Joint, Middle, Parts, Patches};
 pub use strip_map::add_strip;
 
 /// The UV channels that a mesh has.
@@ -54,7 +55,7 @@ mod tests {
     fn a_chain_of_edges_between_two_regions_has_one_owner() {
         let cylinder = shapes::cylinder(12);
         let plan = plan_of(&cylinder, 0.05);
-        let placement = limits(&plan, Verify::Fast).placement;
+        let placement = limits(&plan, Verify::Fast).unwrap().placement;
         let cuts = strips(&plan, &placement);
         let owners = owners(&plan, &placement, &cuts, &attributes(&plan, &placement));
         for edge in plan.edges.hard.ids() {

@@ -4,9 +4,10 @@
 //! every other edge; one vertex whose corners lie in two sectors is split later (thesis 6.2,
 //! corner-connected vertices). Sectors that are joined by chamfered edges form a ring.
 
+use crate::breaks::is_hard;
 use crate::contacts::Contacts;
 use crate::edges::Edges;
-use crate::ids::{Cluster, Corner, Id, IdVec, Ring, Sector};
+use crate::ids::{Cluster, Corner, Id, IdVec, Ring, Sector, Triangle};
 use crate::topology::{Hidden, Topology};
 use crate::view::View;
 
@@ -53,6 +54,9 @@ pub struct Sectors {
     pub rings: IdVec<Ring, RingRange>,
     /// The sectors of hidden faces between two borders, sorted: these have no chamfer of their own.
     pub followers: Vec<Follower>,
+    /// The corners of lines on chamfered edges whose sectors have no chamfer of their own, those first
+    /// that others depend on.
+    pub spanned: Vec<Corner>,
     /// The sectors of all rings, counter-clockwise; an open ring begins and ends at borders.
     pub members: Vec<Sector>,
 }
@@ -105,6 +109,7 @@ pub fn sectors(view: &View, topology: &Topology, edges: &Edges, contacts: &Conta
         fans: IdVec::default(),
         rings: IdVec::default(),
         followers: Vec::new(),
+        spanned: Vec::new(),
         members: Vec::new(),
     };
     for edge in edges.hard.iter().filter(|edge| edge.skipped.is_none()) {
@@ -117,6 +122,9 @@ pub fn sectors(view: &View, topology: &Topology, edges: &Edges, contacts: &Conta
         add_follower(topology, edges, &mut sectors, hidden);
     }
     sectors.followers.sort_unstable();
+    for &corner in &edges.spanned {
+        add_whole(view, topology, &mut sectors, corner);
+    }
     join_rings(topology, &mut sectors);
     mark_meeting_borders(view, topology, contacts, &mut sectors);
     sectors
@@ -165,6 +173,41 @@ fn add_fan(topology: &Topology, edges: &Edges, sectors: &mut Sectors, corner: Co
         last,
         next: Sector::NONE,
         starts_at_border,
+        borders_meet: false,
+        ring: Ring::NONE,
+    });
+}
+
+/// Where more triangles meet at a vertex, walking around it for each that is a line would take
+/// quadratic time.
+const MOST_AROUND: usize = 64;
+
+/// Adds the corners all around a vertex as one sector, where no border and no hard edge reaches it.
+fn add_whole(view: &View, topology: &Topology, sectors: &mut Sectors, corner: Corner) {
+    let mut corners = vec![corner];
+    loop {
+        let last = corners[corners.len() - 1];
+        let twin = topology.twin[last.prev()];
+        if corners.len() > MOST_AROUND
+            || sectors.sector_of[last].is_some()
+            || twin.is_none()
+            || is_hard(view, twin, last.prev())
+        {
+            return;
+        }
+        if twin == corner {
+            break;
+        }
+        corners.push(twin);
+    }
+    let sector = Sector::new(sectors.fans.len());
+    corners.iter().for_each(|&corner| sectors.sector_of[corner] = sector);
+    sectors.spanned.push(corner);
+    sectors.fans.push(Fan {
+        first: corner,
+        last: corners[corners.len() - 1],
+        next: Sector::NONE,
+        starts_at_border: false,
         borders_meet: false,
         ring: Ring::NONE,
     });
@@ -236,6 +279,19 @@ fn add_ring(sectors: &mut Sectors, first: Sector) {
     }
     let closed = sector.is_some();
     sectors.rings.push(RingRange { start, end: sectors.members.len() as u32, closed });
+}
+
+/// `#clusters`: whether a face goes on for at least a row of triangles behind a vertex inside of
+/// it. No chamfer reaches these, so the first row may be given away.
+pub fn deep(topology: &Topology, sectors: &Sectors, clusters: usize) -> IdVec<Cluster, bool> {
+    let mut deep = IdVec::filled(false, clusters);
+    for triangle in (0..topology.twin.len() / 3).map(|triangle| Triangle(triangle as u32)) {
+        let corners = triangle.corners();
+        if corners.iter().all(|&corner| sectors.sector_of[corner].is_none()) {
+            corners.iter().for_each(|&corner| deep[topology.cluster_at[corner]] = true);
+        }
+    }
+    deep
 }
 
 #[cfg(test)]

@@ -24,8 +24,9 @@ use windows::{Sample, Window};
 /// A triangle of a scene, `3 by 3`: counter-clockwise where seen from outside.
 pub type SceneTriangle = [[f32; 3]; 3];
 
-/// How a scene is looked at.
+/// How a scene is looked at: the defaults, with what a caller wants otherwise.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Eyes {
     /// From how many directions, at most [`Eyes::MOST_VIEWS`].
     pub views: usize,
@@ -45,9 +46,10 @@ impl Eyes {
 }
 
 impl Eyes {
-    /// The default, with so many threads.
-    pub fn with_threads(threads: u32) -> Eyes {
-        Eyes { threads, ..Eyes::default() }
+    /// The same with another number of [`threads`](field@Eyes::threads).
+    #[must_use]
+    pub const fn with_threads(self, threads: u32) -> Eyes {
+        Eyes { threads, ..self }
     }
 
     fn threads(&self) -> Threads {
@@ -77,6 +79,7 @@ const MOST_SIGHTS: usize = 8;
 
 /// A place where light shows.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Leak {
     /// The unit vector from there to the eye.
     pub toward_eye: [f32; 3],
@@ -91,6 +94,11 @@ pub struct Leak {
 }
 
 impl Leak {
+    /// A place that the eye looks into a solid at, for those who find leaks in their own way.
+    pub fn new(toward_eye: [f32; 3], places: Vec<[f32; 3]>, depth: f32) -> Leak {
+        Leak { toward_eye, places, depth, is_past_outlines: false }
+    }
+
     /// The middle one of its places.
     pub fn middle(&self) -> [f32; 3] {
         self.places[self.places.len() / 2]

@@ -17,6 +17,7 @@ use crate::weld::weld;
 
 /// A mesh with normals, its vertices split where normals differ.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Smoothed {
     /// `#vertices`: the source vertex of each. Source vertices keep their indices; copies follow.
     pub source_of: Vec<u32>,

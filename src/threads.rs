@@ -41,6 +41,15 @@ impl Threads {
         Threads {}
     }
 
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        #[cfg(feature = "parallel")]
+        if let Some(pool) = &self.pool {
+            return pool.current_num_threads();
+        }
+        1
+    }
+
     /// `#ids`: the value for each.
     pub fn map<I: Id, T: Send>(
         &self,

@@ -5,9 +5,12 @@
 //! vertices, normals and positions have a say in who belongs to whom.
 
 mod crowded;
+mod solids;
 
 pub use crowded::Hidden;
+pub use solids::solids;
 
+use crate::groups::Groups;
 use crate::ids::{Cluster, Corner, Id, IdVec, Triangle};
 use crate::view::View;
 use crate::weld::Weld;
@@ -19,7 +22,8 @@ pub struct Topology {
     pub cluster_at: IdVec<Corner, Cluster>,
     /// `#corners`: the opposite half-edge, or none at a border and in collapsed triangles.
     pub twin: IdVec<Corner, Corner>,
-    /// Half-edges, sorted, that lie with both their faces on another edge: sheets of two sides.
+    /// Half-edges, sorted, that lie with both their faces on another edge: sheets of two sides. Not
+    /// those of closed skins, which are solids.
     pub doubled: Vec<Corner>,
     /// Half-edges without twin, sorted, that lie behind visible faces on their edge.
     pub hidden: Vec<Hidden>,
@@ -94,6 +98,7 @@ pub fn topology(view: &View, weld: &Weld) -> Topology {
     };
     join_all(view, weld.first_vertex.len(), &mut joined);
     joined.sort();
+    solids::keep_sheets(view, &mut joined);
     joined
 }
 
@@ -112,13 +117,33 @@ struct Spoke {
 
 fn join_all(view: &View, clusters: usize, joined: &mut Topology) {
     let (starts, mut spokes) = buckets(view, &joined.cluster_at, clusters);
+    let mut crowds = Vec::new();
     for bounds in starts.windows(2) {
         let bucket = &mut spokes[bounds[0] as usize..bounds[1] as usize];
         bucket.sort_unstable_by_key(|spoke| (spoke.far, spoke.half_edge));
+        let mut start = bounds[0] as usize;
         for edge in bucket.chunk_by(|one, other| one.far == other.far) {
-            join(view, edge, joined);
+            match *edge {
+                [_] => {}
+                [one, other] => join_two([one.half_edge, other.half_edge], joined),
+                _ => crowds.push(start..start + edge.len()),
+            }
+            start += edge.len();
         }
     }
+    if !crowds.is_empty() {
+        let mut parts = parts(joined);
+        crowds.into_iter().for_each(|crowd| join_crowd(view, &spokes[crowd], &mut parts, joined));
+    }
+}
+
+/// `#triangles`: what is connected across edges of two sides.
+fn parts(joined: &Topology) -> Groups {
+    let mut parts = Groups::singles(joined.twin.len() / 3);
+    for corner in joined.twin.ids().filter(|&corner| joined.twin[corner].is_some()) {
+        parts.join(corner.triangle().0, joined.twin[corner].triangle().0);
+    }
+    parts
 }
 
 /// All half-edges, sorted by the lower of their two clusters (counting sort).
@@ -150,22 +175,18 @@ fn buckets(
     (starts, spokes)
 }
 
-/// Pairs the half-edges of one edge.
-fn join(view: &View, edge: &[Spoke], joined: &mut Topology) {
-    match *edge {
-        [_] => {}
-        [one, other] => {
-            if joined.cluster_at[one.half_edge] != joined.cluster_at[other.half_edge] {
-                joined.marry([one.half_edge, other.half_edge]);
-            } else {
-                joined.touching.push([one.half_edge, other.half_edge]);
-            }
-        }
-        _ => join_crowd(view, edge, joined),
+/// Pairs the half-edges of an edge of two sides, if they run opposite ways.
+fn join_two([one, other]: [Corner; 2], joined: &mut Topology) {
+    if joined.cluster_at[one] != joined.cluster_at[other] {
+        joined.marry([one, other]);
+    } else {
+        joined.touching.push([one, other]);
     }
 }
 
-fn join_crowd(view: &View, edge: &[Spoke], joined: &mut Topology) {
+/// Pairs the half-edges of an edge of more sides. Parts grow with each pair, so that of solids that
+/// are there twice each keeps its own faces all around.
+fn join_crowd(view: &View, edge: &[Spoke], parts: &mut Groups, joined: &mut Topology) {
     let first = edge[0].half_edge;
     joined.touching.extend(edge[1..].iter().map(|spoke| [first, spoke.half_edge]));
     let near = joined.cluster_at[first].min(edge[0].far);
@@ -173,13 +194,17 @@ fn join_crowd(view: &View, edge: &[Spoke], joined: &mut Topology) {
         .iter()
         .map(|spoke| spoke.half_edge)
         .partition(|&half_edge| joined.cluster_at[half_edge] == near);
-    let Crowd { pairs, hidden, is_contact } = crowded::crowd(view, &forth, &back);
+    let mut part = |half_edge: Corner| parts.first_of(half_edge.triangle().0);
+    let Crowd { pairs, hidden, is_contact } = crowded::crowd(view, &forth, &back, &mut part);
     joined.doubled.extend(crowded::doubled(view, &pairs).as_flattened());
     joined.hidden.extend(hidden);
     if is_contact {
         joined.contacts.extend(pairs.as_flattened());
     }
-    pairs.into_iter().for_each(|pair| joined.marry(pair));
+    for pair in pairs {
+        parts.join(pair[0].triangle().0, pair[1].triangle().0);
+        joined.marry(pair);
+    }
 }
 
 #[cfg(test)]

@@ -29,9 +29,11 @@ const LEAST_SLENDERNESS: f64 = 1e-7;
 /// but not fold over its neighbours, which lie in a plane of this normal.
 pub fn stays_line(old: [DVec3; 3], new: [DVec3; 3], normal: DVec3, resolution: f64) -> bool {
     let (old_area, new_area) = (area_vector(old), area_vector(new));
-    // As long as it has any area of its own, a line has a side that it may not turn away from.
-    let has_area = old_area.length() > longest_side(old).powi(2) * LEAST_AREA;
-    if has_area && old_area.dot(new_area) <= 0.0 {
+    // As long as it has any area of its own, a line has a side that it may not turn away from, and
+    // keeps some.
+    let has_any =
+        |points: [DVec3; 3], area: DVec3| area.length() > longest_side(points).powi(2) * LEAST_AREA;
+    if has_any(old, old_area) && !(has_any(new, new_area) && old_area.dot(new_area) > 0.0) {
         return false;
     }
     opens_along(old, new, [normal; 2], resolution)

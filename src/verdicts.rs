@@ -72,7 +72,7 @@ pub fn totals(plan: &Plan, verdicts: &[EdgeVerdict]) -> Totals {
         match verdict.outcome {
             Outcome::Full => totals.chamfered += 1,
             Outcome::Narrowed => totals.narrowed += 1,
-            Outcome::Skipped => totals.skipped[verdict.reason as usize] += 1,
+            Outcome::Skipped => totals.skipped[verdict.reason] += 1,
         }
         let [from, to] = [edge.sides[0], edge.sides[0].next()].map(|c| plan.view.position_at(c));
         let length = from.distance(to);
@@ -109,7 +109,7 @@ mod tests {
 
     fn judge(mesh: &MeshBuffers, width: f32) -> (Vec<EdgeVerdict>, Totals) {
         let plan = plan_of(mesh, width);
-        let limits = limits(&plan, Verify::Fast);
+        let limits = limits(&plan, Verify::Fast).unwrap();
         let verdicts = verdicts(&plan, &limits, &strips::strips(&plan, &limits.placement));
         let totals = totals(&plan, &verdicts);
         (verdicts, totals)
@@ -138,7 +138,7 @@ mod tests {
     fn a_width_below_the_precision_of_the_positions_is_too_fine() {
         let (verdicts, totals) = judge(&shapes::plain_cube(1.0), 1e-9);
         assert!(verdicts.iter().all(|verdict| verdict.reason == Reason::TooFine));
-        assert_eq!(totals.skipped[Reason::TooFine as usize], 12);
+        assert_eq!(totals.skipped[Reason::TooFine], 12);
         assert_eq!(totals.mean_width, 0.0);
     }
 

@@ -39,6 +39,7 @@ pub fn view<'a>(mesh: &Mesh<'a>, options: &Options) -> Result<View<'a>, Error> {
     check_lengths(mesh)?;
     check_indices(mesh)?;
     check_finite(mesh)?;
+    memory::ask(memory::of_weld(mesh))?;
     view_of_checked(mesh, options)
 }
 
@@ -52,7 +53,6 @@ pub fn view_of_checked<'a>(mesh: &Mesh<'a>, options: &Options) -> Result<View<'a
     }
     let width = width_in_units(mesh, options.width)?;
     let least_breadth = checked_share(options.least_breadth)?;
-    memory::check(mesh, options.verify)?;
     let threads = Threads::new(options.threads, mesh.indices.len());
     Ok(View { mesh: *mesh, width, least_breadth, resolution: resolution(mesh), threads })
 }

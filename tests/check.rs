@@ -3,23 +3,21 @@
 use chamfer::check::{Element, Facts, Findings, Rule, assert_sound, check, compare};
 use chamfer::shapes::{self, Touch};
 use chamfer::{
-    Blend, Chamfered, MeshBuffers, Totals, TriangleKind, TriangleSource, Verify, VertexSource,
+    Blend, Chamfered, MeshBuffers, Reason, Totals, TriangleKind, TriangleSource, Verify,
+    VertexSource,
 };
 
 /// A mesh as if chamfered without any change.
 fn unchanged(mesh: &MeshBuffers) -> Chamfered {
     let vertices = mesh.positions.len() as u32;
     let triangles = mesh.indices.len() as u32 / 3;
-    Chamfered {
-        mesh: mesh.clone(),
-        vertex_sources: (0..vertices)
-            .map(|v| VertexSource::new(Blend::one(v), Blend::one(v)))
-            .collect(),
-        triangle_sources: (0..triangles)
-            .map(|index| TriangleSource { kind: TriangleKind::Source, index })
-            .collect(),
-        ..Chamfered::default()
-    }
+    let vertex = |v| VertexSource::new(Blend::one(v), Blend::one(v));
+    let triangle = |index| TriangleSource { kind: TriangleKind::Source, index };
+    let mut result = Chamfered::default();
+    result.mesh = mesh.clone();
+    result.vertex_sources = (0..vertices).map(vertex).collect();
+    result.triangle_sources = (0..triangles).map(triangle).collect();
+    result
 }
 
 /// Appends a new triangle to the last submesh.
@@ -137,19 +135,9 @@ fn an_empty_mesh_is_sound() {
 
 #[test]
 fn facts_of_a_cube() {
-    let expected = Facts {
-        vertices: 24,
-        triangles: 12,
-        components: 1,
-        border_half_edges: 0,
-        border_loops: 0,
-        non_manifold_edges: 0,
-        hard_edges: 12,
-        flat_triangles: 0,
-        odd_normals: 0,
-        odd_tangents: 0,
-        self_intersections: None,
-    };
+    let mut expected = Facts::default();
+    (expected.vertices, expected.triangles) = (24, 12);
+    (expected.components, expected.hard_edges) = (1, 12);
     assert_eq!(facts(&shapes::cube(1.0)), expected);
 }
 
@@ -158,7 +146,9 @@ fn facts_of_other_shapes() {
     let open = facts(&shapes::open_box());
     assert_eq!((open.border_half_edges, open.border_loops, open.hard_edges), (4, 1, 8));
     let touching = facts(&shapes::two_cubes_touching(Touch::Edge));
-    assert_eq!((touching.non_manifold_edges, touching.components), (1, 1));
+    assert_eq!((touching.non_manifold_edges, touching.components), (0, 1));
+    let twice = facts(&twice(&shapes::plain_cube(1.0), false));
+    assert_eq!(twice.non_manifold_edges, 18, "its diagonals too");
     let separate = facts(&shapes::two_cubes_touching(Touch::Vertex));
     assert_eq!((separate.non_manifold_edges, separate.components), (0, 2));
     assert_eq!(facts(&shapes::sphere(8, 12)).hard_edges, 0);
@@ -242,18 +232,70 @@ fn a_closed_lid() {
 
 #[test]
 fn a_third_face_at_an_edge() {
-    let found = findings(&shapes::plain_cube(1.0), |after| {
-        let [a, b] = [after.mesh.indices[0], after.mesh.indices[1]];
-        after.mesh.positions.push([2.0, 2.0, 2.0]);
-        after.mesh.normals.push([1.0, 0.0, 0.0]);
-        let copy = after.vertex_sources.get(0);
-        after.vertex_sources = after.vertex_sources.iter().chain([copy]).collect();
-        let tip = after.mesh.positions.len() as u32 - 1;
-        add_triangle(after, [a, b, tip]);
-        add_triangle(after, [b, a, tip]);
-    });
+    let found = findings(&shapes::plain_cube(1.0), add_card);
     assert_eq!(found.count(Rule::NonManifold), 1);
     assert_eq!(found.count(Rule::Balance), 0);
+}
+
+/// A card on one edge of a cube.
+fn add_card(after: &mut Chamfered) {
+    let [a, b] = [after.mesh.indices[0], after.mesh.indices[1]];
+    after.mesh.positions.push([2.0, 2.0, 2.0]);
+    after.mesh.normals.push([1.0, 0.0, 0.0]);
+    let copy = after.vertex_sources.get(0);
+    after.vertex_sources = after.vertex_sources.iter().chain([copy]).collect();
+    let tip = after.mesh.positions.len() as u32 - 1;
+    add_triangle(after, [a, b, tip]);
+    add_triangle(after, [b, a, tip]);
+}
+
+/// A mesh whose skin is there twice: copied, or with a second one inside, back to back.
+fn twice(mesh: &MeshBuffers, inward: bool) -> MeshBuffers {
+    let mut both = mesh.clone();
+    let vertices = mesh.positions.len() as u32;
+    both.positions.extend_from_within(..);
+    let sign = if inward { -1.0 } else { 1.0 };
+    both.normals.extend(mesh.normals.iter().map(|normal| normal.map(|along| sign * along)));
+    for triangle in mesh.indices.chunks_exact(3) {
+        let [a, b, c] = [0, 1, 2].map(|k| vertices + triangle[k]);
+        both.indices.extend(if inward { [a, c, b] } else { [a, b, c] });
+    }
+    both.submesh_index_counts = vec![both.indices.len() as u32];
+    both
+}
+
+/// Edges of solids that touch have two sides in each, and those of a skin that is there twice have
+/// four, before and after. More are too many there too.
+#[test]
+fn too_many_sides_where_there_were_four() {
+    let solids = [
+        shapes::two_cubes_touching(Touch::Edge),
+        twice(&shapes::plain_cube(1.0), false),
+        twice(&shapes::plain_cube(1.0), true),
+    ];
+    for solid in solids {
+        let found = findings(&solid, |_| ());
+        assert!(found.is_sound(), "{found}");
+        let found = findings(&solid, add_card);
+        assert_eq!(found.count(Rule::NonManifold), 1, "{found}");
+    }
+}
+
+/// One of two cubes that touch along an edge cuts through itself; the other one does not count.
+#[test]
+fn a_solid_that_touches_another_and_cuts_itself() {
+    let before = shapes::two_cubes_touching(Touch::Edge);
+    let found = findings(&before, |after| {
+        move_cluster(&mut after.mesh, [0.0; 3], [0.5, 2.0, 0.5]);
+    });
+    assert!(found.count(Rule::SelfIntersection) > 0, "{found}");
+    // Cubes that cut each other do not.
+    let found = findings(&before, |after| {
+        for position in &mut after.mesh.positions[24..] {
+            *position = position.map(|along| along - 0.5);
+        }
+    });
+    assert_eq!(found.count(Rule::SelfIntersection), 0, "{found}");
 }
 
 #[test]
@@ -322,7 +364,7 @@ fn totals_that_are_not_those_of_the_verdicts() {
         |totals| totals.hard_edges = 1,
         |totals| totals.chamfered = 1,
         |totals| totals.narrowed = 1,
-        |totals| totals.skipped[3] = 1,
+        |totals| totals.skipped[Reason::Miter] = 1,
     ];
     for plant in plants {
         let rules = broken(&shapes::cube(1.0), |after| plant(&mut after.totals));

@@ -3,12 +3,14 @@
 
 use chamfer::check::{Findings, Matching, MeasuredEdge, Rule, check, compare};
 use chamfer::shapes;
-use chamfer::{Chamfered, MeshBuffers, Options, Outcome, TriangleKind, Verify, Width, chamfer};
+use chamfer::{
+    Chamfered, MeshBuffers, Options, Outcome, Reason, TriangleKind, Verify, Width, chamfer,
+};
 
 const WIDTH: f32 = 0.05;
 
 fn chamfered(before: &MeshBuffers) -> Chamfered {
-    let options = Options { width: Width::Units(WIDTH), ..Options::default() };
+    let options = Options::default().with_width(Width::Units(WIDTH));
     chamfer(&before.as_mesh(), &options).unwrap()
 }
 
@@ -157,7 +159,7 @@ fn a_verdict_that_an_edge_was_skipped_which_was_not() {
     let rules = broken(&shapes::plain_cube(1.0), |after| {
         after.verdicts[4].outcome = Outcome::Skipped;
         after.totals.chamfered -= 1;
-        after.totals.skipped[1] += 1;
+        after.totals.skipped[Reason::NoRoom] += 1;
     });
     assert_eq!(rules, [Rule::Verdicts, Rule::Widths]);
 }

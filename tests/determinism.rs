@@ -13,7 +13,7 @@ const KNOWN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/support/demo_has
 
 fn options(threads: u32) -> Options {
     let width = Width::PercentOfExtent(2.0);
-    Options { width, threads, verify: Verify::Full, ..Options::default() }
+    Options::default().with_width(width).with_threads(threads).with_verify(Verify::Full)
 }
 
 fn hash(mesh: &MeshBuffers, options: &Options) -> u64 {
@@ -50,7 +50,7 @@ fn a_prepared_mesh_gives_what_a_fresh_one_does_at_any_width() {
     for mesh in models {
         let prepared = Prepared::new(&mesh.as_mesh()).unwrap();
         for percent in [0.0, 5.0, 0.5, 60.0, 5.0] {
-            let options = Options { width: Width::PercentOfExtent(percent), ..options(1) };
+            let options = options(1).with_width(Width::PercentOfExtent(percent));
             let again = prepared.chamfer(&options).unwrap();
             assert_eq!(fingerprint(&again), hash(&mesh, &options), "{percent} %");
         }

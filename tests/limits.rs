@@ -8,7 +8,7 @@ use chamfer::{
 const UP: [f32; 3] = [0.0, 1.0, 0.0];
 
 fn chamfered(name: &str, mesh: &MeshBuffers, width: f32) -> Chamfered {
-    let options = Options { width: Width::Units(width), ..Options::default() };
+    let options = Options::default().with_width(Width::Units(width));
     let result = chamfer(&mesh.as_mesh(), &options).unwrap();
     assert_sound(name, &mesh.as_mesh(), &result);
     result
@@ -165,7 +165,7 @@ fn a_sheet_of_two_sides_has_no_width() {
     let normals = [[UP; 4], [[0.0, -1.0, 0.0]; 4]].concat();
     let sheet = plain(positions, normals, vec![0, 1, 2, 0, 2, 3, 4, 6, 5, 4, 7, 6]);
     let result = chamfered("a sheet of two sides", &sheet, 0.05);
-    assert_eq!(result.totals.skipped[Reason::ZeroThickness as usize], 4);
+    assert_eq!(result.totals.skipped[Reason::ZeroThickness], 4);
     harms_no_cube("a sheet of two sides, with a cube", sheet);
 }
 

@@ -5,6 +5,8 @@ use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use chamfer::Reason;
+
 const PACKAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/unity-package");
 const HEADER: &str = include_str!("../include/chamfer.h");
 const MOST_LINES: usize = 250;
@@ -133,9 +135,9 @@ fn every_entry_point_is_in_the_header() {
     }
 }
 
-/// `NO_ROOM` as C# writes it.
+/// `no_room` as C# writes it.
 fn pascal(name: &str) -> String {
-    let word = |word: &str| word[..1].to_owned() + &word[1..].to_lowercase();
+    let word = |word: &str| word[..1].to_uppercase() + &word[1..];
     name.split('_').map(word).collect()
 }
 
@@ -163,13 +165,23 @@ fn constants_are_those_of_the_header() {
 }
 
 #[test]
-fn every_reason_of_the_header_is_known() {
+fn reasons_are_those_of_the_library() {
     let verdict = read("Runtime/EdgeVerdict.cs");
-    for define in HEADER.lines().filter_map(|line| line.strip_prefix("#define CHAMFER_REASON_")) {
-        let (name, value) = define.split_once(' ').unwrap();
-        if name != "SLOTS" {
-            assert!(has_value(&verdict, &pascal(name), value), "EdgeReason lacks {name}");
-        }
+    let (_, list) = verdict.split_once("enum EdgeReason").unwrap();
+    let members = list.split_once('}').unwrap().0.lines().map(str::trim);
+    let members =
+        members.filter(|line| line.contains(" = ")).map(|line| line.trim_end_matches(','));
+    let member = |reason: &Reason| format!("{} = {}", pascal(reason.name()), *reason as u32);
+    assert_eq!(members.collect::<Vec<_>>(), Reason::ALL.iter().map(member).collect::<Vec<_>>());
+}
+
+/// Whoever reads a report is told why, in words.
+#[test]
+fn every_reason_has_words() {
+    let words = read("Editor/ReportText.cs");
+    for reason in Reason::ALL.iter().filter(|reason| **reason != Reason::None) {
+        let case = format!("case EdgeReason.{}: return", pascal(reason.name()));
+        assert!(words.contains(&case), "ReportText lacks {case}");
     }
 }
 
@@ -229,6 +241,22 @@ fn actions_of_the_workflows_are_pinned() {
             let is_commit = hash.len() == 40 && hash.chars().all(|c| c.is_ascii_hexdigit());
             assert!(is_commit && pin.contains("# v"), "{}: {action}", path.display());
         }
+    }
+}
+
+/// A test that was renamed would be missed only on that system.
+#[test]
+fn tests_that_the_workflows_name_are_there() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let check = fs::read_to_string(root.join(".github/workflows/check.yml")).unwrap();
+    let named: Vec<&str> =
+        check.split("--test ").skip(1).filter_map(|t| t.split_whitespace().next()).collect();
+    assert!(named.contains(&"determinism") && named.contains(&"streams"), "{named:?}");
+    for name in named {
+        let is_there = [format!("tests/{name}.rs"), format!("tests/{name}/main.rs")]
+            .iter()
+            .any(|path| root.join(path).is_file());
+        assert!(is_there, "check.yml names the test {name}");
     }
 }
 

@@ -8,7 +8,7 @@ use chamfer::{Chamfered, MeshBuffers, Options, Verify, Width, chamfer, shapes};
 use glam::{DQuat, DVec3};
 
 fn chamfered(mesh: &MeshBuffers, width: Width) -> Chamfered {
-    chamfer(&mesh.as_mesh(), &Options { width, ..Options::default() }).unwrap()
+    chamfer(&mesh.as_mesh(), &Options::default().with_width(width)).unwrap()
 }
 
 /// Two vertices at one position are not exchanged for each other.

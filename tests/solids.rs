@@ -106,11 +106,9 @@ fn solids() -> Vec<MeshBuffers> {
 fn coverage(solids: &[MeshBuffers], percent: f32) -> f64 {
     let (mut hard, mut chamfered) = (0, 0);
     for (number, mesh) in solids.iter().enumerate() {
-        let options = Options {
-            width: Width::PercentOfExtent(percent),
-            verify: Verify::Full,
-            ..Options::default()
-        };
+        let options = Options::default()
+            .with_width(Width::PercentOfExtent(percent))
+            .with_verify(Verify::Full);
         let result = chamfer(&mesh.as_mesh(), &options).unwrap();
         assert_sound(&format!("solid {number} at {percent} %"), &mesh.as_mesh(), &result);
         hard += result.totals.hard_edges;

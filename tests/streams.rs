@@ -18,8 +18,8 @@ use std::path::Path;
 use chamfer::{
     Chamfered, Mesh, MeshBuffers, Options, TriangleKind, UvBuffer, Verify, Width, chamfer, shapes,
 };
-use chamfer_cli::document::ReadOptions;
-use chamfer_cli::format;
+use chamfer_formats as formats;
+use chamfer_formats::ReadOptions;
 use tally::Tally;
 
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/corpus");
@@ -38,7 +38,7 @@ fn check_affine(name: &str, before: &Mesh, percent: f32, tally: &mut Tally) {
 
 fn chamfered(mesh: &Mesh, percent: f32) -> Chamfered {
     let width = Width::PercentOfExtent(percent);
-    chamfer(mesh, &Options { width, verify: Verify::Fast, ..Options::default() }).unwrap()
+    chamfer(mesh, &Options::default().with_width(width).with_verify(Verify::Fast)).unwrap()
 }
 
 fn built() -> Vec<(&'static str, MeshBuffers)> {
@@ -81,7 +81,7 @@ fn of_corpus(percent: f32) -> Option<Tally> {
     paths.sort();
     let mut tally = Tally::default();
     for path in paths {
-        let Ok(document) = format::read(&path, &ReadOptions { smoothing_angle: 30.0 }) else {
+        let Ok(document) = formats::read(&path, &ReadOptions::default()) else {
             continue;
         };
         for source in document.meshes() {

@@ -12,7 +12,7 @@ use chamfer::{MeshBuffers, Options, Width, chamfer, shapes};
 
 fn check(name: &str, mesh: &MeshBuffers) {
     for percent in [0.05, 1.0, 15.0] {
-        let options = Options { width: Width::PercentOfExtent(percent), ..Options::default() };
+        let options = Options::default().with_width(Width::PercentOfExtent(percent));
         let result = chamfer(&mesh.as_mesh(), &options).unwrap();
         assert_sound(&format!("{name} at {percent} %"), &mesh.as_mesh(), &result);
     }

@@ -23,7 +23,7 @@ pub fn smooth_sphere() -> MeshBuffers {
 }
 
 pub fn options(verify: Verify, threads: u32) -> Options {
-    Options { width: Width::Units(WIDTH), verify, threads, ..Options::default() }
+    Options::default().with_width(Width::Units(WIDTH)).with_verify(verify).with_threads(threads)
 }
 
 /// What meshoptimizer, the fastest public way, takes to find equal positions alone.

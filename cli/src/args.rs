@@ -3,14 +3,13 @@
 use std::path::PathBuf;
 
 use chamfer::{ChamferSubmesh, Options, Verify, Width};
+use chamfer_formats::{ReadOptions, Weld};
 use clap::{Parser, Subcommand, ValueEnum};
-
-use crate::document::ReadOptions;
 
 const ABOUT: &str = "\
 Chamfers the hard edges of game models.
 
-Reads .glb, .gltf, .obj and .stl files, pulls the split vertices at every hard edge apart inside \
+Reads .glb, .gltf, .obj, .stl and .fbx files, pulls the split vertices at every hard edge apart inside \
 their own faces and closes the gap with a strip that shades smoothly. All else in a file stays \
 as it is.";
 
@@ -22,8 +21,8 @@ Where results go:
   several, or a folder    DIR/..., in the same subfolders as below the folder given
 
 Folders that are missing are created. A result has the format of its input; an .stl goes out as
-.glb, because .stl has no normals, unless -o names an .stl. With -o an .obj can go out as .glb too,
-and .glb and .gltf as each other.
+.glb, because .stl has no normals, unless -o names an .stl, and an .fbx too, as there is no writer.
+With -o an .obj can go out as .glb too, and .glb and .gltf as each other.
 
 Examples:
   chamfer chair.glb
@@ -108,6 +107,11 @@ pub struct Args {
     #[arg(default_value = "30")]
     pub smoothing_angle: f32,
 
+    /// Join vertices that are at most so far from each other, in mesh units; "auto": those that only
+    /// rounding may have set apart [default: those at the same place]
+    #[arg(long, value_name = "DISTANCE|auto", value_parser = weld, allow_negative_numbers = true)]
+    pub weld: Option<Weld>,
+
     /// Submesh (material) of the new triangles: that of the face each chamfer continues, a new
     /// one, or the one of this number
     #[arg(long, value_name = "owner|own|N", value_parser = submesh, default_value = "owner")]
@@ -181,6 +185,11 @@ pub struct CheckArgs {
     #[arg(long, value_name = "DEG", value_parser = angle, allow_negative_numbers = true)]
     #[arg(default_value = "30")]
     pub smoothing_angle: f32,
+
+    /// Join vertices that are at most so far from each other, in mesh units; "auto": those that only
+    /// rounding may have set apart [default: those at the same place]
+    #[arg(long, value_name = "DISTANCE|auto", value_parser = weld, allow_negative_numbers = true)]
+    pub weld: Option<Weld>,
 }
 
 impl CheckArgs {
@@ -191,7 +200,7 @@ impl CheckArgs {
 
     /// What to ask of the readers.
     pub fn read_options(&self) -> ReadOptions {
-        ReadOptions { smoothing_angle: self.smoothing_angle }
+        ReadOptions { smoothing_angle: self.smoothing_angle, weld: self.weld.unwrap_or_default() }
     }
 }
 
@@ -245,18 +254,17 @@ impl From<VerifyArg> for Verify {
 impl Args {
     /// What to ask of the core, with this many threads for one mesh.
     pub fn options(&self, threads: u32) -> Options {
-        Options {
-            width: self.width.map_or(Width::PercentOfExtent(self.width_percent), Width::Units),
-            least_breadth: self.least_breadth / 100.0,
-            verify: self.verify.into(),
-            chamfer_submesh: self.chamfer_submesh,
-            threads,
-        }
+        Options::default()
+            .with_width(self.width.map_or(Width::PercentOfExtent(self.width_percent), Width::Units))
+            .with_least_breadth(self.least_breadth / 100.0)
+            .with_verify(self.verify.into())
+            .with_chamfer_submesh(self.chamfer_submesh)
+            .with_threads(threads)
     }
 
     /// What to ask of the readers.
     pub fn read_options(&self) -> ReadOptions {
-        ReadOptions { smoothing_angle: self.smoothing_angle }
+        ReadOptions { smoothing_angle: self.smoothing_angle, weld: self.weld.unwrap_or_default() }
     }
 }
 
@@ -264,6 +272,13 @@ fn width(text: &str) -> Result<f32, String> {
     match text.parse::<f32>() {
         Ok(width) if width.is_finite() && width >= 0.0 => Ok(width),
         _ => Err("give a number of at least 0".into()),
+    }
+}
+
+fn weld(text: &str) -> Result<Weld, String> {
+    match text {
+        "auto" => Ok(Weld::Auto),
+        distance => width(distance).map(Weld::Within).map_err(|error| format!("{error}, or auto")),
     }
 }
 
@@ -309,7 +324,7 @@ mod tests {
     #[test]
     fn files_are_looked_at_and_all_else_is_as_the_core_has_it() {
         let options = parse("chamfer a.glb").unwrap().options(1);
-        assert_eq!(options, Options { verify: Verify::Seen, ..Options::default() });
+        assert_eq!(options, Options::default().with_verify(Verify::Seen));
     }
 
     #[test]
@@ -328,6 +343,15 @@ mod tests {
         assert!(parse("chamfer a.glb --width -1").is_err());
         assert!(parse("chamfer a.glb --width inf").is_err());
         assert!(parse("chamfer a.glb --width-percent NaN").is_err());
+    }
+
+    #[test]
+    fn welding_is_off_unless_asked_for() {
+        let weld = |line| parse(line).unwrap().read_options().weld;
+        assert_eq!(weld("chamfer a.glb"), Weld::Equal);
+        assert_eq!(weld("chamfer a.glb --weld 0.5"), Weld::Within(0.5));
+        assert_eq!(weld("chamfer a.glb --weld auto"), Weld::Auto);
+        assert!(parse("chamfer a.glb --weld -1").is_err());
     }
 
     #[test]

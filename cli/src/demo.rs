@@ -6,11 +6,10 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result};
 use chamfer::{Chamfered, MeshBuffers, Options, chamfer, shapes};
+use chamfer_formats::{IDENTITY, OutputFile, glb};
 
 use crate::args::DemoArgs;
 use crate::console::{say, warn};
-use crate::document::{IDENTITY, OutputFile};
-use crate::glb;
 use crate::pictures::write_png;
 use crate::preview::{Panel, Placed, contact_sheet};
 use crate::write;
@@ -56,7 +55,7 @@ fn write_all(folder: &Path) -> Result<()> {
 fn chamfered((name, before): (&'static str, MeshBuffers)) -> Result<Model> {
     let width = chamfer::Width::PercentOfExtent(WIDTH_PERCENT);
     let start = Instant::now();
-    let after = chamfer(&before.as_mesh(), &Options { width, ..Options::default() });
+    let after = chamfer(&before.as_mesh(), &Options::default().with_width(width));
     let time = start.elapsed();
     Ok(Model { name, before, after: after.with_context(|| name)?, time })
 }
@@ -64,7 +63,7 @@ fn chamfered((name, before): (&'static str, MeshBuffers)) -> Result<Model> {
 fn write_model(folder: &Path, model: &Model) -> Result<()> {
     let file = |when: &str, mesh: &MeshBuffers| -> Result<OutputFile> {
         let path = folder.join(format!("{}.{when}.glb", model.name));
-        Ok(OutputFile { path, bytes: glb::encode(model.name, mesh, &[])? })
+        Ok(OutputFile { path, bytes: glb::encode(model.name, mesh, &[], &[])? })
     };
     write::together(&[file("before", &model.before)?, file("after", &model.after.mesh)?])
 }

@@ -4,10 +4,11 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
+use chamfer_formats::paths::identity;
+use chamfer_formats::{endings, row_of};
 use walkdir::WalkDir;
 
 use crate::args::Args;
-use crate::format::Format;
 
 /// One model to chamfer.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,14 +55,15 @@ fn single_output(input: &Path, output: Option<&Path>) -> Result<PathBuf> {
         let name = usual_name(input);
         return Ok(output.join(name.file_name().context("the input has no file name")?));
     }
-    let Some(format) = Format::of(output) else {
+    let Some(format) = row_of(output) else {
         bail!(
-            "-o {}: not a folder, and its ending names no format: end it in .glb, .gltf, .obj or \
-             .stl, or in a slash for a folder",
-            output.display()
+            "-o {}: not a folder, and its ending names no format: end it in {}, or in a slash for \
+             a folder",
+            output.display(),
+            endings()
         );
     };
-    if let Some(from) = Format::of(input) {
+    if let Some(from) = row_of(input) {
         from.check_conversion(format).with_context(|| format!("-o {}", output.display()))?;
     }
     Ok(output.to_path_buf())
@@ -73,9 +75,9 @@ fn names_folder(path: &Path) -> bool {
 
 /// The input's path with the extension of the format that it usually becomes.
 fn usual_name(input: &Path) -> PathBuf {
-    match Format::of(input) {
-        Some(format) if format.usual_output() != format => {
-            input.with_extension(format.usual_output().extension())
+    match row_of(input) {
+        Some(row) if row.usual_output().format != row.format => {
+            input.with_extension(row.usual_output().ending)
         }
         _ => input.to_path_buf(),
     }
@@ -85,7 +87,7 @@ fn several(inputs: &[PathBuf], output: Option<&Path>) -> Result<Vec<Job>> {
     let Some(folder) = output else {
         bail!("several inputs or a folder need a folder for the results: add -o DIR");
     };
-    if folder.is_file() || (Format::of(folder).is_some() && !folder.is_dir()) {
+    if folder.is_file() || (row_of(folder).is_some() && !folder.is_dir()) {
         bail!("-o {}: several inputs or a folder need a folder, not a file", folder.display());
     }
     let mut jobs = Vec::new();
@@ -108,13 +110,13 @@ fn find_models(input: &Path, results: &Path) -> Result<Vec<Found>> {
     let walk = WalkDir::new(input).follow_links(true).sort_by_file_name().into_iter();
     for entry in walk.filter_entry(|e| e.depth() == 0 || identity(e.path()) != results) {
         let entry = entry.with_context(|| format!("cannot search {}", input.display()))?;
-        if entry.file_type().is_file() && Format::of(entry.path()).is_some() {
+        if entry.file_type().is_file() && row_of(entry.path()).is_some() {
             let below = entry.path().strip_prefix(input)?.to_path_buf();
             found.push(Found { input: entry.path().to_path_buf(), below });
         }
     }
     if found.is_empty() {
-        bail!("{}: no .glb, .gltf, .obj or .stl file in this folder", input.display());
+        bail!("{}: no {} file in this folder", input.display(), endings());
     }
     Ok(found)
 }
@@ -143,21 +145,6 @@ fn check_overlaps<'a>(
         }
     }
     Ok(())
-}
-
-/// Tells one file from another whatever way its path is written.
-pub fn identity(path: &Path) -> PathBuf {
-    let parent = path.parent().filter(|parent| !parent.as_os_str().is_empty());
-    let resolved = path.canonicalize().or_else(|_| {
-        let folder = parent.unwrap_or(Path::new(".")).canonicalize()?;
-        Ok::<_, std::io::Error>(folder.join(path.file_name().unwrap_or_default()))
-    });
-    let path = resolved.or_else(|_| std::path::absolute(path)).unwrap_or_else(|_| path.into());
-    if cfg!(any(windows, target_os = "macos")) {
-        // These file systems usually do not tell upper from lower case.
-        return path.to_string_lossy().to_lowercase().into();
-    }
-    path
 }
 
 #[cfg(test)]

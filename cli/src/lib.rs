@@ -1,23 +1,17 @@
-//! What the `chamfer` command is made of: a reader and writer for each model format, the batch
-//! that runs over many files, the report and the pictures.
+//! What the `chamfer` command is made of: the batch that runs over many files, the check, the report
+//! and the pictures. Model files are read and written by `chamfer-formats`.
 
 pub mod close_up;
-pub mod document;
-pub mod glb;
-pub mod gltf_file;
-pub mod obj_file;
+pub mod pictures;
 pub mod preview;
 pub mod scene;
-pub mod stl_file;
 
 mod args;
 mod batch;
 mod check;
 mod console;
 mod demo;
-pub mod format;
 mod jobs;
-pub mod pictures;
 mod process;
 mod report;
 mod verdict_lines;

@@ -5,9 +5,9 @@ use std::path::Path;
 
 use anyhow::{Context, Result};
 use chamfer::{Chamfered, MeshBuffers};
+use chamfer_formats::Document;
 use image::{ImageFormat, RgbImage};
 
-use crate::document::Document;
 use crate::preview::{Line, Panel, Placed, before_after, contact_sheet};
 use crate::verdict_lines::{self, Legend};
 use crate::write;

@@ -12,10 +12,13 @@ use chamfer::see_through::Eyes;
 use chamfer::{
     Chamfered, ChamferedScene, Mesh, Options, Verify, chamfer_scene, chamfer_with_progress,
 };
+use chamfer_formats as formats;
+use chamfer_formats::paths::identity;
+use chamfer_formats::weld;
+use chamfer_formats::{Document, Encoded, OutputFile, ReadOptions, SourceMesh};
+use glam::{Mat4, Vec3};
 
-use crate::document::{Document, OutputFile, ReadOptions, SourceMesh};
-use crate::format;
-use crate::jobs::{Job, identity};
+use crate::jobs::Job;
 use crate::report::MeshReport;
 use crate::write;
 
@@ -48,16 +51,74 @@ pub struct Processed {
 /// # Errors
 /// Whatever is wrong with the file, the options or the place of the result.
 pub fn process(job: &Job, settings: &Settings, progress: &dyn Fn(f32)) -> Result<Processed> {
-    let document = format::read(&job.input, &settings.read)?;
+    let document = formats::read(&job.input, &settings.read)?;
     let mut notes = document.notes();
     if document.meshes().iter().all(|mesh| mesh.mesh.indices.is_empty()) {
         notes.push("there are no triangles in it: nothing was chamfered".into());
     }
     let (chamfered, reports) = chamfer_all(&*document, settings, progress, &mut notes)?;
-    let files = document.encode(&job.output, &chamfered)?;
+    notes.extend(document.meshes().iter().zip(&chamfered).filter_map(too_far_out));
+    notes.extend(document.meshes().iter().filter_map(nearly_touching));
+    notes.extend(meshes_that_touch(&*document, &chamfered));
+    let Encoded { files, notes: lost } = formats::encode(&*document, &job.output, &chamfered)?;
+    notes.extend(lost);
     settings.taken.claim(job, &files)?;
     write::together(&files)?;
     Ok(Processed { document, chamfered, reports, notes })
+}
+
+/// Says where edges may be open that nobody sees.
+fn nearly_touching(SourceMesh { name, mesh }: &SourceMesh) -> Option<String> {
+    let (count, distance) = weld::nearly_touching(&mesh.positions, &mesh.indices);
+    (count > 0).then(|| {
+        format!(
+            "mesh {name}: {count} vertices are not where others are, but within {distance:.1e} of them: \
+             edges between them may be open, and stay as they are then; --weld auto joins them"
+        )
+    })
+}
+
+/// Says that edges between meshes stay, where there are no others.
+fn meshes_that_touch(document: &dyn Document, chamfered: &[Chamfered]) -> Option<String> {
+    let instances = document.instances();
+    if instances.len() < 2 || chamfered.iter().any(|result| !result.verdicts.is_empty()) {
+        return None;
+    }
+    let mut places: Vec<([u32; 3], usize)> = Vec::new();
+    for (number, instance) in instances.iter().enumerate() {
+        let transform = Mat4::from_cols_array_2d(&instance.transform);
+        let positions = document.meshes()[instance.mesh].mesh.positions.iter();
+        let place = |&at: &[f32; 3]| transform.transform_point3(Vec3::from(at)) + Vec3::ZERO;
+        places.extend(positions.map(|at| (place(at).to_array().map(f32::to_bits), number)));
+    }
+    places.sort_unstable();
+    places.dedup();
+    let shared = places.chunk_by(|(one, _), (other, _)| one == other);
+    let count = shared.filter(|same| same.len() > 1).count();
+    (count > 1).then(|| {
+        format!(
+            "no mesh has a hard edge of its own, but {count} places belong to several: edges between \
+             meshes are not chamfered, so join the meshes first"
+        )
+    })
+}
+
+/// A chamfer that is so few steps of its coordinates wide is bent by rounding, and held back.
+const LEAST_STEPS: f32 = 16.0;
+
+/// Says where a mesh lies too far from the origin for its chamfers.
+fn too_far_out((SourceMesh { name, mesh }, result): (&SourceMesh, &Chamfered)) -> Option<String> {
+    let farthest = mesh.positions.as_flattened().iter().fold(0.0f32, |most, at| most.max(at.abs()));
+    let step = farthest * f32::EPSILON;
+    let is_fine = result.verdicts.is_empty() || result.width >= LEAST_STEPS * step;
+    (!is_fine && result.width > 0.0).then(|| {
+        format!(
+            "mesh {name} lies so far from the origin ({farthest}) that its coordinates go in steps \
+             of {step}, too coarse for chamfers of {}: move it there, and let its node's transform \
+             say where it stands",
+            result.width
+        )
+    })
 }
 
 /// Chamfers the meshes of a file together, as they stand in its scene.
@@ -96,10 +157,11 @@ pub fn chamfer_document(
     progress: &dyn Fn(f32),
 ) -> Result<ChamferedScene> {
     let meshes: Vec<Mesh> = document.meshes().iter().map(|mesh| mesh.mesh.as_mesh()).collect();
-    let eyes = (options.verify == Verify::Seen).then(|| Eyes::with_threads(options.threads));
+    let eyes =
+        (options.verify == Verify::Seen).then(|| Eyes::default().with_threads(options.threads));
     // The scene looks through all meshes together.
     let each = match options.verify {
-        Verify::Seen => Options { verify: Verify::Full, ..*options },
+        Verify::Seen => options.with_verify(Verify::Full),
         _ => *options,
     };
     let total: usize = meshes.iter().map(|mesh| mesh.indices.len()).sum();
@@ -178,6 +240,21 @@ mod tests {
         assert!(taken.claim(&b, &texture("red")[1..]).is_ok());
         let error = taken.claim(&b, &texture("blue")[1..]).unwrap_err().to_string();
         assert!(error.contains("t.png belongs to another model"), "{error}");
+    }
+
+    #[test]
+    fn chamfers_far_from_the_origin_are_told_of() {
+        let note = |shift: f32, width: f32| {
+            let mut mesh = chamfer::shapes::plain_cube(1.0);
+            mesh.positions.iter_mut().for_each(|position| position[0] += shift);
+            let options = Options::default().with_width(chamfer::Width::Units(width));
+            let result = chamfer::chamfer(&mesh.as_mesh(), &options).unwrap();
+            too_far_out((&SourceMesh { name: "a".into(), mesh }, &result))
+        };
+        assert_eq!(note(0.0, 0.01), None);
+        assert_eq!(note(5e4, 0.0), None);
+        assert!(note(5e4, 0.01).unwrap().starts_with("mesh a lies so far from the origin (50000"));
+        assert_eq!(note(5e4, 0.1), None);
     }
 
     #[test]

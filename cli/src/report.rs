@@ -5,7 +5,7 @@ use std::path::Path;
 use std::time::Duration;
 
 use anyhow::Result;
-use chamfer::{Chamfered, EdgeVerdict, MeshBuffers, Reason};
+use chamfer::{ByReason, Chamfered, EdgeVerdict, MeshBuffers, Reason};
 use serde::{Serialize, Serializer};
 
 /// The whole report.
@@ -188,7 +188,7 @@ impl MeshReport {
                 hard_edges: totals.hard_edges.into(),
                 chamfered: totals.chamfered.into(),
                 narrowed: totals.narrowed.into(),
-                skipped: Skipped(totals.skipped.map(u64::from)),
+                skipped: Skipped::new(&totals.skipped),
             },
             mean_width: totals.mean_width,
             width: result.width,
@@ -230,6 +230,14 @@ impl Counts {
 }
 
 impl Skipped {
+    fn new(skipped: &ByReason) -> Skipped {
+        let mut counts = Skipped::default();
+        for (place, (_, count)) in counts.0.iter_mut().zip(skipped.iter()) {
+            *place = count.into();
+        }
+        counts
+    }
+
     /// Edges of all reasons.
     pub fn total(&self) -> u64 {
         self.0.iter().sum()

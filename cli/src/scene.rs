@@ -2,9 +2,9 @@
 
 use chamfer::see_through::SceneTriangle;
 use chamfer::{Mesh, MeshBuffers};
+use chamfer_formats::{Document, Instance};
 use glam::{Mat3, Mat4, Vec3};
 
-use crate::document::{Document, Instance};
 use crate::preview::Placed;
 
 /// The triangles of a document's scene, with these in the place of its meshes:
@@ -51,7 +51,7 @@ pub fn largest_length(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::document::IDENTITY;
+    use chamfer_formats::IDENTITY;
 
     fn stretched(x: f32) -> Instance {
         let mut transform = IDENTITY;

@@ -25,7 +25,7 @@ impl Legend {
     pub fn add(&mut self, result: &Chamfered) {
         self.full += result.totals.chamfered;
         self.narrowed += result.totals.narrowed;
-        self.skipped += result.totals.skipped.iter().sum::<u32>();
+        self.skipped += result.totals.skipped.total();
     }
 
     /// For the title of a picture.
@@ -99,13 +99,13 @@ fn lines(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::document::IDENTITY;
     use chamfer::{Options, Width, chamfer, shapes};
+    use chamfer_formats::IDENTITY;
 
     #[test]
     fn lines_follow_the_strips() {
         let cube = shapes::plain_cube(1.0);
-        let options = Options { width: Width::Units(0.1), ..Options::default() };
+        let options = Options::default().with_width(Width::Units(0.1));
         let result = chamfer(&cube.as_mesh(), &options).unwrap();
         let [old, new] = [before, after].map(|lines| lines(&cube, &result, IDENTITY));
         assert_eq!((old.len(), new.len()), (12, 12));

@@ -8,9 +8,8 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use anyhow::{Context, Result, bail};
+use chamfer_formats::OutputFile;
 use tempfile::{NamedTempFile, TempPath};
-
-use crate::document::OutputFile;
 
 /// What a shell reports for a command that the user interrupted: 128 and the number of SIGINT.
 const INTERRUPTED: i32 = 130;

@@ -9,7 +9,7 @@ use std::process::Command;
 
 use chamfer::shapes;
 use chamfer::{Chamfered, MeshBuffers, Options, TriangleKind, Width, chamfer};
-use chamfer_cli::glb;
+use chamfer_formats::glb;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
@@ -18,7 +18,7 @@ use run::Run;
 const WIDTH: f32 = 0.05;
 
 fn chamfered(before: &MeshBuffers) -> Chamfered {
-    let options = Options { width: Width::Units(WIDTH), ..Options::default() };
+    let options = Options::default().with_width(Width::Units(WIDTH));
     chamfer(&before.as_mesh(), &options).unwrap()
 }
 
@@ -33,8 +33,8 @@ impl Folder {
     /// With `before.glb` and `after.glb`.
     fn with(before: &MeshBuffers, after: &MeshBuffers) -> Folder {
         let folder = Folder::new();
-        folder.write("before.glb", glb::encode("shape", before, &[]).unwrap());
-        folder.write("after.glb", glb::encode("shape", after, &[]).unwrap());
+        folder.write("before.glb", glb::encode("shape", before, &[], &[]).unwrap());
+        folder.write("after.glb", glb::encode("shape", after, &[], &[]).unwrap());
         folder
     }
 
@@ -361,7 +361,7 @@ fn files_that_cannot_be_read_and_nonsense_exit_with_two() {
 
 /// A file with a mesh at each of these places: a vertical scale, and how far it is lifted.
 fn glb_with(mesh: &MeshBuffers, places: &[[f32; 2]]) -> Vec<u8> {
-    let glb = glb::encode("shape", mesh, &[]).unwrap();
+    let glb = glb::encode("shape", mesh, &[], &[]).unwrap();
     let length = u32::from_le_bytes(glb[12..16].try_into().unwrap()) as usize;
     let mut root: Value = serde_json::from_slice(&glb[20..20 + length]).unwrap();
     let node = |[scale, lift]: &[f32; 2]| json!({ "mesh": 0, "scale": [1, scale, 1], "translation": [0, lift, 0] });

@@ -132,19 +132,20 @@ fn an_obj_goes_out_as_glb_where_asked() {
     assert!(fs::read(folder.path("cube.glb")).unwrap().starts_with(b"glTF"));
 }
 
-/// The cube has a material for its top and one for its sides: 12 strips and 8 corners are new.
+/// The cube has a material for its top and one for its sides, and its faces stay squares: 12 strips
+/// and 8 corners are new.
 #[test]
 fn chamfers_go_to_the_submesh_that_is_asked_for() {
     let folder = Folder::with(&[("cube.obj", CUBE_OBJ)]);
-    let triangles = |submesh: &str| -> Vec<usize> {
+    let faces = |submesh: &str| -> Vec<usize> {
         folder.run(&format!("cube.obj -o out.obj --chamfer-submesh {submesh}")).exits(0);
         let text = folder.text("out.obj");
         let groups = text.split("usemtl ").skip(1);
         groups.map(|group| group.matches("\nf ").count()).collect()
     };
-    assert_eq!(triangles("own"), [2, 10, 32]);
-    assert_eq!(triangles("0"), [34, 10]);
-    assert_eq!(triangles("owner").iter().sum::<usize>(), 44);
+    assert_eq!(faces("own"), [1, 5, 32]);
+    assert_eq!(faces("0"), [33, 5]);
+    assert_eq!(faces("owner").iter().sum::<usize>(), 38);
     folder.run("cube.obj -o out.obj --chamfer-submesh 2").exits(1);
 }
 
@@ -429,5 +430,58 @@ mod on_unix {
         let mut child = command.args(["a.obj"]).stdout(Stdio::piped()).spawn().unwrap();
         drop(child.stdout.take());
         assert_eq!(child.wait().unwrap().code(), Some(0));
+    }
+}
+
+/// Each says what it is and what to do.
+#[test]
+fn files_that_are_no_models_are_named() {
+    let pointer = "version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 12345\n";
+    for (name, text, told) in [
+        ("a.glb", pointer, "a Git LFS pointer, not a model: fetch the file itself"),
+        ("a.stl", "", "the file is empty"),
+        ("a.gltf", "<!DOCTYPE html><p>Not found", "a web page, not a model"),
+        ("a.glb", "hello there", "neither a .glb nor the JSON of a .gltf"),
+        ("a.blend", "BLENDER-v405", "open it in Blender and export glTF"),
+        ("a.txt", "v 0 0 0", "unknown kind of file: give .glb,"),
+    ] {
+        let folder = Folder::with(&[(name, text)]);
+        let run = folder.run(&format!("{name} -o out/")).exits(1);
+        assert!(run.err().contains(told), "{name}: {}", run.err());
+        assert_eq!(run.err().lines().count(), 1);
+    }
+}
+
+#[test]
+fn a_file_without_triangles_is_sound_on_both_ways() {
+    let folder = Folder::with(&[("a.stl", "solid nothing\nendsolid nothing\n")]);
+    let run = folder.run("a.stl -o a.glb").exits(0);
+    assert!(run.err().contains("there are no triangles in it"), "{}", run.err());
+    folder.run("check a.stl a.glb").exits(0);
+}
+
+/// A cube of six faces that do not quite meet.
+fn cracked_cube() -> String {
+    let mesh = chamfer::shapes::plain_cube(1.0);
+    let crack = |vertex: usize| if vertex.is_multiple_of(2) { 1e-7 } else { 0.0 };
+    let points = mesh.positions.iter().enumerate();
+    let points = points.map(|(v, [x, y, z])| format!("v {} {y} {z}\n", x + crack(v)));
+    let face = |corners: &[u32]| {
+        let [a, b, c] = [0, 1, 2].map(|corner| corners[corner] + 1);
+        format!("f {a} {b} {c}\n")
+    };
+    points.chain(mesh.indices.chunks_exact(3).map(face)).collect()
+}
+
+#[test]
+fn vertices_that_nearly_touch_are_counted_or_welded() {
+    let folder = Folder::with(&[("a.obj", &cracked_cube())]);
+    let run = folder.run("a.obj -o b.obj").exits(0);
+    assert!(run.err().contains("vertices are not where others are"), "{}", run.err());
+    for weld in ["auto", "0.001"] {
+        let run = folder.run(&format!("a.obj -o b.obj --weld {weld}")).exits(0);
+        assert!(run.out().contains("12 hard edges: 12 chamfered"), "{}", run.out());
+        assert!(run.err().contains("were welded onto others"), "{}", run.err());
+        folder.run(&format!("check a.obj b.obj --weld {weld}")).exits(0);
     }
 }

@@ -5,8 +5,8 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use chamfer_cli::document::ReadOptions;
-use chamfer_cli::format;
+use chamfer_formats as formats;
+use chamfer_formats::ReadOptions;
 use serde_json::Value;
 
 /// The models live beside the repository and are no part of it.
@@ -55,7 +55,7 @@ fn triangles_out(file: &Value) -> Vec<u64> {
 
 /// How many triangles the reader finds in a file.
 fn triangles_of(path: &Path) -> u64 {
-    let document = format::read(path, &ReadOptions { smoothing_angle: 30.0 })
+    let document = formats::read(path, &ReadOptions::default())
         .unwrap_or_else(|error| panic!("{}: {error:#}", path.display()));
     let indices: usize = document.meshes().iter().map(|mesh| mesh.mesh.indices.len()).sum();
     indices as u64 / 3

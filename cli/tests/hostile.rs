@@ -5,15 +5,13 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use chamfer::shapes;
-use chamfer_cli::document::ReadOptions;
-use chamfer_cli::format::decode;
-use chamfer_cli::glb;
+use chamfer_formats::{ReadOptions, decode, glb};
 use tempfile::TempDir;
 
 const KILOBYTE: usize = 1024;
 
 fn read(name: &str, bytes: &[u8]) -> Result<usize, String> {
-    let options = ReadOptions { smoothing_angle: 30.0 };
+    let options = ReadOptions::default();
     match decode(Path::new(name), bytes.to_vec(), &options) {
         Ok(document) => Ok(document.meshes().iter().map(|m| m.mesh.indices.len() / 3).sum()),
         Err(error) => Err(format!("{error:#}")),
@@ -27,7 +25,7 @@ fn cuts(length: usize) -> impl Iterator<Item = usize> {
 }
 
 fn cubes_glb() -> Vec<u8> {
-    glb::encode("cubes", &shapes::cube_field(12), &[]).unwrap()
+    glb::encode("cubes", &shapes::cube_field(12), &[], &[]).unwrap()
 }
 
 fn cubes_obj() -> String {

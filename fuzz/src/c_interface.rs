@@ -6,7 +6,7 @@ use std::{mem, ptr, slice};
 // Links the library, whose symbols are declared below.
 use chamfer as _;
 use chamfer::MeshBuffers;
-use libc::{c_char, c_void};
+use core::ffi::{c_char, c_void};
 
 #[path = "../../src/ffi/types.rs"]
 mod types;

@@ -3,8 +3,7 @@
 use std::path::Path;
 
 use chamfer::{Chamfered, MeshBuffers, Options, Verify, Width, chamfer};
-use chamfer_cli::document::{Document, ReadOptions};
-use chamfer_cli::format::{Format, decode};
+use chamfer_formats::{Document, Encoded, FORMATS, Format, ReadOptions, decode, encode, row_of};
 
 use crate::oracle::chamfer_and_check;
 
@@ -12,13 +11,9 @@ use crate::oracle::chamfer_and_check;
 /// own.
 const MOST_CHAMFERED: usize = 600;
 
-const OPTIONS: Options = Options {
-    width: Width::PercentOfExtent(2.0),
-    least_breadth: 0.2,
-    verify: Verify::Fast,
-    chamfer_submesh: chamfer::ChamferSubmesh::Owner,
-    threads: 1,
-};
+fn options() -> Options {
+    Options::default().with_width(Width::PercentOfExtent(2.0)).with_verify(Verify::Fast)
+}
 
 /// Reads a file from memory; where that goes well, chamfers it, writes it in every format that it
 /// can have, and reads that again. Nothing is looked for on disk, as the folder does not exist.
@@ -39,18 +34,16 @@ pub fn read_chamfer_write(extension: &str, bytes: &[u8]) {
     if corners > 3 * MOST_CHAMFERED {
         return;
     }
-    let chamfered = document.meshes().iter().map(|mesh| chamfer_and_check(&mesh.mesh, &OPTIONS));
+    let chamfered = document.meshes().iter().map(|mesh| chamfer_and_check(&mesh.mesh, &options()));
     let Some(chamfered) = chamfered.collect::<Option<Vec<Chamfered>>>() else { return };
-    let from = Format::of(&path).expect("the targets give known extensions");
-    for format in [Format::Glb, Format::Gltf, Format::Obj, Format::Stl] {
-        if from.check_conversion(format).is_ok() {
-            write(document.as_ref(), &chamfered, &path.with_extension(format.extension()));
-        }
+    let from = row_of(&path).expect("the targets give known extensions");
+    for to in FORMATS.iter().filter(|to| from.check_conversion(to).is_ok()) {
+        write(document.as_ref(), &chamfered, &path.with_extension(to.ending));
     }
 }
 
 fn read(path: &Path, bytes: &[u8]) -> Option<Box<dyn Document + Send>> {
-    let options = ReadOptions { smoothing_angle: 30.0 };
+    let options = ReadOptions::default();
     match decode(path, bytes.to_vec(), &options) {
         Ok(document) => Some(document),
         Err(error) => {
@@ -65,7 +58,7 @@ fn check_whole(mesh: &MeshBuffers) {
     let vertices = mesh.positions.len();
     assert_eq!(mesh.normals.len(), vertices);
     assert!(mesh.indices.iter().all(|&index| (index as usize) < vertices));
-    let unmoved = Options { width: Width::Units(0.0), ..OPTIONS };
+    let unmoved = options().with_width(Width::Units(0.0));
     if mesh.indices.len() <= 3 * MOST_CHAMFERED {
         let refused = chamfer(&mesh.as_mesh(), &unmoved).err();
         assert!(refused.is_none(), "{refused:?}");
@@ -73,11 +66,11 @@ fn check_whole(mesh: &MeshBuffers) {
 }
 
 fn write(document: &dyn Document, chamfered: &[Chamfered], output: &Path) {
-    let Ok(files) = document.encode(output, chamfered) else { return };
+    let Ok(Encoded { files, .. }) = encode(document, output, chamfered) else { return };
     assert_eq!(files[0].path, output);
     let is_alone = files.len() == 1;
-    if is_alone && Format::of(output) != Some(Format::Gltf) {
-        let options = ReadOptions { smoothing_angle: 30.0 };
+    if is_alone && row_of(output).is_some_and(|row| row.format != Format::Gltf) {
+        let options = ReadOptions::default();
         let again = decode(output, files[0].bytes.clone(), &options);
         let again = again.map_err(|error| format!("{error:#}")).expect("what is written is read");
         let triangles = |document: &dyn Document| -> usize {

@@ -2,6 +2,9 @@
 //! whatever becomes of them.
 
 pub mod c_interface;
+pub mod compressed;
+#[path = "../../formats/tests/support/cube_fbx.rs"]
+pub mod cube_fbx;
 pub mod documents;
 pub mod edits;
 pub mod gltf;

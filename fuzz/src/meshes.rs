@@ -94,23 +94,22 @@ enum WidthWish {
 impl Wishes {
     /// As the library takes them.
     pub fn options(&self) -> Options {
-        Options {
-            width: match self.width {
+        Options::default()
+            .with_width(match self.width {
                 WidthWish::Percent(fiftieths) => {
                     Width::PercentOfExtent(f32::from(fiftieths % 2000) / 50.0)
                 }
                 WidthWish::AnyPercent(percent) => Width::PercentOfExtent(percent),
                 WidthWish::Units(units) => Width::Units(units),
-            },
-            least_breadth: self.breadth.map_or_else(|any| any, |part| f32::from(part) / 250.0),
-            verify: if self.full { Verify::Full } else { Verify::Fast },
-            chamfer_submesh: match (self.own, self.submesh) {
+            })
+            .with_least_breadth(self.breadth.map_or_else(|any| any, |part| f32::from(part) / 250.0))
+            .with_verify(if self.full { Verify::Full } else { Verify::Fast })
+            .with_chamfer_submesh(match (self.own, self.submesh) {
                 (true, _) => ChamferSubmesh::Own,
                 (false, None) => ChamferSubmesh::Owner,
                 (false, Some(submesh)) => ChamferSubmesh::Given(u32::from(submesh % 4)),
-            },
-            threads: u32::from(self.threads % 4),
-        }
+            })
+            .with_threads(u32::from(self.threads % 4))
     }
 }
 

@@ -5,14 +5,13 @@
 
 use glam::DVec3;
 
-use super::Streams;
-use crate::corners;
+use super::{Streams, Taken};
+use crate::fills;
 use crate::ids::{Few, Sector, Vertex};
 use crate::math::unit;
 use crate::placement::{Placement, base};
 use crate::plan::Plan;
 use crate::report::Blend;
-use crate::seams::Taken;
 
 /// Blends whose distances differ by less than this share are equally near: then the first counts,
 /// whatever the last bits say.
@@ -21,8 +20,8 @@ const EQUALLY_NEAR: f64 = 0.999;
 /// So many neighbours are tried in pairs: of more, as around the tip of a huge cone, every so manyth.
 const MOST_TRIED: usize = 64;
 
-/// Appends a vertex at the mean of some of a ring's points.
-pub fn append(
+/// The vertex at the mean of some of a ring's points.
+pub fn add(
     plan: &Plan,
     placement: &Placement,
     streams: &mut Streams,
@@ -32,8 +31,10 @@ pub fn append(
 ) -> u32 {
     let points: Few<DVec3> = sectors.iter().map(|&s| placement.point[s]).collect();
     let normal = unit(places.iter().map(|&place| placement.normals[sectors[place]][0]).sum());
-    let position = corners::middle(&points, places);
-    streams.append_between(plan, (position, normal), nearest(plan, sectors, position), taken)
+    let position = fills::middle(&points, places);
+    let cluster = plan.topology.cluster_at[plan.sectors.fans[sectors[0]].first];
+    let near = nearest(plan, sectors, position);
+    streams.add_between(plan, cluster, (position, normal), (near, taken))
 }
 
 /// The blend of a ring's corner and two of its neighbours, none of negative weight, that comes

@@ -1,18 +1,116 @@
-//! The vertex streams of the result, and how a blend of source vertices is evaluated in each.
+//! The vertex streams of the result: columns that grow by rows.
+//!
+//! A row has the values of one vertex in all streams. It is built from source values, looked up
+//! among the rows that stand at its place, and appended only if it is new: so no two appended
+//! vertices are equal in all streams.
 
 use glam::{DVec2, DVec3};
+use smallvec::SmallVec;
 
-use crate::ids::{Id, Vertex};
+use super::index::Index;
+use crate::ids::{Cluster, Id, Vertex};
 use crate::math::unit;
 use crate::mesh::{MeshBuffers, Uv, UvBuffer};
 use crate::plan::Plan;
 use crate::report::{Blend, VertexSource, VertexSources};
 use crate::resample::{blended_normal, weighted_sum};
-use crate::seams::Taken;
 use crate::view::{View, wide};
 
 /// UV channels as bits.
 pub type Channels = u8;
+
+/// A place in a chart that a chamfer continues.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Taken {
+    /// The UV channels that go there.
+    pub channels: Channels,
+    pub place: Blend,
+}
+
+/// What a stream holds, and so how it is blended.
+#[derive(Clone, Copy, PartialEq)]
+enum Stream {
+    Position,
+    Normal,
+    /// A direction and a handedness.
+    Tangent,
+    Color,
+    /// The number of the channel.
+    Uv(usize),
+}
+
+/// A stream that the mesh has.
+#[derive(Clone, Copy)]
+struct Column {
+    stream: Stream,
+    /// Where its values stand in a row, and how many there are.
+    start: usize,
+    width: usize,
+}
+
+impl Column {
+    /// All values of the stream, vertex by vertex.
+    fn values<'a>(&self, vertices: &'a MeshBuffers) -> &'a [f32] {
+        match self.stream {
+            Stream::Position => vertices.positions.as_flattened(),
+            Stream::Normal => vertices.normals.as_flattened(),
+            Stream::Tangent => vertices.tangents.as_flattened(),
+            Stream::Color => vertices.colors.as_flattened(),
+            Stream::Uv(channel) => &vertices.uvs[channel].values,
+        }
+    }
+
+    fn values_mut<'a>(&self, vertices: &'a mut MeshBuffers) -> &'a mut [f32] {
+        match self.stream {
+            Stream::Position => vertices.positions.as_flattened_mut(),
+            Stream::Normal => vertices.normals.as_flattened_mut(),
+            Stream::Tangent => vertices.tangents.as_flattened_mut(),
+            Stream::Color => vertices.colors.as_flattened_mut(),
+            Stream::Uv(channel) => &mut vertices.uvs[channel].values,
+        }
+    }
+
+    fn push(&self, vertices: &mut MeshBuffers, row: &Row) {
+        match self.stream {
+            Stream::Position => vertices.positions.push(row.at(self.start)),
+            Stream::Normal => vertices.normals.push(row.at(self.start)),
+            Stream::Tangent => vertices.tangents.push(row.at(self.start)),
+            Stream::Color => vertices.colors.push(row.at(self.start)),
+            Stream::Uv(channel) => vertices.uvs[channel].values.extend_from_slice(row.of(self)),
+        }
+    }
+
+    /// Of one vertex.
+    fn range(&self, vertex: u32) -> std::ops::Range<usize> {
+        let first = vertex as usize * self.width;
+        first..first + self.width
+    }
+}
+
+/// Positions, normals, tangents, colours, and eight UV channels of four.
+const MOST_VALUES: usize = 3 + 3 + 4 + 4 + 8 * 4;
+
+/// The values of one vertex in all streams. Where there is no such stream, nothing is read.
+#[derive(Clone, Copy)]
+pub struct Row([f32; MOST_VALUES]);
+
+impl Row {
+    fn of(&self, column: &Column) -> &[f32] {
+        &self.0[column.start..column.start + column.width]
+    }
+
+    fn at<const WIDTH: usize>(&self, start: usize) -> [f32; WIDTH] {
+        std::array::from_fn(|k| self.0[start + k])
+    }
+
+    fn set(&mut self, column: &Column, values: &[f32]) {
+        self.0[column.start..column.start + column.width].copy_from_slice(values);
+    }
+}
+
+/// Where positions and normals stand in a row: every mesh has them.
+const POSITION: usize = 0;
+const NORMAL: usize = 3;
 
 /// Vertex streams that grow, with the provenance of each vertex.
 pub struct Streams {
@@ -20,10 +118,10 @@ pub struct Streams {
     pub vertices: MeshBuffers,
     /// `#vertices`.
     pub sources: VertexSources,
-    /// The channels from here on are absent.
-    uv_end: usize,
+    columns: SmallVec<[Column; 12]>,
     /// Per colour component, the least and the greatest value that a blend may have.
     color_range: [[f32; 2]; 4],
+    index: Index,
 }
 
 impl Streams {
@@ -45,235 +143,9 @@ impl Streams {
                 ..MeshBuffers::default()
             },
             sources: VertexSources::with_room(mesh.positions.len(), moved, room),
-            uv_end: mesh.uvs.iter().rposition(|uv| uv.components > 0).map_or(0, |last| last + 1),
+            columns: columns(view),
             color_range: color_range(mesh.colors),
-        }
-    }
-
-    pub fn count(&self) -> u32 {
-        self.vertices.positions.len() as u32
-    }
-
-    /// Appends a vertex like an earlier one, to be set to another place.
-    pub fn append(&mut self, vertex: Vertex) -> u32 {
-        self.append_values(vertex.index());
-        self.sources.push_like(vertex.index());
-        self.count() - 1
-    }
-
-    /// Appends a copy of a vertex with what it takes from another chart.
-    pub fn append_copy(&mut self, plan: &Plan, vertex: u32, taken: &Taken) -> u32 {
-        let from = vertex as usize;
-        if !self.vertices.tangents.is_empty() {
-            let tangent = self.tangent_of_copy(plan, from, taken);
-            self.vertices.tangents.push(tangent);
-        }
-        for channel in 0..self.uv_end {
-            for k in 0..self.vertices.uvs[channel].components as usize {
-                let value = self.uv_of_copy(plan, from, taken, channel, k);
-                self.vertices.uvs[channel].values.push(value);
-            }
-        }
-        self.append_shape(from);
-        self.sources.push_copy(from, taken.place, taken.channels);
-        self.count() - 1
-    }
-
-    /// Whether a vertex equals, in every stream, a copy of another one with what that takes from
-    /// another chart.
-    pub fn is_copy(&self, plan: &Plan, one: u32, vertex: u32, taken: &Taken) -> bool {
-        let (a, b) = (one as usize, vertex as usize);
-        let v = &self.vertices;
-        let is_uv = |channel: usize| {
-            let components = v.uvs[channel].components as usize;
-            (0..components).all(|k| {
-                let value = self.uv_of_copy(plan, b, taken, channel, k);
-                v.uvs[channel].values[a * components + k] == value
-            })
-        };
-        v.positions[a] == v.positions[b]
-            && v.normals[a] == v.normals[b]
-            && (v.colors.is_empty() || v.colors[a] == v.colors[b])
-            && (0..self.uv_end).all(is_uv)
-            && (v.tangents.is_empty() || v.tangents[a] == self.tangent_of_copy(plan, b, taken))
-    }
-
-    fn tangent_of_copy(&self, plan: &Plan, vertex: usize, taken: &Taken) -> [f32; 4] {
-        match taken.channels & 1 {
-            0 => self.vertices.tangents[vertex],
-            _ => tangent(plan, &taken.place, wide(self.vertices.normals[vertex])),
-        }
-    }
-
-    fn uv_of_copy(
-        &self,
-        plan: &Plan,
-        vertex: usize,
-        taken: &Taken,
-        channel: usize,
-        component: usize,
-    ) -> f32 {
-        let uv = &self.vertices.uvs[channel];
-        match taken.channels >> channel & 1 {
-            0 => uv.values[vertex * uv.components as usize + component],
-            _ => blended_uv(plan, &taken.place, channel, component),
-        }
-    }
-
-    /// Appends a vertex with a normal of its own at a place near a blend, with what it takes from
-    /// another chart.
-    pub fn append_between(
-        &mut self,
-        plan: &Plan,
-        (position, normal): (DVec3, DVec3),
-        near: Blend,
-        taken: Option<&Taken>,
-    ) -> u32 {
-        let vertex = self.count();
-        self.append_values(near.vertices[0] as usize);
-        self.set_values(plan, vertex as usize, (position, normal), &near);
-        let mut source = VertexSource::new(near, near);
-        if let Some(Taken { place, channels }) = taken {
-            self.set_texture(plan, vertex as usize, place, *channels);
-            (source.owner, source.owner_channels) = (*place, u32::from(*channels));
-        }
-        self.sources.push(source);
-        vertex
-    }
-
-    /// The streams that a copy has from its vertex, whatever it takes from another chart.
-    fn append_shape(&mut self, from: usize) {
-        let vertices = &mut self.vertices;
-        vertices.positions.push(vertices.positions[from]);
-        vertices.normals.push(vertices.normals[from]);
-        if !vertices.colors.is_empty() {
-            vertices.colors.push(vertices.colors[from]);
-        }
-    }
-
-    fn append_values(&mut self, from: usize) {
-        self.append_shape(from);
-        let vertices = &mut self.vertices;
-        if !vertices.tangents.is_empty() {
-            vertices.tangents.push(vertices.tangents[from]);
-        }
-        for uv in &mut vertices.uvs[..self.uv_end] {
-            let components = uv.components as usize;
-            uv.values.extend_from_within(from * components..(from + 1) * components);
-        }
-    }
-
-    /// Takes back the vertex that was appended last.
-    pub fn pop(&mut self) {
-        self.truncate(self.count() - 1);
-    }
-
-    /// Undoes what was done to a vertex that nothing uses yet: the last one, or one of the source.
-    pub fn give_back(&mut self, plan: &Plan, vertex: u32) {
-        if vertex as usize >= plan.view.mesh.positions.len() {
-            self.pop();
-            return;
-        }
-        let (place, source) = (vertex as usize, &plan.view.mesh);
-        self.vertices.positions[place] = source.positions[place];
-        self.vertices.normals[place] = source.normals[place];
-        if !source.tangents.is_empty() {
-            self.vertices.tangents[place] = source.tangents[place];
-        }
-        if !source.colors.is_empty() {
-            self.vertices.colors[place] = source.colors[place];
-        }
-        for (uv, source) in self.vertices.uvs.iter_mut().zip(&source.uvs) {
-            let values = place * uv.components as usize..(place + 1) * uv.components as usize;
-            uv.values[values.clone()].copy_from_slice(&source.values[values]);
-        }
-        self.sources.reset(place);
-    }
-
-    /// Takes back all vertices from a number on.
-    pub fn truncate(&mut self, count: u32) {
-        let count = count as usize;
-        let vertices = &mut self.vertices;
-        vertices.positions.truncate(count);
-        vertices.normals.truncate(count);
-        vertices.tangents.truncate(count);
-        vertices.colors.truncate(count);
-        for uv in &mut vertices.uvs[..self.uv_end] {
-            uv.values.truncate(count * uv.components as usize);
-        }
-        self.sources.truncate(count);
-    }
-
-    /// Writes a vertex over an earlier one.
-    pub fn relocate(&mut self, vertex: u32, earlier: u32) {
-        let (from, to) = (vertex as usize, earlier as usize);
-        let vertices = &mut self.vertices;
-        vertices.positions[to] = vertices.positions[from];
-        vertices.normals[to] = vertices.normals[from];
-        if !vertices.tangents.is_empty() {
-            vertices.tangents[to] = vertices.tangents[from];
-        }
-        if !vertices.colors.is_empty() {
-            vertices.colors[to] = vertices.colors[from];
-        }
-        for uv in &mut vertices.uvs[..self.uv_end] {
-            let components = uv.components as usize;
-            uv.values.copy_within(from * components..(from + 1) * components, to * components);
-        }
-        self.sources.relocate(from, to);
-    }
-
-    /// Whether two output vertices are equal in every stream.
-    pub fn are_equal(&self, one: u32, other: u32) -> bool {
-        let (a, b) = (one as usize, other as usize);
-        let v = &self.vertices;
-        v.positions[a] == v.positions[b]
-            && v.normals[a] == v.normals[b]
-            && (v.tangents.is_empty() || v.tangents[a] == v.tangents[b])
-            && (v.colors.is_empty() || v.colors[a] == v.colors[b])
-            && v.uvs[..self.uv_end].iter().all(|uv| {
-                let components = uv.components as usize;
-                (0..components)
-                    .all(|k| uv.values[a * components + k] == uv.values[b * components + k])
-            })
-    }
-
-    /// Sets a vertex to a place on the source surface.
-    pub fn resample(
-        &mut self,
-        plan: &Plan,
-        vertex: u32,
-        position: DVec3,
-        [surface, chart]: [Blend; 2],
-    ) {
-        let normal = blended_normal(plan, &surface);
-        self.set_values(plan, vertex as usize, (position, normal), &chart);
-        self.sources.set(vertex as usize, surface, chart);
-    }
-
-    fn set_values(
-        &mut self,
-        plan: &Plan,
-        place: usize,
-        (position, normal): (DVec3, DVec3),
-        chart: &Blend,
-    ) {
-        self.vertices.positions[place] = position.as_vec3().to_array();
-        self.vertices.normals[place] = normal.as_vec3().to_array();
-        if !plan.view.mesh.colors.is_empty() {
-            self.vertices.colors[place] = self.color(plan, chart);
-        }
-        self.set_texture(plan, place, chart, Channels::MAX);
-    }
-
-    /// Sets UV channels, and the tangent along with the first of them.
-    fn set_texture(&mut self, plan: &Plan, place: usize, chart: &Blend, channels: Channels) {
-        if !plan.view.mesh.tangents.is_empty() && channels & 1 == 1 {
-            let normal = wide(self.vertices.normals[place]);
-            self.vertices.tangents[place] = tangent(plan, chart, normal);
-        }
-        for channel in (0..self.uv_end).filter(|channel| channels & (1 << channel) != 0) {
-            self.set_uv(plan, place, chart, channel);
+            index: Index::default(),
         }
     }
 
@@ -284,11 +156,112 @@ impl Streams {
         DVec2::new(f64::from(uv.values[first]), f64::from(uv.values[first + 1]))
     }
 
-    fn set_uv(&mut self, plan: &Plan, place: usize, chart: &Blend, channel: usize) {
-        let uv = &mut self.vertices.uvs[channel];
-        let components = uv.components as usize;
-        for k in 0..components {
-            uv.values[place * components + k] = blended_uv(plan, chart, channel, k);
+    /// Whether two rows are equal in every stream.
+    pub fn are_equal(&self, one: &Row, other: &Row) -> bool {
+        self.columns.iter().all(|column| one.of(column) == other.of(column))
+    }
+
+    /// Moves a source vertex.
+    pub fn set(&mut self, vertex: Vertex, row: &Row, [surface, chart]: [Blend; 2]) {
+        for column in &self.columns {
+            let values = &mut column.values_mut(&mut self.vertices)[column.range(vertex.0)];
+            values.copy_from_slice(row.of(column));
+        }
+        self.sources.set(vertex.index(), surface, chart);
+    }
+
+    /// From here on, what is appended is looked up first. No vertex moves any more.
+    pub fn look_up(&mut self, plan: &Plan) {
+        self.index = Index::of_source(&plan.weld, &self.vertices.positions);
+    }
+
+    /// A vertex of a cluster that has moved away from others of its source vertex.
+    pub fn add_moved(&mut self, cluster: Cluster, row: &Row, [surface, chart]: [Blend; 2]) -> u32 {
+        self.add(cluster, row, |sources| sources.push_moved(surface, chart))
+    }
+
+    /// A vertex of a cluster like another one, but for what it takes from another chart.
+    pub fn add_copy(&mut self, plan: &Plan, cluster: Cluster, of: u32, taken: &Taken) -> u32 {
+        let mut row = self.row(of);
+        self.take(plan, &mut row, taken);
+        self.add(cluster, &row, |sources| {
+            sources.push_copy(of as usize, taken.place, taken.channels);
+        })
+    }
+
+    /// A vertex of a cluster with a normal of its own, at a place near a blend, with what it takes
+    /// from another chart.
+    pub fn add_between(
+        &mut self,
+        plan: &Plan,
+        cluster: Cluster,
+        (position, normal): (DVec3, DVec3),
+        (near, taken): (Blend, Option<&Taken>),
+    ) -> u32 {
+        let mut row = self.blended(plan, (position, normal), &near);
+        let mut source = VertexSource::new(near, near);
+        if let Some(taken) = taken {
+            self.take(plan, &mut row, taken);
+            (source.owner, source.owner_channels) = (taken.place, u32::from(taken.channels));
+        }
+        self.add(cluster, &row, |sources| sources.push(source))
+    }
+
+    /// The vertex of a cluster that has a row: appended, if there is none.
+    fn add(
+        &mut self,
+        cluster: Cluster,
+        row: &Row,
+        add_source: impl FnOnce(&mut VertexSources),
+    ) -> u32 {
+        let list = self.index.list_at(cluster, row.at(POSITION));
+        let known = self.index.find(list, |listed| self.has(listed, row));
+        known.unwrap_or_else(|| {
+            self.columns.iter().for_each(|column| column.push(&mut self.vertices, row));
+            add_source(&mut self.sources);
+            self.index.add(list)
+        })
+    }
+
+    fn has(&self, vertex: u32, row: &Row) -> bool {
+        let own = |column: &Column| &column.values(&self.vertices)[column.range(vertex)];
+        self.columns.iter().all(|column| own(column) == row.of(column))
+    }
+
+    fn row(&self, vertex: u32) -> Row {
+        let mut row = Row([0.0; MOST_VALUES]);
+        for column in &self.columns {
+            row.set(column, &column.values(&self.vertices)[column.range(vertex)]);
+        }
+        row
+    }
+
+    /// A row at a position, with a normal, and all else blended in a chart.
+    pub fn blended(&self, plan: &Plan, (position, normal): (DVec3, DVec3), chart: &Blend) -> Row {
+        let mut row = Row([0.0; MOST_VALUES]);
+        row.0[POSITION..NORMAL].copy_from_slice(&position.as_vec3().to_array());
+        row.0[NORMAL..NORMAL + 3].copy_from_slice(&normal.as_vec3().to_array());
+        if let Some(column) = self.columns.iter().find(|column| column.stream == Stream::Color) {
+            row.set(column, &self.color(plan, chart));
+        }
+        self.take(plan, &mut row, &Taken { channels: Channels::MAX, place: *chart });
+        row
+    }
+
+    /// Takes UV channels from another place, and the tangent along with the first of them.
+    fn take(&self, plan: &Plan, row: &mut Row, Taken { channels, place }: &Taken) {
+        for column in &self.columns {
+            match column.stream {
+                Stream::Tangent if channels & 1 == 1 => {
+                    row.set(column, &tangent(plan, place, wide(row.at(NORMAL))));
+                }
+                Stream::Uv(channel) if channels >> channel & 1 == 1 => {
+                    for k in 0..column.width {
+                        row.0[column.start + k] = blended_uv(plan, place, channel, k);
+                    }
+                }
+                _ => {}
+            }
         }
     }
 
@@ -299,6 +272,25 @@ impl Streams {
             blend_value(chart, colors.map(|color| color[k])).clamp(least, greatest)
         })
     }
+}
+
+/// The streams of a mesh, side by side.
+fn columns(view: &View) -> SmallVec<[Column; 12]> {
+    let mesh = &view.mesh;
+    let fours = [(Stream::Tangent, mesh.tangents), (Stream::Color, mesh.colors)];
+    let fours = fours.into_iter().filter(|(_, values)| !values.is_empty());
+    let uvs = mesh.uvs.iter().enumerate().filter(|(_, uv)| uv.components > 0);
+    let all = [(Stream::Position, 3), (Stream::Normal, 3)]
+        .into_iter()
+        .chain(fours.map(|(stream, _)| (stream, 4)))
+        .chain(uvs.map(|(channel, uv)| (Stream::Uv(channel), uv.components as usize)));
+    let mut end = 0;
+    all.map(|(stream, width)| {
+        let start = end;
+        end += width;
+        Column { stream, start, width }
+    })
+    .collect()
 }
 
 /// A copy with room for some more; an absent stream stays absent.
@@ -322,7 +314,9 @@ fn blend_value(blend: &Blend, values: [f32; 3]) -> f32 {
         return values[0];
     }
     let terms = [0, 1, 2].map(|k| f64::from(blend.weights[k]) * f64::from(values[k]));
-    (terms[0] + terms[1] + terms[2]) as f32
+    // Past a triangle with values of all sizes a blend may leave single precision.
+    let blended = terms[0] + terms[1] + terms[2];
+    blended.clamp(f32::MIN.into(), f32::MAX.into()) as f32
 }
 
 /// A blend may reach past its triangle: it stays within what the source holds.

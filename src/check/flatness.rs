@@ -4,9 +4,8 @@ use glam::DVec3;
 
 use super::origins::Origins;
 use super::rules::{Element, Findings, Rule};
+use super::stored::{is_unit, normal_with_area};
 use super::surface::Surface;
-use super::triangles::normal_with_area;
-use super::values::is_unit;
 use crate::groups::Groups;
 
 /// How far, relative to the extent, corners may be off a plane that counts as flat.

@@ -7,7 +7,7 @@ use super::surface::{HalfEdge, Surface};
 /// Every hard edge is one of the source's, between the same two triangles; where some of those are
 /// not found, one that is not between two that are may be theirs. Where a chamfer tapers
 /// to a point on a hard edge, both normals are left at that point, and edges of new triangles may
-/// be hard at that end.
+/// be hard between the two at that end.
 pub(super) fn check_hard_edges(
     before: &Surface,
     after: &Surface,
@@ -15,7 +15,7 @@ pub(super) fn check_hard_edges(
     findings: &mut Findings,
 ) {
     let hard_before = hard_corners(before);
-    let is_crease = creases(after, origins);
+    let old_normals = old_normals(after, origins);
     for edge in after.edges().filter(|edge| after.is_hard(edge)) {
         let ([forward], [backward]) = edge else { continue };
         let is_old = match [forward, backward].map(|side| source_side(side, origins)) {
@@ -28,7 +28,9 @@ pub(super) fn check_hard_edges(
             _ if findings.lost > 0 => true,
             _ => [0, 1].iter().all(|&end| {
                 let corners = [forward.corners[end], backward.corners[1 - end]];
-                after.share_normal(corners) || is_crease[after.cluster(corners[0]) as usize]
+                let is_left =
+                    |&corner: &u32| old_normals.binary_search(&normal_at(after, corner)).is_ok();
+                after.share_normal(corners) || corners.iter().all(is_left)
             }),
         };
         if !is_old {
@@ -67,16 +69,20 @@ fn hard_corners(surface: &Surface) -> Vec<bool> {
     hard
 }
 
-/// `#clusters`: whether the source's triangles there have different normals.
-fn creases(after: &Surface, origins: &Origins) -> Vec<bool> {
-    let mut first = vec![None; after.mesh.positions.len()];
-    let mut is_crease = vec![false; first.len()];
-    for (triangle, _) in (0u32..).zip(&origins.triangles).filter(|(_, source)| source.is_some()) {
-        for corner in 3 * triangle..3 * triangle + 3 {
-            let cluster = after.cluster(corner) as usize;
-            let other = *first[cluster].get_or_insert(corner);
-            is_crease[cluster] |= !after.share_normal([corner, other]);
-        }
-    }
-    is_crease
+/// A cluster, and the bits of a normal there.
+type NormalAt = (u32, [u32; 3]);
+
+fn normal_at(surface: &Surface, corner: u32) -> NormalAt {
+    let normal = surface.mesh.normals[surface.vertex(corner)];
+    (surface.cluster(corner), normal.map(|along| (along + 0.0).to_bits()))
+}
+
+/// Sorted: the normals that the source's triangles have where they are now.
+fn old_normals(after: &Surface, origins: &Origins) -> Vec<NormalAt> {
+    let old = (0u32..).zip(&origins.triangles).filter(|(_, source)| source.is_some());
+    let corners = old.flat_map(|(triangle, _)| 3 * triangle..3 * triangle + 3);
+    let mut normals: Vec<NormalAt> = corners.map(|corner| normal_at(after, corner)).collect();
+    normals.sort_unstable();
+    normals.dedup();
+    normals
 }

@@ -1,27 +1,39 @@
-//! Parts that cut through themselves.
+//! Solids that cut through themselves.
 
 use super::origins::Origins;
 use super::rules::{Element, Findings, Rule};
+use super::solids::Solids;
 use super::surface::Surface;
 use crate::intersect::self_intersections;
 
-/// No part cuts through itself that did not in the source.
+/// No solid cuts through itself in what is joined by edges, and did not cut through itself in the
+/// source. Where parts that are joined cut each other there, nobody can tell what is whose.
 pub(super) fn check_intersections(
-    before: &Surface,
-    after: &Surface,
+    [before, after]: [&Surface; 2],
+    [source, result]: [&Solids; 2],
     origins: &Origins,
     findings: &mut Findings,
 ) {
-    let [parts_before, parts_after] = [before.components(), after.components()];
+    let [parts_before, parts_after] = [&source.of, &result.of];
+    let joined = before.components();
     let [pairs_before, pairs_after] =
-        [intersections_within(before, &parts_before), intersections_within(after, &parts_after)];
+        [intersections_within(before, &joined), intersections_within(after, parts_after)];
     findings.before.self_intersections = Some(pairs_before.len());
     findings.after.self_intersections = Some(pairs_after.len());
     let mut cut_before = vec![false; parts_before.len()];
     for &(triangle, _) in &pairs_before {
-        cut_before[parts_before[triangle as usize] as usize] = true;
+        cut_before[joined[triangle as usize] as usize] = true;
     }
-    let mut may_cut = vec![false; parts_after.len()];
+    for (triangle, &part) in joined.iter().enumerate() {
+        if cut_before[part as usize] {
+            cut_before[parts_before[triangle] as usize] = true;
+        }
+    }
+    for solid in source.lying_on_themselves(before) {
+        cut_before[solid as usize] = true;
+    }
+    // The solids of the source come first, and those that are new past them.
+    let mut may_cut = vec![false; parts_before.len() + parts_after.len()];
     for (triangle, source) in origins.triangles.iter().enumerate() {
         let part = |[corner, ..]: [u32; 3]| parts_before[corner as usize / 3] as usize;
         if source.is_some_and(|source| cut_before[part(source)]) {

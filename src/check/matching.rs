@@ -5,8 +5,8 @@
 //! that turned over is not found either, but it faces away from its vertex normals.
 
 use super::nearest::{NearestTree, Point};
+use super::stored::normal_with_area;
 use super::surface::Surface;
-use super::triangles::normal_with_area;
 
 /// How far all corners together (as a root of squares) may move, in longest sides: a chamfer
 /// leaves every triangle with some area inside the old one.

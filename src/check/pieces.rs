@@ -5,8 +5,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use glam::DVec3;
 
 use super::origins::Cuts;
+use super::stored::normal_with_area;
 use super::surface::Surface;
-use super::triangles::normal_with_area;
+
 use crate::report::Piece;
 
 /// How far the areas of all pieces may be off that of their triangle, as a share of it: their

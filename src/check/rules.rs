@@ -2,13 +2,12 @@
 
 use std::fmt;
 
-use super::widths::MeasuredEdge;
-
 /// How many offending elements a [`Breach`] names.
 const NAMED_ELEMENTS: usize = 5;
 
 /// Something that a chamfered mesh must keep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Rule {
     /// The source itself can be walked: lengths fit, indices are in range, values finite.
     Source,
@@ -45,7 +44,8 @@ pub enum Rule {
     /// As many border loops as in the source. Where a border of the source touches a non-manifold
     /// edge, loops are a matter of opinion, and [`Rule::Gapes`] alone tells.
     BorderLoops,
-    /// No more edges with more than two sides than in the source.
+    /// No edge has more sides in one solid than two, or than an edge of the source had where it comes
+    /// from. Solids that merely touch are judged each by itself.
     NonManifold,
     /// No source triangle turns over, and no new one faces away from its vertex normals.
     Flipped,
@@ -57,7 +57,8 @@ pub enum Rule {
     FlatNormal,
     /// No hard edge where the source has none: strips and fills shade smoothly into their sides.
     HardEdges,
-    /// No edge-connected component cuts through itself that did not in the source.
+    /// No solid cuts through itself that did not in the source. What is closed across edges of two
+    /// sides is a solid; open parts are one where they share an edge.
     SelfIntersection,
 }
 
@@ -91,6 +92,7 @@ impl Rule {
 
 /// An element of the chamfered mesh that breaks a rule.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Element {
     /// The mesh as a whole.
     Mesh,
@@ -124,6 +126,7 @@ impl fmt::Display for Element {
 
 /// A broken rule.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Breach {
     /// The rule.
     pub rule: Rule,
@@ -135,6 +138,7 @@ pub struct Breach {
 
 /// What can be said of one mesh, welded by bit-equal position.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Facts {
     /// Vertices.
     pub vertices: usize,
@@ -146,7 +150,7 @@ pub struct Facts {
     pub border_half_edges: usize,
     /// Loops that these form.
     pub border_loops: usize,
-    /// Edges with more than two half-edges.
+    /// Edges with more than two sides, but for those along which solids touch, with two each.
     pub non_manifold_edges: usize,
     /// Edges whose normals differ by more than about one degree at either end.
     pub hard_edges: usize,
@@ -163,6 +167,7 @@ pub struct Facts {
 
 /// How the source's triangles were found in the result.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Matching {
     /// The result tells.
     #[default]
@@ -175,6 +180,7 @@ pub enum Matching {
 
 /// A rule that could not be checked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Unchecked {
     /// The rule.
     pub rule: Rule,
@@ -184,6 +190,7 @@ pub struct Unchecked {
 
 /// What [`check`](super::check) found.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Findings {
     /// The source.
     pub before: Facts,
@@ -197,7 +204,8 @@ pub struct Findings {
     pub matching: Matching,
     /// Triangles of the source that were not found.
     pub lost: usize,
-    /// The hard edges of the source with two sides whose triangles were found, measured.
+    /// The hard edges of the source whose two sides were found, measured. Where several pairs of
+    /// sides lie on one edge, as of a skin that is there twice, each is one.
     pub edges: Vec<MeasuredEdge>,
 }
 
@@ -274,3 +282,34 @@ const FACT_ROWS: [(&str, Fact); 11] = [
     ("tangents not right", |facts| Some(facts.odd_tangents)),
     ("self-intersections", |facts| facts.self_intersections),
 ];
+
+/// A hard edge of the source with two sides, measured in the result.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct MeasuredEdge {
+    /// The source vertices at its ends, on the side of the first triangle that uses it.
+    pub vertices: [u32; 2],
+    /// Its length, in mesh units.
+    pub length: f32,
+    /// `#ends by #sides`: how far the corner of the side's triangle is from the line of the old
+    /// edge, in mesh units.
+    pub distances: [[f32; 2]; 2],
+    /// `#ends`: whether the two sides are at different positions there.
+    pub is_open: [bool; 2],
+}
+
+impl MeasuredEdge {
+    /// At each end, the mean distance of the two sides from the line of the old edge, in mesh
+    /// units; 0 where the sides did not come apart.
+    pub fn widths(&self) -> [f32; 2] {
+        [0, 1].map(|end| {
+            let [one, other] = self.distances[end];
+            if self.is_open[end] { (one + other) / 2.0 } else { 0.0 }
+        })
+    }
+
+    /// Whether there is a chamfer in its place.
+    pub fn is_chamfered(&self) -> bool {
+        self.is_open != [false; 2]
+    }
+}

@@ -1,8 +1,7 @@
 //! A mesh welded by position: its edges, borders and connected parts.
 
-use super::rules::{Element, Facts, Findings, Rule};
-use super::triangles::normal_with_area;
-use super::values::{count_odd, vector};
+use super::rules::{Element, Findings, Rule};
+use super::stored::vector;
 use crate::groups::Groups;
 use crate::mesh::Mesh;
 use glam::DVec3;
@@ -134,50 +133,15 @@ impl<'a> Surface<'a> {
         parts.labels()
     }
 
-    pub fn facts(&self) -> Facts {
-        let is_first = |(place, &label): (usize, &u32)| place as u32 == label;
-        let triangles = 0..self.triangle_count();
-        let has_no_area = |&t: &u32| normal_with_area(self.triangle(t)).is_none();
-        let [odd_normals, odd_tangents] = count_odd(self.mesh);
-        Facts {
-            vertices: self.mesh.positions.len(),
-            triangles: self.mesh.indices.len() / 3,
-            components: self.components().iter().enumerate().filter(|&part| is_first(part)).count(),
-            border_half_edges: self.edges().map(|(a, b)| a.len().abs_diff(b.len())).sum(),
-            border_loops: self.border_loops(),
-            non_manifold_edges: self.edges().filter(is_non_manifold).count(),
-            hard_edges: self.edges().filter(|edge| self.is_hard(edge)).count(),
-            flat_triangles: triangles.filter(has_no_area).count(),
-            odd_normals,
-            odd_tangents,
-            self_intersections: None,
-        }
-    }
-
     /// Whether an edge with two sides has a half-edge whose normals no opposite one shares.
     pub fn is_hard(&self, (forward, backward): &(&[HalfEdge], &[HalfEdge])) -> bool {
         let has_soft_partner = |a: &HalfEdge| backward.iter().any(|b| self.is_soft(a, b));
         !backward.is_empty() && !forward.iter().all(has_soft_partner)
     }
 
-    /// Border half-edges follow each other where a fan of triangles leads from one to the next, so
-    /// that loops which only touch count apart.
-    fn border_loops(&self) -> usize {
-        let mut loops = Groups::singles(self.mesh.indices.len());
-        for edge in self.edges() {
-            if let ([a], [b]) = edge {
-                loops.join(a.corners[0], b.corners[1]);
-                loops.join(a.corners[1], b.corners[0]);
-            }
-        }
-        let border = || self.edges().filter(is_border).flat_map(|(a, b)| [a, b].concat());
-        for half_edge in border() {
-            loops.join(half_edge.corners[0], half_edge.corners[1]);
-        }
-        let mut firsts: Vec<u32> = border().map(|h| loops.first_of(h.corners[0])).collect();
-        firsts.sort_unstable();
-        firsts.dedup();
-        firsts.len()
+    /// How many sides there are on edges past the second of each.
+    pub fn sides_past_two(&self) -> usize {
+        self.edges().map(|(a, b)| (a.len() + b.len()).saturating_sub(2)).sum()
     }
 
     /// Whether no border touches a non-manifold edge.
@@ -198,10 +162,6 @@ fn is_non_manifold((a, b): &(&[HalfEdge], &[HalfEdge])) -> bool {
     a.len() + b.len() > 2
 }
 
-fn is_border((a, b): &(&[HalfEdge], &[HalfEdge])) -> bool {
-    a.is_empty() || b.is_empty()
-}
-
 /// `#vertices`: the first vertex at the same position, bit for bit (-0 = +0).
 fn weld(positions: &[[f32; 3]]) -> Vec<u32> {
     // Adding zero makes one zero of the two.
@@ -217,7 +177,7 @@ fn weld(positions: &[[f32; 3]]) -> Vec<u32> {
     cluster_of
 }
 
-/// Balance, border loops and non-manifold edges, as in the source.
+/// Balance and border loops, as in the source.
 pub(super) fn check_edges(before: &Surface, after: &Surface, findings: &mut Findings) {
     let [source, result] = [findings.before, findings.after];
     let element = |(a, b): (&[HalfEdge], &[HalfEdge])| {
@@ -232,9 +192,5 @@ pub(super) fn check_edges(before: &Surface, after: &Surface, findings: &mut Find
     // Elsewhere `Rule::Gapes` has to do.
     if before.has_clear_borders() && source.border_loops != result.border_loops {
         findings.note(Rule::BorderLoops, Element::Mesh);
-    }
-    let added = result.non_manifold_edges.saturating_sub(source.non_manifold_edges);
-    for edge in after.edges().filter(is_non_manifold).take(added) {
-        findings.note(Rule::NonManifold, element(edge));
     }
 }

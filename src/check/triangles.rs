@@ -4,12 +4,8 @@ use glam::DVec3;
 
 use super::origins::Origins;
 use super::rules::{Element, Findings, Rule};
+use super::stored::normal_with_area;
 use super::surface::Surface;
-
-/// A triangle has no area if twice its area is at most this share of its longest side squared:
-/// far above the rounding of a cross product in double precision (1e-16), far below the height
-/// that single-precision corners give to anything but a line (1e-7).
-const NO_AREA: f64 = 1e-10;
 
 /// Source triangles against themselves, new ones against their vertex normals. Where some of the
 /// source are not found, they may be among the new ones, and faced away before.
@@ -59,12 +55,4 @@ fn shading(surface: &Surface, triangle: u32) -> DVec3 {
 fn may_face_away(surface: &Surface, triangle: u32) -> bool {
     let normal = normal_with_area(surface.triangle(triangle));
     normal.is_none_or(|normal| normal.dot(shading(surface, triangle)) < 0.0)
-}
-
-/// The normal of a triangle, twice its area long; none where that is nothing.
-pub(super) fn normal_with_area([a, b, c]: [DVec3; 3]) -> Option<DVec3> {
-    let normal = (b - a).cross(c - a);
-    let longest =
-        [b - a, c - b, a - c].iter().map(|side| side.length_squared()).fold(0.0, f64::max);
-    (normal.length() > NO_AREA * longest).then_some(normal)
 }

@@ -1,14 +1,9 @@
 //! Streams vertex by vertex: lengths, finiteness, unit vectors, colour range.
 
-use glam::DVec3;
-
 use super::origins::Origins;
 use super::rules::{Element, Findings, Rule};
+use super::stored::{UNIT_TOLERANCE, is_unit, vector};
 use crate::mesh::Mesh;
-
-/// How far a unit vector may be from length 1, and a tangent from a right angle: what importers
-/// leave behind that store directions in 10 to 16 bits.
-const UNIT_TOLERANCE: f64 = 1e-3;
 
 /// How far a colour may leave the source's range, relative to its size: rounding of a blend.
 const COLOR_TOLERANCE: f32 = 1e-6;
@@ -176,14 +171,4 @@ pub(super) fn check_colors(before: &Mesh, after: &Mesh, findings: &mut Findings)
             findings.note(Rule::Colors, Element::Vertex(vertex as u32));
         }
     }
-}
-
-/// A stored vector in double precision.
-pub(super) fn vector(stored: &[f32; 3]) -> DVec3 {
-    DVec3::from(stored.map(f64::from))
-}
-
-/// Whether a vector has length 1, as nearly as importers store it.
-pub(super) fn is_unit(vector: DVec3) -> bool {
-    (vector.length() - 1.0).abs() <= UNIT_TOLERANCE
 }

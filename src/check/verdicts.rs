@@ -1,8 +1,8 @@
 //! Verdicts against the mesh that they are about.
 
-use super::rules::{Element, Findings, Rule};
+use super::rules::{Element, Findings, MeasuredEdge, Rule};
 use super::surface::{HalfEdge, Surface};
-use super::widths::{MeasuredEdge, Ruler};
+use super::widths::Ruler;
 use crate::mesh::Mesh;
 use crate::report::{Chamfered, EdgeVerdict, Outcome, TriangleKind};
 
@@ -30,7 +30,7 @@ pub(super) fn check_counts(before: &Mesh, after: &Chamfered, findings: &mut Find
     let add_up = totals.hard_edges as usize == after.verdicts.len()
         && totals.chamfered == with(Outcome::Full)
         && totals.narrowed == with(Outcome::Narrowed)
-        && totals.skipped.iter().sum::<u32>() == with(Outcome::Skipped);
+        && totals.skipped.total() == with(Outcome::Skipped);
     if !add_up {
         findings.note(Rule::Verdicts, Element::Mesh);
     }

@@ -3,37 +3,9 @@
 use glam::DVec3;
 
 use super::origins::Origins;
+use super::rules::MeasuredEdge;
+use super::solids::Solids;
 use super::surface::{HalfEdge, Surface};
-
-/// A hard edge of the source with two sides, measured in the result.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MeasuredEdge {
-    /// The source vertices at its ends, on the side of the first triangle that uses it.
-    pub vertices: [u32; 2],
-    /// Its length, in mesh units.
-    pub length: f32,
-    /// `#ends by #sides`: how far the corner of the side's triangle is from the line of the old
-    /// edge, in mesh units.
-    pub distances: [[f32; 2]; 2],
-    /// `#ends`: whether the two sides are at different positions there.
-    pub is_open: [bool; 2],
-}
-
-impl MeasuredEdge {
-    /// At each end, the mean distance of the two sides from the line of the old edge, in mesh
-    /// units; 0 where the sides did not come apart.
-    pub fn widths(&self) -> [f32; 2] {
-        [0, 1].map(|end| {
-            let [one, other] = self.distances[end];
-            if self.is_open[end] { (one + other) / 2.0 } else { 0.0 }
-        })
-    }
-
-    /// Whether there is a chamfer in its place.
-    pub fn is_chamfered(&self) -> bool {
-        self.is_open != [false; 2]
-    }
-}
 
 /// The corners of a source mesh in the result.
 pub(super) struct Ruler<'a> {
@@ -49,15 +21,20 @@ impl<'a> Ruler<'a> {
         Ruler { before, after, corner_after }
     }
 
-    /// The hard edges with exactly two sides, in the order of their first corners.
-    pub fn measure_all(&self) -> Vec<MeasuredEdge> {
+    /// The hard edges, in the order of their first corners. Where more than two sides meet, as
+    /// where a skin is there twice, an edge for each pair of sides with a solid between them.
+    pub fn measure_all(&self, solids: &Solids) -> Vec<MeasuredEdge> {
         let mut edges = Vec::new();
         for edge in self.before.edges().filter(|edge| self.before.is_hard(edge)) {
-            let ([forward], [backward]) = edge else { continue };
-            let first = forward.corners[0].min(backward.corners[0]);
-            let (one, other) =
-                if first == forward.corners[0] { (forward, backward) } else { (backward, forward) };
-            edges.extend(self.measure(one, other).map(|measured| (first, measured)));
+            for [forward, backward] in solids.pairs(self.before, edge) {
+                if self.before.is_soft(forward, backward) {
+                    continue;
+                }
+                let mut sides = [forward, backward];
+                sides.sort_unstable_by_key(|side| side.corners[0]);
+                let measured = self.measure(sides[0], sides[1]);
+                edges.extend(measured.map(|measured| (sides[0].corners[0], measured)));
+            }
         }
         edges.sort_unstable_by_key(|(first, _)| *first);
         edges.into_iter().map(|(_, measured)| measured).collect()

@@ -3,7 +3,7 @@
 //! Only exports that return a constant do without. The host's panic hook is left alone, so a fault
 //! of this library may still print its place.
 
-use libc::c_char;
+use core::ffi::c_char;
 use std::mem::offset_of;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 

@@ -13,6 +13,16 @@ use crate::{ChamferSubmesh, Error, Mesh, Options, UV_CHANNELS, Uv, Verify, Width
 
 const _: () = assert!(CHAMFER_UV_CHANNELS == UV_CHANNELS);
 
+/// What a scene is made of, as the caller hands it over.
+#[derive(Clone, Copy)]
+pub struct SceneArrays {
+    pub meshes: *const *const chamfer_mesh,
+    pub mesh_count: usize,
+    pub objects: *const chamfer_object,
+    pub object_count: usize,
+    pub options: *const chamfer_options,
+}
+
 /// Borrows a caller's mesh.
 ///
 /// # Safety

@@ -6,7 +6,7 @@ use crate::memory;
 use crate::view::{check_finite, check_indices};
 use crate::{
     Blend, Chamfered, Mesh, MeshBuffers, Smoothed, TriangleKind, TriangleSource, Uv, UvBuffer,
-    Verify, VertexSource, split_by_angle,
+    VertexSource, split_by_angle,
 };
 
 /// The mesh with new normals, its vertices split where they differ, and where each came from.
@@ -21,7 +21,7 @@ pub fn with_normals(mesh: &Mesh, angle_degrees: f32) -> Result<Chamfered, Failur
     check_indices(mesh)?;
     // Its normals are ignored, whatever they are; all else goes out again.
     check_finite(&Mesh { normals: &[], ..*mesh })?;
-    memory::check(mesh, Verify::Fast)?;
+    memory::ask(memory::of_normals(mesh))?;
     let smoothed = split_by_angle(mesh.positions, mesh.indices, angle_degrees);
     let triangles = smoothed.indices.len() as u32 / 3;
     Ok(Chamfered {

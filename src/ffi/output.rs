@@ -64,12 +64,14 @@ fn view_uv(uv: &UvBuffer) -> chamfer_uv {
 /// The sums, in the places of the header.
 pub fn view_totals(totals: &Totals, width: f32) -> chamfer_totals {
     let mut skipped_by_reason = [0; CHAMFER_REASON_SLOTS];
-    skipped_by_reason[..totals.skipped.len()].copy_from_slice(&totals.skipped);
+    for (place, (_, count)) in skipped_by_reason.iter_mut().zip(totals.skipped.iter()) {
+        *place = count;
+    }
     chamfer_totals {
         hard_edges: totals.hard_edges,
         chamfered: totals.chamfered,
         narrowed: totals.narrowed,
-        skipped: totals.skipped.iter().sum(),
+        skipped: totals.skipped.total(),
         width,
         mean_width: totals.mean_width,
         skipped_by_reason,

@@ -5,8 +5,7 @@
 
 use std::ops::Range;
 
-use super::input::{self, check_array};
-use super::scene::SceneArrays;
+use super::input::{self, SceneArrays, check_array};
 use super::sized::{self, StatesSize, check_pointer};
 use super::status::Failure;
 use super::types::{CHAMFER_STATUS_OVERLAP, chamfer_error, chamfer_mesh};

@@ -1,12 +1,11 @@
 //! A mesh that is prepared for several widths.
 
-use libc::c_void;
+use core::ffi::c_void;
 
 use super::guard::caught;
 use super::sized::check_pointer;
 use super::types::{chamfer_error, chamfer_mesh, chamfer_options, chamfer_progress};
 use super::{chamfer_result, input, produce, produce_from, reporting};
-use crate::memory;
 use crate::mesh::{Held, Mesh, MeshBuffers};
 use crate::pipeline::Prepared;
 use crate::plan::Shape;
@@ -57,8 +56,6 @@ pub unsafe extern "C" fn chamfer_prepared_run(
         let chamfer_prepared { mesh, held, shape } = &*prepared;
         let mesh = Mesh { held, ..mesh.as_mesh() };
         let options = input::read_options(options)?;
-        // Before anything is copied, as no copy may fail.
-        memory::check(&mesh, options.verify)?;
         let prepared = Prepared::of_shape(mesh, shape.clone());
         let result = prepared.chamfer_with_progress(&options, &mut reporting(progress, user))?;
         Ok(chamfer_result::new(result))

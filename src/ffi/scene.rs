@@ -1,37 +1,24 @@
 //! Meshes that stand together: none loses what another rests on.
 
-use libc::c_void;
+use core::ffi::c_void;
 use std::ops::ControlFlow;
 use std::ptr;
 
 use super::guard::{caught, guard};
-use super::input::{self, check_array};
+use super::input::{self, SceneArrays, check_array};
 use super::overlap;
 use super::status::Failure;
 use super::types::*;
 use super::{chamfer_result, reporting};
+use crate::memory;
 use crate::see_through::Eyes;
 use crate::view::view;
 use crate::{
     Chamfered, Error, Mesh, Options, Placed, Verify, chamfer_scene, chamfer_with_progress,
 };
 
-/// With [`Verify::Seen`], for each corner of each object: the triangles before and after, where all
-/// edges are hard, and what is compared and drawn of them.
-const BYTES_PER_SEEN_CORNER: u64 = 1024;
-
 /// With [`Verify::Seen`], the first pass over all meshes is about so much of the work.
 const SHARE_BEFORE_LOOKING: f32 = 0.5;
-
-/// What a scene is made of, as the caller hands it over.
-#[derive(Clone, Copy)]
-pub struct SceneArrays {
-    pub meshes: *const *const chamfer_mesh,
-    pub mesh_count: usize,
-    pub objects: *const chamfer_object,
-    pub object_count: usize,
-    pub options: *const chamfer_options,
-}
 
 /// Chamfers meshes that stand together: of each, the edges are held that the open border of
 /// another object rests on. With `CHAMFER_VERIFY_SEEN` the scene is looked at as a whole, and what
@@ -133,7 +120,7 @@ fn run(
             chamfer_with_progress(mesh, options, &mut |done| progress(steps.rise_to(done)));
         chamfered.map_err(|error| Failure::from(error).of_mesh(number))
     };
-    let eyes = looks.then(|| Eyes::with_threads(options.threads));
+    let eyes = looks.then(|| Eyes::default().with_threads(options.threads));
     let scene = chamfer_scene(meshes, placed, eyes, &mut chamfer)?;
     if looks && progress(1.0).is_break() {
         return Err(Error::Cancelled.into());
@@ -184,7 +171,5 @@ fn place(number: usize, object: &chamfer_object, meshes: &[Mesh]) -> Result<Plac
 /// in there would end the host's process. Each mesh asks for its own when its turn comes.
 fn check_memory(meshes: &[Mesh], placed: &[Placed]) -> Result<(), Failure> {
     let corners = placed.iter().map(|object| meshes[object.mesh].indices.len() as u64);
-    let bytes = corners.sum::<u64>().saturating_mul(BYTES_PER_SEEN_CORNER);
-    let bytes = usize::try_from(bytes).map_err(|_| Error::OutOfMemory)?;
-    Ok(Vec::<u8>::new().try_reserve_exact(bytes).map_err(|_| Error::OutOfMemory)?)
+    Ok(memory::ask(memory::of_scene(corners.sum()))?)
 }

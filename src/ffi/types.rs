@@ -6,7 +6,7 @@
 
 #![allow(non_camel_case_types)]
 
-use libc::{c_char, c_void};
+use core::ffi::{c_char, c_void};
 
 /// The version of this interface that the header describes. A program checks that
 /// `chamfer_abi_version` gives the same before it calls anything else.
@@ -64,7 +64,7 @@ pub const CHAMFER_STATUS_OUT_OF_MEMORY: i32 = 301;
 pub const CHAMFER_STATUS_INTERNAL: i32 = 900;
 
 /// The `element` of an error that concerns no single element.
-pub const CHAMFER_NO_ELEMENT: u32 = 0xFFFF_FFFF;
+pub const CHAMFER_NO_ELEMENT: u32 = u32::MAX;
 
 /// How many bytes an error message has room for, the final NUL included.
 pub const CHAMFER_MESSAGE_SIZE: usize = 256;

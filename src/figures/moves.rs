@@ -150,7 +150,7 @@ pub fn limits() -> Drawing {
 /// The pulled edges as limited, and the share of each sector.
 fn draw_shares(drawing: &mut Drawing, mesh: &MeshBuffers, width: f32, camera: Camera) {
     let plan = plan_of(mesh, width);
-    let placement = stage_limits(&plan, Verify::Fast).placement;
+    let placement = stage_limits(&plan, Verify::Fast).unwrap().placement;
     let scene = Scene::of_mesh(camera, mesh);
     scene.paint(drawing);
     hard_edges(drawing, &scene, &plan, Pen::new(INK, 0.8));

@@ -59,7 +59,7 @@ fn name_corners(
     edge: [DVec3; 2],
 ) {
     let plan = plan_of(mesh, width);
-    let placement = limits(&plan, Verify::Fast).placement;
+    let placement = limits(&plan, Verify::Fast).unwrap().placement;
     for hard in plan.edges.hard.iter() {
         let ends = [hard.sides[0], hard.sides[0].next()].map(|end| plan.view.position_at(end));
         if edge != ends && edge != [ends[1], ends[0]] {
@@ -78,7 +78,7 @@ fn name_corners(
     }
 }
 
-pub fn corners() -> Drawing {
+pub fn fills() -> Drawing {
     let mut drawing = Drawing::new(720, 290);
     let saddle = shapes::saddle();
     let (three, four, five) = (shapes::plain_cube(2.0), shapes::pyramid(4), shapes::pyramid(5));
@@ -155,7 +155,7 @@ fn outcome_paint(outcome: Outcome) -> Paint {
 /// What the verdicts say, with an example of each kind.
 fn write_totals(drawing: &mut Drawing, result: &Chamfered) {
     let totals = &result.totals;
-    let skipped: u32 = totals.skipped.iter().sum();
+    let skipped = totals.skipped.total();
     let mut lines = vec![
         format!("width asked for  {}", result.width),
         format!("hard edges       {}", totals.hard_edges),

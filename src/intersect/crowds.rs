@@ -8,7 +8,7 @@
 //! or line, such as where a corner was before it was pulled apart.
 
 use std::collections::HashMap;
-use std::hash::{BuildHasher, BuildHasherDefault, DefaultHasher};
+use std::hash::{BuildHasher, BuildHasherDefault, Hash, Hasher};
 
 use glam::DVec3;
 use smallvec::SmallVec;
@@ -29,37 +29,55 @@ const LEAST_ACROSS: f64 = 1e-6;
 /// A position by its bits, -0 as 0.
 type Place = [u32; 3];
 
+/// A side by its ends, or a place twice.
+type Name = [Place; 2];
+
 /// `#triangles`: the corner or side that each crowds around with others, and where it lies as seen
 /// from there. None where there is no crowd, as in nearly all meshes.
-pub fn crowds(count: usize, corners: impl Fn(u32) -> Triangle) -> Option<Vec<Kin>> {
-    let at_place = Crowded::new(3 * count, (0..count as u32).flat_map(|t| corners(t).map(place)));
-    let is_crowded = |triangle: Triangle| triangle.map(|point| at_place.has(&place(point)));
-    if !(0..count as u32).any(|triangle| is_crowded(corners(triangle)).contains(&true)) {
-        return None;
-    }
-    let sides = (0..count as u32).flat_map(|triangle| {
-        let triangle = corners(triangle);
-        let crowded = is_crowded(triangle);
-        (0..3).filter(move |&k| crowded[k] && crowded[(k + 1) % 3]).map(move |k| side(triangle, k))
-    });
-    let at_side = Crowded::new(3 * count, sides);
+pub(crate) fn crowds(triangles: &[Triangle]) -> Option<Vec<Kin>> {
+    let meeting = Meeting::of(triangles)?;
     let mut names = Names::default();
-    let kin = (0..count as u32).map(|triangle| {
-        let triangle = corners(triangle);
-        let crowded_side = (0..3).find(|&k| at_side.has(&side(triangle, k)));
-        match (crowded_side, at_place.most_crowded(triangle)) {
-            (Some(k), _) => {
-                let around = Around::line([triangle[k], triangle[(k + 1) % 3]]);
-                Kin::new(names.of(side(triangle, k)), around.seen(&triangle))
-            }
-            (None, Some(k)) => {
-                let place = place(triangle[k]);
-                Kin::new(names.of([place, place]), Around::point(triangle[k]).seen(&triangle))
-            }
-            (None, None) => Kin::NONE,
+    let kin = |triangle: &Triangle| match meeting.around(triangle) {
+        Some((name, around)) => Kin::new(names.of(name), around.seen(triangle)),
+        None => Kin::NONE,
+    };
+    Some(triangles.iter().map(kin).collect())
+}
+
+/// Where many of some triangles meet.
+struct Meeting {
+    at_place: Counts,
+    at_side: Counts,
+}
+
+impl Meeting {
+    /// None where no crowd does.
+    fn of(triangles: &[Triangle]) -> Option<Meeting> {
+        let most = 3 * triangles.len();
+        let at_place = Counts::new(most, triangles.as_flattened().iter().map(|&p| place(p)));
+        let is_crowded =
+            |triangle: &Triangle| triangle.map(|point| at_place.are_many(&place(point)));
+        if !triangles.iter().any(|triangle| is_crowded(triangle).contains(&true)) {
+            return None;
         }
-    });
-    Some(kin.collect())
+        let sides = triangles.iter().flat_map(|triangle| {
+            let crowded = is_crowded(triangle);
+            let both = move |&k: &usize| crowded[k] && crowded[(k + 1) % 3];
+            (0..3).filter(both).map(|k| side(triangle, k))
+        });
+        let at_side = Counts::new(most, sides);
+        Some(Meeting { at_place, at_side })
+    }
+
+    /// What a triangle crowds around, by name: a side before a corner.
+    fn around(&self, triangle: &Triangle) -> Option<(Name, Around)> {
+        if let Some(k) = (0..3).find(|&k| self.at_side.are_many(&side(triangle, k))) {
+            let ends = [triangle[k], triangle[(k + 1) % 3]];
+            return Some((side(triangle, k), Around::line(ends)));
+        }
+        let at = triangle[self.at_place.most(triangle.map(place))?];
+        Some(([place(at); 2], Around::point(at)))
+    }
 }
 
 fn place(point: [f32; 3]) -> Place {
@@ -67,52 +85,71 @@ fn place(point: [f32; 3]) -> Place {
 }
 
 /// The side from a corner to the next, whichever way it is used.
-fn side(triangle: Triangle, k: usize) -> [Place; 2] {
+fn side(triangle: &Triangle, k: usize) -> Name {
     let ends = [place(triangle[k]), place(triangle[(k + 1) % 3])];
     if ends[0] <= ends[1] { ends } else { [ends[1], ends[0]] }
 }
 
 /// How often each of some keys comes, by hash: a key may be taken for more crowded than it is, which
 /// costs time but no pair.
-struct Crowded {
-    counts: Vec<u8>,
-}
+struct Counts(Vec<u8>);
 
-impl Crowded {
-    fn new<K: std::hash::Hash>(most: usize, keys: impl Iterator<Item = K>) -> Crowded {
-        let mut crowded = Crowded { counts: vec![0; most.next_power_of_two()] };
+impl Counts {
+    fn new<K: Hash>(most: usize, keys: impl Iterator<Item = K>) -> Counts {
+        let mut counts = Counts(vec![0; most.next_power_of_two()]);
         for key in keys {
-            let slot = crowded.slot(&key);
-            crowded.counts[slot] = crowded.counts[slot].saturating_add(1);
+            let slot = counts.slot(&key);
+            counts.0[slot] = counts.0[slot].saturating_add(1);
         }
-        crowded
+        counts
     }
 
-    fn slot<K: std::hash::Hash>(&self, key: &K) -> usize {
-        let hash = BuildHasherDefault::<DefaultHasher>::default().hash_one(key);
-        hash as usize & (self.counts.len() - 1)
+    fn slot<K: Hash>(&self, key: &K) -> usize {
+        let hash = BuildHasherDefault::<Mixer>::default().hash_one(key);
+        (hash >> 32) as usize & (self.0.len() - 1)
     }
 
-    fn has<K: std::hash::Hash>(&self, key: &K) -> bool {
-        self.counts[self.slot(key)] >= CROWD
+    fn are_many<K: Hash>(&self, key: &K) -> bool {
+        self.0[self.slot(key)] >= CROWD
     }
 
-    /// The corner of a triangle with the largest crowd; none without any.
-    fn most_crowded(&self, triangle: Triangle) -> Option<usize> {
-        let counts = triangle.map(|point| self.counts[self.slot(&place(point))]);
+    /// Which of a triangle's corners has the largest crowd; none without any.
+    fn most(&self, corners: [Place; 3]) -> Option<usize> {
+        let counts = corners.map(|corner| self.0[self.slot(&corner)]);
         let most = (0..3).fold(0, |best, k| if counts[k] > counts[best] { k } else { best });
         (counts[most] >= CROWD).then_some(most)
     }
 }
 
+/// Multiplies and turns: keys are positions of a mesh, which nobody chooses to collide.
+#[derive(Default)]
+struct Mixer(u64);
+
+impl Hasher for Mixer {
+    fn write(&mut self, bytes: &[u8]) {
+        bytes.iter().for_each(|&byte| self.write_u32(byte.into()));
+    }
+
+    fn write_u32(&mut self, word: u32) {
+        self.0 = (self.0.rotate_left(23) ^ u64::from(word)).wrapping_mul(GOLDEN);
+    }
+
+    fn finish(&self) -> u64 {
+        self.0 ^ self.0 >> 29
+    }
+}
+
+/// Two to the 64 over the golden ratio, odd.
+const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
+
 /// Numbers for what crowds gather around, each its own: two triangles of one number have it in
 /// common for certain.
 #[derive(Default)]
-struct Names(HashMap<[Place; 2], u32>);
+struct Names(HashMap<Name, u64, BuildHasherDefault<Mixer>>);
 
 impl Names {
-    fn of(&mut self, what: [Place; 2]) -> u32 {
-        let next = self.0.len() as u32;
+    fn of(&mut self, what: Name) -> u64 {
+        let next = self.0.len() as u64;
         *self.0.entry(what).or_insert(next)
     }
 }
@@ -202,7 +239,7 @@ mod tests {
     }
 
     fn kin_of(triangles: &[Triangle]) -> Option<Vec<Kin>> {
-        crowds(triangles.len(), |triangle| triangles[triangle as usize])
+        crowds(triangles)
     }
 
     fn met(kin: &[Kin], one: usize) -> usize {

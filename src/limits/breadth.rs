@@ -7,27 +7,12 @@
 
 use glam::DVec3;
 
-use crate::ids::{Cluster, Corner, IdVec, Triangle};
+use crate::ids::{Corner, Triangle};
 use crate::math::area_vector;
 use crate::plan::Plan;
-use crate::sectors::Sectors;
-use crate::topology::Topology;
 
 /// A rim that runs along a side within a tenth of a degree does not lead away from it.
 const LEAST_LEAN: f64 = 0.002;
-
-/// `#clusters`: whether a face goes on for at least a row of triangles behind a vertex inside of
-/// it. No chamfer reaches these, so the first row may be given away.
-pub fn deep(topology: &Topology, sectors: &Sectors, clusters: usize) -> IdVec<Cluster, bool> {
-    let mut deep = IdVec::filled(false, clusters);
-    for triangle in (0..topology.twin.len() / 3).map(|triangle| Triangle(triangle as u32)) {
-        let corners = triangle.corners();
-        if corners.iter().all(|&corner| sectors.sector_of[corner].is_none()) {
-            corners.iter().for_each(|&corner| deep[topology.cluster_at[corner]] = true);
-        }
-    }
-    deep
-}
 
 /// What has to stay of a triangle: for each of its sides at which the face ends, the least area
 /// for each unit of the side's length, along the old side; zero for the others. Areas are counted
@@ -102,7 +87,7 @@ mod tests {
     /// The faces of an upright box: how much of each stays along each of its sides, as a share.
     fn shares_kept(mesh: &MeshBuffers, options: &Options) -> Vec<f64> {
         let plan = plan_with(mesh, options);
-        let placement = limits(&plan, Verify::Fast).placement;
+        let placement = limits(&plan, Verify::Fast).unwrap().placement;
         let kept = |face: DVec3, axis: DVec3| {
             let on_face = |t: &Triangle| plan.faces.normal[*t].dot(face) > 0.9;
             let corners = || plan.view.triangles().filter(on_face).flat_map(|t| t.corners());
@@ -203,7 +188,7 @@ mod tests {
         let mesh = box_under_grid(cells);
         let options = Options { least_breadth: 0.2, ..asking(1.9, 0.2) };
         let plan = plan_with(&mesh, &options);
-        let placement = limits(&plan, Verify::Fast).placement;
+        let placement = limits(&plan, Verify::Fast).unwrap().placement;
         let lid = plan.view.triangles().filter(|&t| plan.faces.normal[t].y > 0.9);
         let depth = |corner: Corner| placement.position_at(&plan, corner).x.min(9.0);
         lid.flat_map(|t| t.corners()).map(depth).fold(9.0, f64::min)

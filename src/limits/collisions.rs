@@ -1,37 +1,69 @@
-//! Collisions: parts of the mesh that would cut through each other, though no triangle flips.
+//! Collisions: what would cut through itself, though no triangle flips.
 //!
-//! Only edge-connected parts that are clean in the source are kept clean: where a part cuts
-//! through itself already, a chamfer across the cut has to cut as well.
+//! Each solid, and what else is joined by edges, is laid out as triangles, where its sectors stand, and searched. What
+//! cuts shrinks, and the part is searched again, until nothing cuts; then half of what was taken
+//! is tried again, and so on. Only parts that are clean in the source are kept clean: where one
+//! cuts through itself already, a chamfer across the cut has to cut as well.
 
-use crate::ids::{IdVec, Sector};
+use std::sync::OnceLock;
+
+use glam::DVec3;
+
+use crate::bvh::Kin;
+use crate::error::Error;
+use crate::fills::middle;
+use crate::ids::{Corner, Few, Id, IdVec, Ring, Sector};
+use crate::intersect::{self, Triangle, cutting_pairs};
+use crate::memory;
+use crate::placement::Placement;
 use crate::plan::Plan;
 use crate::report::Reason;
+use crate::strips;
+use crate::topology::solids;
 
-use super::cells::Cells;
-use super::{Limits, apply, bad_around, blame, sectors_of, shrink};
+use super::crowds::{Crowd, Crowds, crowds};
+use super::{Element, Limits, apply, around, bad_around, blame, fill, sectors_of, shrink};
 
 /// Rounds in which width is given back: the rest is within an eighth of what would fit.
 const GIVE_BACK_ROUNDS: usize = 3;
 
 /// Shrinks the sectors of all that cuts, until nothing does that did not in the source, and gives
 /// back what is safe.
-pub fn resolve(plan: &Plan, limits: &mut Limits) {
-    let parts = plan.parts();
+///
+/// # Errors
+/// [`Error::OutOfMemory`] where what searching the parts needs is not to be had.
+pub fn resolve(plan: &Plan, limits: &mut Limits) -> Result<(), Error> {
+    let parts = parts(plan);
+    memory::ask(memory::of_collisions(most_searched(plan, &parts)))?;
+    // Most parts are clean, and no part has a say in another: so all can be searched at once.
+    let cuts = |(): &mut (), part: &Part| part.new_cuts(&limits.placement, &part.elements);
+    let cuts = plan.view.threads.map_large(&parts, || (), cuts);
     let free = limits.placement.share.clone();
-    let mut cells = Cells::new(plan, parts);
-    for part in 0..parts.len() {
-        cells.enter(part, &limits.placement);
-        let shrunk = shrink_cuts(plan, limits, &mut cells);
-        give_back(plan, limits, &mut cells, &shrunk, &free);
+    for (part, cuts) in parts.iter().zip(cuts).filter(|(_, cuts)| !cuts.is_empty()) {
+        let shrunk = shrink_cuts(plan, limits, part, cuts);
+        give_back(plan, limits, part, &shrunk, &free);
     }
+    Ok(())
+}
+
+/// How many triangles are searched at a time, at most: each thread has a part.
+fn most_searched(plan: &Plan, parts: &[Part]) -> usize {
+    let sizes = || parts.iter().map(Part::most_triangles);
+    let largest = sizes().max().unwrap_or(0);
+    sizes().sum::<usize>().min(largest.saturating_mul(plan.view.threads.count()))
 }
 
 /// Shrinks until nothing in a part cuts; tells what has shrunk, in order.
-fn shrink_cuts(plan: &Plan, limits: &mut Limits, cells: &mut Cells) -> Vec<Sector> {
+fn shrink_cuts(
+    plan: &Plan,
+    limits: &mut Limits,
+    part: &Part,
+    mut cutting: Vec<Element>,
+) -> Vec<Sector> {
     let mut all = Vec::new();
     for round in 0.. {
         let mut shrunk = Vec::new();
-        for element in cells.new_cuts() {
+        for &element in &cutting {
             blame(plan, limits, element, Reason::Intersects, &mut shrunk);
         }
         if shrunk.is_empty() {
@@ -40,7 +72,7 @@ fn shrink_cuts(plan: &Plan, limits: &mut Limits, cells: &mut Cells) -> Vec<Secto
         apply(plan, limits, round, &mut shrunk);
         let bad = bad_around(plan, &limits.placement, &shrunk);
         shrunk.extend(shrink(plan, limits, bad));
-        cells.follow(&limits.placement, &shrunk);
+        cutting = part.cuts_now(&limits.placement, cutting, &shrunk);
         all.extend(shrunk);
     }
     all.sort_unstable();
@@ -53,7 +85,7 @@ fn shrink_cuts(plan: &Plan, limits: &mut Limits, cells: &mut Cells) -> Vec<Secto
 fn give_back(
     plan: &Plan,
     limits: &mut Limits,
-    cells: &mut Cells,
+    part: &Part,
     shrunk: &[Sector],
     free: &IdVec<Sector, f64>,
 ) {
@@ -71,9 +103,9 @@ fn give_back(
         for each in &tries {
             limits.placement.set(plan, each.sector, (each.safe + each.unsafe_from) / 2.0);
         }
-        cells.follow(&limits.placement, &sectors);
+        let mut cutting = part.cuts_now(&limits.placement, Vec::new(), &sectors);
         loop {
-            let mut bad = cells.new_cuts();
+            let mut bad = cutting.clone();
             bad.extend(bad_around(plan, &limits.placement, &sectors));
             let mut back: Vec<Sector> = bad.iter().flat_map(|&e| sectors_of(plan, e)).collect();
             // Each once: the second time, what was safe would be taken for what was not.
@@ -83,7 +115,7 @@ fn give_back(
             if back.is_empty() {
                 break;
             }
-            cells.follow(&limits.placement, &back);
+            cutting = part.cuts_now(&limits.placement, cutting, &back);
         }
         for each in &mut tries {
             each.safe = limits.placement.share[each.sector];
@@ -108,4 +140,257 @@ fn take_back(plan: &Plan, limits: &mut Limits, tries: &mut [Try], sector: Sector
     each.unsafe_from = share.min(each.unsafe_from);
     limits.placement.set(plan, sector, each.safe);
     true
+}
+
+/// A solid, or what else is joined by edges, if some of it is chamfered.
+struct Part<'a> {
+    plan: &'a Plan<'a>,
+    /// In order.
+    elements: Vec<Element>,
+    /// `#elements`: the crowd of each; none at all where there are none.
+    crowds: Vec<Option<Crowd>>,
+    /// Whether it cuts through itself in the source. Only looked for once it matters.
+    was_cut: OnceLock<bool>,
+}
+
+/// A triangle of a part.
+struct Laid {
+    corners: Triangle,
+    /// Place in the part's elements.
+    element: u32,
+    /// Whether it is new or has moved.
+    is_changed: bool,
+    /// Whether it may cut something that it did not before.
+    is_open: bool,
+}
+
+impl Part<'_> {
+    fn most_triangles(&self) -> usize {
+        let of = |element: &Element| match element {
+            Element::Surface(_) => 1,
+            Element::Strip(_) => 2,
+            Element::Fill(ring) => self.plan.sectors.ring(*ring).len(),
+        };
+        self.elements.iter().map(of).sum()
+    }
+
+    /// The elements that take part in a cut now, if some did before sectors have moved.
+    fn cuts_now(
+        &self,
+        placement: &Placement,
+        before: Vec<Element>,
+        moved: &[Sector],
+    ) -> Vec<Element> {
+        let mut open = before;
+        open.extend(around(self.plan, moved));
+        open.sort_unstable_by_key(|element| element.key());
+        self.new_cuts(placement, &open)
+    }
+
+    /// The elements that take part in a cut in which one of the open ones does, in order; none
+    /// where the part cut through itself already. `open` in order.
+    fn new_cuts(&self, placement: &Placement, open: &[Element]) -> Vec<Element> {
+        let laid = self.lay_out(placement, open);
+        let triangles: Vec<Triangle> = laid.iter().map(|each| each.corners).collect();
+        let is_asked = |a: u32, b: u32| {
+            let [a, b] = [a, b].map(|number| &laid[number as usize]);
+            (a.is_open | b.is_open) & (a.is_changed | b.is_changed)
+        };
+        let pairs = cutting_pairs(&triangles, &self.kin(placement, &laid), is_asked);
+        if pairs.is_empty() || self.was_cut() {
+            return Vec::new();
+        }
+        let mut places: Vec<u32> =
+            pairs.iter().flat_map(|&(a, b)| [a, b]).map(|t| laid[t as usize].element).collect();
+        places.sort_unstable();
+        places.dedup();
+        places.into_iter().map(|place| self.elements[place as usize]).collect()
+    }
+
+    fn was_cut(&self) -> bool {
+        *self.was_cut.get_or_init(|| {
+            let triangles: Vec<Triangle> = self
+                .elements
+                .iter()
+                .filter_map(|element| match *element {
+                    Element::Surface(triangle) => Some(triangle.corners().map(|c| self.source(c))),
+                    Element::Strip(_) | Element::Fill(_) => None,
+                })
+                .collect();
+            let kin = intersect::crowds(&triangles).unwrap_or_default();
+            !cutting_pairs(&triangles, &kin, |_, _| true).is_empty()
+        })
+    }
+
+    /// `#triangles`: where each lies as seen from where its crowd meets; none without any crowd.
+    fn kin(&self, placement: &Placement, laid: &[Laid]) -> Vec<Kin> {
+        if self.crowds.is_empty() {
+            return Vec::new();
+        }
+        let kin = |each: &Laid| match self.crowds[each.element as usize] {
+            Some(crowd) => {
+                let around = crowd.around(self.plan, placement);
+                Kin::new(crowd.name(), around.seen(&each.corners))
+            }
+            None => Kin::NONE,
+        };
+        laid.iter().map(kin).collect()
+    }
+
+    fn source(&self, corner: Corner) -> [f32; 3] {
+        self.plan.view.mesh.positions[self.plan.view.vertex_at(corner).index()]
+    }
+
+    /// All triangles of the part where the sectors stand now.
+    fn lay_out(&self, placement: &Placement, open: &[Element]) -> Vec<Laid> {
+        let mut laid = Vec::with_capacity(2 * self.elements.len());
+        let mut open = open.iter().peekable();
+        for (place, &element) in (0..).zip(&self.elements) {
+            while open.next_if(|next| next.key() < element.key()).is_some() {}
+            let is_open = open.peek() == Some(&&element);
+            let is_changed = self.is_changed(placement, element);
+            let mut add = |corners: [DVec3; 3]| {
+                let corners = corners.map(|point| point.as_vec3().to_array());
+                laid.push(Laid { corners, element: place, is_changed, is_open });
+            };
+            self.each_triangle(placement, element, &mut add);
+        }
+        laid
+    }
+
+    fn is_changed(&self, placement: &Placement, element: Element) -> bool {
+        let Element::Surface(triangle) = element else { return true };
+        triangle.corners().into_iter().any(|corner| {
+            let sector = self.plan.sectors.sector_of[corner];
+            sector.is_some() && placement.has_moved(self.plan, sector)
+        })
+    }
+
+    fn each_triangle(
+        &self,
+        placement: &Placement,
+        element: Element,
+        add: &mut dyn FnMut([DVec3; 3]),
+    ) {
+        let plan = self.plan;
+        match element {
+            Element::Surface(triangle) => {
+                add(triangle.corners().map(|corner| placement.position_at(plan, corner)));
+            }
+            Element::Strip(edge) => {
+                let quad = strips::quad(plan, placement, &plan.edges.hard[edge]);
+                let triangles = strips::cut(&quad).triangles().iter();
+                triangles.for_each(|corners| add(corners.map(|place| quad.points[place])));
+            }
+            Element::Fill(ring) => self.each_of_fill(placement, ring, add),
+        }
+    }
+
+    fn each_of_fill(&self, placement: &Placement, ring: Ring, add: &mut dyn FnMut([DVec3; 3])) {
+        let sectors = self.plan.sectors.ring(ring);
+        let fill = fill(self.plan, placement, ring).unwrap_or_default();
+        let mut points: Few<_> = sectors.iter().map(|&sector| placement.point[sector]).collect();
+        for places in &fill.middles {
+            points.push(middle(&points[..sectors.len()], places));
+        }
+        fill.triangles.iter().for_each(|corners| add(corners.map(|place| points[place])));
+    }
+}
+
+/// The parts with chamfered edges.
+fn parts<'a>(plan: &'a Plan<'a>) -> Vec<Part<'a>> {
+    let label_of = solids(&plan.topology);
+    let label = |corner: Corner| label_of[corner.triangle().index()];
+    let mut is_chamfered = vec![false; label_of.len()];
+    let chamfered =
+        || plan.edges.hard.ids().filter(|&edge| plan.edges.hard[edge].skipped.is_none());
+    chamfered().for_each(|edge| {
+        is_chamfered[label(plan.edges.hard[edge].sides[0]) as usize] = true;
+    });
+    let triangles = plan.view.triangles().map(|t| (label_of[t.index()], Element::Surface(t)));
+    let strips =
+        chamfered().map(|edge| (label(plan.edges.hard[edge].sides[0]), Element::Strip(edge)));
+    let first = |ring: Ring| plan.sectors.fans[plan.sectors.ring(ring)[0]].first;
+    let fills = plan.sectors.rings.ids().filter(|&ring| plan.sectors.ring(ring).len() >= 3);
+    let fills = fills.map(|ring| (label(first(ring)), Element::Fill(ring)));
+    let mut all: Vec<(u32, Element)> = triangles
+        .chain(strips)
+        .chain(fills)
+        .filter(|(label, _)| is_chamfered[*label as usize])
+        .collect();
+    // They stand in the order of their keys.
+    all.sort_by_key(|(label, _)| *label);
+    let crowds = crowds(plan);
+    let part = |group: &[(u32, Element)]| {
+        let elements: Vec<Element> = group.iter().map(|(_, element)| *element).collect();
+        let of = |crowds: &Crowds| -> Vec<Option<Crowd>> {
+            elements.iter().map(|&element| crowds.of(plan, element)).collect()
+        };
+        let crowds = crowds.as_ref().map(of).filter(|all| all.iter().any(Option::is_some));
+        let (crowds, was_cut) = (crowds.unwrap_or_default(), OnceLock::new());
+        Part { plan, elements, crowds, was_cut }
+    };
+    all.chunk_by(|one, other| one.0 == other.0).map(part).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::intersect::cut_each_other;
+    use crate::mesh::MeshBuffers;
+    use crate::plan::tests::plan_of;
+    use crate::shapes;
+
+    /// For each part, how many elements it has.
+    fn sizes(mesh: &MeshBuffers) -> Vec<usize> {
+        parts(&plan_of(mesh, 0.1)).iter().map(|part| part.elements.len()).collect()
+    }
+
+    #[test]
+    fn a_part_is_its_faces_edges_and_corners() {
+        assert_eq!(sizes(&shapes::plain_cube(1.0)), [12 + 12 + 8]);
+        assert_eq!(sizes(&shapes::cube_field(3)), [32; 3]);
+        assert_eq!(sizes(&shapes::sphere(4, 6)), [], "nothing is chamfered");
+    }
+
+    /// The elements that cut where every sector stands at a share of its full width, whether there
+    /// is room or not.
+    fn cutting(mesh: &MeshBuffers, width: f32, share: f64) -> usize {
+        let plan = plan_of(mesh, width);
+        let placement = Placement::at(&plan, &IdVec::filled(share, plan.sectors.fans.len()));
+        let parts = parts(&plan);
+        let found = parts[0].new_cuts(&placement, &parts[0].elements);
+        assert_eq!(found, each_with_each(&parts[0], &placement));
+        found.len()
+    }
+
+    /// The same by comparing each with each.
+    fn each_with_each(part: &Part, placement: &Placement) -> Vec<Element> {
+        let laid = part.lay_out(placement, &part.elements);
+        let cuts = |one: &Laid, other: &Laid| {
+            (one.is_changed || other.is_changed) && cut_each_other(&one.corners, &other.corners)
+        };
+        let is_cut = |place: u32| {
+            let own = || laid.iter().enumerate().filter(move |(_, one)| one.element == place);
+            own().any(|(k, one)| {
+                laid.iter().enumerate().any(|(other, each)| other != k && cuts(one, each))
+            })
+        };
+        let places = (0..).zip(&part.elements).filter(|(place, _)| is_cut(*place));
+        places.map(|(_, element)| *element).collect()
+    }
+
+    #[test]
+    fn all_cuts_are_found() {
+        for (mesh, width) in [(shapes::plate(), 0.6), (shapes::l_shape(), 0.7)] {
+            assert!(cutting(&mesh, width, 1.0) > 0);
+            assert_eq!(cutting(&mesh, width, 0.01), 0);
+        }
+        assert_eq!(cutting(&shapes::plain_cube(1.0), 0.1, 1.0), 0, "there is room");
+    }
+
+    #[test]
+    fn all_cuts_in_crowds_are_found() {
+        assert!(cutting(&shapes::pyramid(60), 0.3, 1.0) > 0);
+    }
 }

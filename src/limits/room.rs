@@ -26,9 +26,7 @@ const SAFETY: f64 = 1.01;
 pub fn room(plan: &Plan) -> IdVec<Sector, f64> {
     let share = |sector: Sector| if plan.offsets[sector].moves() { GROWING } else { 0.0 };
     let share = plan.view.threads.map(plan.offsets.len(), share);
-    let (first, later) = (Vec::new(), BinaryHeap::new());
-    let harmless = harmless_move(least_height(plan).max(LEAST_SHARE));
-    let mut filling = Filling { plan, share, harmless, first, later };
+    let mut filling = Filling { plan, share, first: Vec::new(), later: BinaryHeap::new() };
     filling.first = plan.view.triangles().filter_map(|t| filling.event(t, 0.0)).collect();
     filling.first.sort_unstable();
     while let Some(event) = filling.next_event() {
@@ -69,25 +67,10 @@ struct Filling<'a> {
     plan: &'a Plan<'a>,
     /// `#sectors`: the share at which each stopped.
     share: IdVec<Sector, f64>,
-    /// See [`harmless_move`].
-    harmless: f64,
     /// What is known from the beginning, the earliest last. Nearly all events are: sorting them
     /// once takes less time than a heap of all.
     first: Vec<Event>,
     later: BinaryHeap<Event>,
-}
-
-/// The share of each height that has to stay.
-fn least_height(plan: &Plan) -> f64 {
-    (plan.view.least_breadth * SAFETY).min(1.0)
-}
-
-/// A triangle whose corners move by no more than this share of its least height keeps this share
-/// of its area and of all heights. Its sides are at least as long as that height, so with moves of
-/// `q` heights no side gets longer than 1 + 2 q times, and of the area 1 - 4 q - 4 q^2 stays.
-fn harmless_move(share: f64) -> f64 {
-    let linear = 4.0 + 2.0 * share;
-    ((linear * linear + 16.0 * (1.0 - share)).sqrt() - linear) / 8.0
 }
 
 /// The share of a sector that has not stopped.
@@ -143,7 +126,8 @@ impl Filling<'_> {
         if !faces.is_line(triangle) {
             let whole = area.length_squared();
             let (least, slack) = (LEAST_SHARE * whole, EXHAUSTED * whole);
-            let over = breadth::least(self.plan, triangle, start, least_height(self.plan));
+            let share = (self.plan.view.least_breadth * SAFETY).min(1.0);
+            let over = breadth::least(self.plan, triangle, start, share);
             return Moving { start, growth, normal: area, least, over, slack };
         }
         // A line may not fold over, but for what rounding does.
@@ -177,24 +161,11 @@ impl Filling<'_> {
     /// When the triangle will have given away all it can, from a share on.
     fn event(&self, triangle: Triangle, from: f64) -> Option<Event> {
         let is_growing = |sector: Sector| sector.is_some() && self.share[sector] == GROWING;
-        let sectors = self.sectors(triangle);
-        if !sectors.into_iter().any(is_growing) || self.is_roomy(triangle, sectors) {
+        if !self.sectors(triangle).into_iter().any(is_growing) {
             return None;
         }
         let (_, share, _) = self.exhausted(triangle, from)?;
         (share < 1.0).then_some(Event { share, triangle })
-    }
-
-    /// Whether a triangle keeps enough wherever its corners go: see [`harmless_move`].
-    fn is_roomy(&self, triangle: Triangle, sectors: [Sector; 3]) -> bool {
-        let vector = |sector: &Sector| self.plan.offsets[*sector].vector.length_squared();
-        let moves = sectors.iter().filter(|sector| sector.is_some()).map(vector);
-        let corners = self.plan.view.triangle(triangle);
-        let sides = [0, 1, 2].map(|k| corners[k].distance_squared(corners[(k + 1) % 3]));
-        let longest = sides.into_iter().fold(0.0, f64::max);
-        // Its least height stands on its longest side.
-        let height = self.harmless * self.harmless * area_vector(corners).length_squared();
-        moves.fold(0.0, f64::max) * longest <= height && !self.plan.faces.is_line(triangle)
     }
 
     /// Stops the sectors that press on an exhausted triangle.
@@ -324,21 +295,6 @@ mod tests {
         assert_eq!(first_root(-1.0, 0.0, 4.0), Some(2.0));
         assert_eq!(first_root(1.0, 1.0, 1.0), None);
         assert_eq!(first_root(1.0, 3.0, 2.0), None, "both roots are negative");
-    }
-
-    // The farthest that corners go, against each other, in the flattest triangle and in any.
-    #[test]
-    fn a_harmless_move_leaves_what_has_to_stay() {
-        for share in [0.02, 0.2, 0.5, 1.0] {
-            let q = harmless_move(share);
-            assert!((0.0..0.25).contains(&q), "{q}");
-            for apex in [0.0, 0.5, 3.0] {
-                let old = [DVec3::ZERO, DVec3::X * 4.0, DVec3::new(apex, 1.0, 0.0)];
-                let new = [old[0] + DVec3::Y * q, old[1] + DVec3::Y * q, old[2] - DVec3::Y * q];
-                let kept = area_vector(new).length() / area_vector(old).length();
-                assert!(kept >= share * (1.0 + 2.0 * q) - 1e-12, "{share} {apex} {kept}");
-            }
-        }
     }
 
     /// A unit right triangle whose corners move along x as given.

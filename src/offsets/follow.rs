@@ -4,9 +4,9 @@ use glam::DVec3;
 
 use super::{CREASE_COSINE, LEVEL_COSINE, Offset};
 use crate::faces::Faces;
+use crate::foot::locate;
 use crate::ids::{Corner, Few, IdVec, Sector};
 use crate::math::{area_vector, unit};
-use crate::resample::locate;
 use crate::sectors::Follower;
 use crate::view::View;
 

@@ -118,7 +118,7 @@ mod tests {
 
     fn submeshes(mesh: &MeshBuffers, target: ChamferSubmesh) -> Submeshes {
         let plan = plan_of(mesh, 0.02);
-        let placement = limits(&plan, Verify::Fast).placement;
+        let placement = limits(&plan, Verify::Fast).unwrap().placement;
         Submeshes::of_source(&plan, target, &attributes(&plan, &placement), 0)
     }
 

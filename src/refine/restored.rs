@@ -172,7 +172,7 @@ fn counted(verdicts: &[EdgeVerdict], mean_width: f32) -> Totals {
         match verdict.outcome {
             Outcome::Full => totals.chamfered += 1,
             Outcome::Narrowed => totals.narrowed += 1,
-            Outcome::Skipped => totals.skipped[verdict.reason as usize] += 1,
+            Outcome::Skipped => totals.skipped[verdict.reason] += 1,
         }
     }
     totals

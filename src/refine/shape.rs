@@ -1,7 +1,5 @@
 //! What is known of a finer mesh, from what is known of its source: only the pieces are new.
 
-use std::sync::Arc;
-
 use super::Refined;
 use crate::contacts::Contacts;
 use crate::edges::{Edges, HardEdge, seam_channels};
@@ -30,7 +28,6 @@ pub fn shape(fine: &View, refined: &Refined, coarse: &Shape) -> Option<Shape> {
         contacts: contacts.into(),
         edges: edges.into(),
         sectors: sectors.into(),
-        parts: Arc::default(),
     })
 }
 
@@ -111,6 +108,8 @@ fn edges(
     let mut edges = Edges {
         hard: IdVec::default(),
         chamfered_at: IdVec::filled(Edge::NONE, fine.corner_count()),
+        // Lines are never cut.
+        spanned: coarse.spanned.clone(),
     };
     for edge in coarse.hard.iter() {
         for side in refined.parts_of_side(edge.sides[0]) {

@@ -239,7 +239,7 @@ fn near_a_corner_that_stays_a_long_edge_gets_a_vertex() {
         let [from, to] = [split.sides[0], split.sides[0].next()].map(|c| view.position_at(c));
         let at = from.lerp(to, split.at[0]);
         assert!((at.distance(corner) - 0.3).abs() < 1e-6 && split.at.len() == 1, "{split:?}");
-        let refined = refine(view, shape, &offsets).unwrap();
+        let refined = refine(view, shape, &offsets).unwrap().unwrap();
         assert_eq!(refined.mesh.indices.len(), 3 * (12 + 2 * 3));
     });
 }

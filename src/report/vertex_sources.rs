@@ -87,9 +87,10 @@ impl VertexSources {
         }
     }
 
-    /// Appends a vertex that comes from where an earlier one does.
-    pub(crate) fn push_like(&mut self, vertex: usize) {
-        self.own.push(self.own(vertex));
+    /// Appends a vertex that continues no other chart, before any that does.
+    pub(crate) fn push_moved(&mut self, surface: Blend, chart: Blend) {
+        let own = self.put(surface, chart);
+        self.own.push(own);
     }
 
     /// Appends a vertex that comes from where an earlier one does, but for some channels.
@@ -108,23 +109,6 @@ impl VertexSources {
     /// Sets what a vertex comes from that continues no other chart.
     pub(crate) fn set(&mut self, vertex: usize, surface: Blend, chart: Blend) {
         self.own[vertex - self.kept as usize] = self.put(surface, chart);
-    }
-
-    /// Sets a vertex to a source vertex as it was.
-    pub(crate) fn reset(&mut self, vertex: usize) {
-        self.own[vertex - self.kept as usize] = Own::Kept(vertex as u32);
-    }
-
-    /// Writes what a vertex comes from over that of an earlier one. Neither continues another chart.
-    pub(crate) fn relocate(&mut self, vertex: usize, earlier: usize) {
-        let kept = self.kept as usize;
-        self.own[earlier - kept] = self.own[vertex - kept];
-    }
-
-    /// Takes back all vertices from a number on.
-    pub(crate) fn truncate(&mut self, count: usize) {
-        self.continuing.truncate(count.saturating_sub(self.first_continuing()));
-        self.own.truncate(count.saturating_sub(self.kept as usize));
     }
 
     /// Puts other blends in the place of all.
@@ -219,16 +203,5 @@ mod tests {
         assert_eq!(one(sources.get(0)), [HALF, Blend::one(5), Blend::one(5)]);
         assert_eq!(one(sources.get(1)), [Blend::one(5); 3]);
         assert_eq!(one(sources.get(2)), [Blend::one(5); 3]);
-    }
-
-    #[test]
-    fn what_is_taken_back_is_gone() {
-        let mut sources = VertexSources::with_room(2, 0, 0);
-        sources.push_like(0);
-        sources.push_copy(1, HALF, 1);
-        sources.truncate(3);
-        assert_eq!((sources.len(), sources.get(2)), (3, own(Blend::one(0), Blend::one(0))));
-        sources.truncate(2);
-        assert_eq!(sources, VertexSources::of_source(2));
     }
 }

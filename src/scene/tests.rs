@@ -106,7 +106,7 @@ fn one_mesh_is_looked_at_as_a_scene_is() {
         let options = Options { width: Width::Units(0.05), verify, ..Options::default() };
         chamfer(&both.as_mesh(), &options).unwrap()
     };
-    let contacts = |result: &Chamfered| result.totals.skipped[Reason::Contact as usize];
+    let contacts = |result: &Chamfered| result.totals.skipped[Reason::Contact];
     assert_eq!(contacts(&of(Verify::Full)), 0);
     assert!(contacts(&of(Verify::Seen)) >= 2);
 }

@@ -3,13 +3,14 @@
 use glam::DVec3;
 
 use super::channels_of;
-use crate::edges::seam_between;
+use crate::breaks::seam_between;
+use crate::foot::locate;
 use crate::ids::{Corner, Few, Sector};
 use crate::math::{area_vector, unit};
 use crate::placement::Placement;
 use crate::plan::Plan;
 use crate::report::Blend;
-use crate::resample::{chart_foot, locate};
+use crate::resample::chart_foot;
 
 /// So many sides of a chamfer are tried in pairs: of more, every so manyth.
 const MOST_SIDES: usize = 8;
@@ -89,7 +90,7 @@ pub fn band_foot(plan: &Plan, end: &End, spread: Spread, depth: Depth) -> Option
     let [from, to] = end.edge;
     let inward = plan.faces.normal[end.half_edge.triangle()].cross(unit(to - from));
     let way = (to - from) * share.clamp(0.0, 1.0) + inward * (band - strip);
-    locate(&plan.view, end.half_edge, from, way).map(|foot| foot.blend(plan, 1.0))
+    locate(&plan.view, end.half_edge, from, way).map(|foot| foot.blend(&plan.view, 1.0))
 }
 
 /// The near and the far corner at one end of a strip that is laid into its owner's triangle, as
@@ -112,7 +113,7 @@ pub fn abreast(plan: &Plan, end: &End) -> Option<[Blend; 2]> {
     let [_, strip] = end.widths();
     let inward = plan.faces.normal[end.half_edge.triangle()].cross(unit(to - from));
     let way = (to - from) * share_of(end.edge, end.near).clamp(0.0, 1.0) + inward * strip;
-    let near = locate(&plan.view, end.half_edge, from, way)?.blend(plan, 1.0);
+    let near = locate(&plan.view, end.half_edge, from, way)?.blend(&plan.view, 1.0);
     Some([near, on_edge(plan, end.half_edge, share_of(end.edge, end.far))])
 }
 
@@ -201,7 +202,7 @@ pub fn kite(
         }
     };
     let share = placement.share[sector] * MIDDLE_SHARE;
-    let middle = |_| chart_foot(plan, sector, fan.first).blend(plan, share);
+    let middle = |_| chart_foot(plan, sector, fan.first).blend(&plan.view, share);
     lay.begin = owner;
     lay.feet.clear();
     lay.feet.extend(on_others(sectors.len(), owner, on_bow));

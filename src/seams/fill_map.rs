@@ -5,13 +5,14 @@ use std::cmp::Reverse;
 
 use glam::{DVec2, DVec3};
 
-use super::density::{Facing, Lie, MOST_STRETCH, density, misfit, roomiest};
+use super::density::density;
 use super::feet::{Frame, Lay, Room, Wings, flat_lay, is_broken, kite};
+use super::fit::{Facing, Lie, MOST_STRETCH, misfit, roomiest};
 use super::ground::Ground;
-use super::patch::{Joint, Middle, Patches, Taken};
+use super::patch::{Joint, Middle, Patches};
 use super::{Owners, channels_of, place_of};
-use crate::attributes::{Attributes, middles};
-use crate::corners::{Fill, middle};
+use crate::attributes::{Attributes, Taken, middles};
+use crate::fills::{Fill, middle};
 use crate::ids::{Corner, Edge, Few, Ring, Sector};
 use crate::math::{area_vector, unit};
 use crate::placement::{Placement, base};

@@ -4,11 +4,11 @@ use std::cell::OnceCell;
 
 use glam::DVec2;
 
+use crate::breaks::seam_between;
 use crate::ids::{Corner, Few, Triangle};
 use crate::plan::Plan;
 
 use super::density::{longest_square, size, texture_area, uv_point};
-use crate::edges::seam_between;
 
 /// A chamfer that lies past the end of its chart by less than this share of its own length shows
 /// nothing else: that is less than a texel.

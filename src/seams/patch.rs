@@ -1,8 +1,8 @@
 //! Patches: strips and fills as they are to be added to the mesh, many at a time.
 
-use crate::attributes::Channels;
+use crate::attributes::Taken;
 use crate::ids::{Corner, Few, Triangle};
-use crate::report::{Blend, TriangleSource};
+use crate::report::TriangleSource;
 
 /// Strips and fills one after the other, in flat arrays that can be used again.
 #[derive(Default)]
@@ -32,14 +32,6 @@ pub struct Joint {
     pub corner: Corner,
     /// What its vertex takes from another chart.
     pub taken: Option<Taken>,
-}
-
-/// A place in a chart that a chamfer continues.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Taken {
-    /// The UV channels that go there.
-    pub channels: Channels,
-    pub place: Blend,
 }
 
 /// A vertex in the middle of a fill.

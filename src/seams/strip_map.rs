@@ -2,12 +2,12 @@
 
 use glam::{DVec2, DVec3};
 
-use super::density::{Facing, Lie, MOST_STRETCH, misfit, roomiest};
 use super::feet::{Depth, End, Frame, Room, Spread, abreast, band_foot, flat_lay, inside};
+use super::fit::{Facing, Lie, MOST_STRETCH, misfit, roomiest};
 use super::ground::Ground;
-use super::patch::{Joint, Patches, Taken};
+use super::patch::{Joint, Patches};
 use super::{Owners, channels_of, place_of};
-use crate::attributes::Attributes;
+use crate::attributes::{Attributes, Taken};
 use crate::edges::HardEdge;
 use crate::ids::{Corner, Edge, Few};
 use crate::math::{area_vector, unit};

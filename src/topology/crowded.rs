@@ -13,7 +13,7 @@ use std::cmp::Ordering;
 
 use glam::DVec3;
 
-use crate::edges::is_hard;
+use crate::breaks::is_hard;
 use crate::ids::Corner;
 use crate::math::{area_vector, unit};
 use crate::view::View;
@@ -50,17 +50,26 @@ pub struct Hidden {
     pub behind: Corner,
 }
 
-/// Pairs half-edges that run forth with some that run back.
-pub fn crowd(view: &View, forth: &[Corner], back: &[Corner]) -> Crowd {
+/// Pairs half-edges that run forth with some that run back. What is in one part already, as the
+/// caller tells, stays together where the faces leave a choice.
+pub fn crowd(
+    view: &View,
+    forth: &[Corner],
+    back: &[Corner],
+    part: &mut dyn FnMut(Corner) -> u32,
+) -> Crowd {
     if forth.is_empty() || back.is_empty() {
         return Crowd::default();
     }
-    let around = Around::new(view, forth, back);
+    let around = Around::new(view, forth, back, part);
     let airs = around.airs(view);
     let visible = around.marked(airs.pairs.iter().flatten());
     if airs.are_all {
         // Sheets of two sides: each gap is a room, and its walls meet in it.
         return Crowd { pairs: around.half_edges(&airs.pairs), ..Crowd::default() };
+    }
+    if let Some(crowd) = around.apart(view, part) {
+        return Crowd { is_contact: airs.gaps != 1, ..crowd };
     }
     let left = around.left_over(&visible);
     let mut pairs = around.pairs_of_solids(view, &visible, &left);
@@ -100,6 +109,8 @@ struct Face {
     /// Such a face has its air where angles are larger, and its solid where they are smaller.
     runs_forth: bool,
     inward: DVec3,
+    /// What it is connected with by other edges.
+    part: u32,
     /// Grows with the angle about the edge, from 0 to 4.
     angle: f64,
     /// Which of the directions it lies in.
@@ -123,16 +134,21 @@ struct Airs {
 }
 
 impl Around {
-    fn new(view: &View, forth: &[Corner], back: &[Corner]) -> Around {
+    fn new(
+        view: &View,
+        forth: &[Corner],
+        back: &[Corner],
+        part: &mut dyn FnMut(Corner) -> u32,
+    ) -> Around {
         let axis = unit(view.position_at(forth[0].next()) - view.position_at(forth[0]));
         let reference = inward(view, forth[0], axis);
-        let face = |half_edge: Corner, runs_forth| {
+        let mut face = |half_edge: Corner, runs_forth| {
             let inward = inward(view, half_edge, axis);
             // What lies on the first face is not to come last for being a rounding below it.
             let lies_on_first = inward.dot(reference) > SAME_DIRECTION;
             let angle = pseudo_angle(inward, reference, axis.cross(reference));
             let angle = if lies_on_first { 0.0 } else { angle };
-            Face { half_edge, runs_forth, inward, angle, ray: 0 }
+            Face { half_edge, runs_forth, inward, part: part(half_edge), angle, ray: 0 }
         };
         let mut faces: Vec<Face> = forth.iter().map(|&half_edge| face(half_edge, true)).collect();
         faces.extend(back.iter().map(|&half_edge| face(half_edge, false)));
@@ -172,18 +188,22 @@ impl Around {
         airs
     }
 
-    /// Pairs faces of one place with faces of another: those that share their vertices first.
-    fn matched(&self, view: &View, [forth, mut back]: [Vec<usize>; 2]) -> Vec<[usize; 2]> {
+    /// Pairs faces of one place with faces of another: those first that share their vertices and are
+    /// in one part, then those of one part, and then those that share their vertices.
+    fn matched(&self, view: &View, [mut forth, mut back]: [Vec<usize>; 2]) -> Vec<[usize; 2]> {
         let mut pairs = Vec::new();
-        let mut single = Vec::new();
-        for one in forth {
-            let joins = |&other: &usize| self.share_vertices(view, one, other);
-            match self.is_small().then(|| back.iter().position(joins)).flatten() {
-                Some(found) => pairs.push([one, back.remove(found)]),
-                None => single.push(one),
-            }
+        let is_choice = self.is_small() && forth.len().max(back.len()) > 1;
+        for (shares, is_part) in [(true, true), (false, true), (true, false)] {
+            let joins = |one: usize, other: usize| {
+                (!is_part || self.faces[one].part == self.faces[other].part)
+                    && (!shares || self.share_vertices(view, one, other))
+            };
+            forth.retain(|&one| {
+                let found = is_choice.then(|| back.iter().position(|&other| joins(one, other)));
+                found.flatten().map(|found| pairs.push([one, back.remove(found)])).is_none()
+            });
         }
-        pairs.extend(single.into_iter().zip(back).map(|(one, other)| [one, other]));
+        pairs.extend(forth.into_iter().zip(back).map(|(one, other)| [one, other]));
         pairs
     }
 
@@ -212,6 +232,35 @@ impl Around {
         let mut left: Vec<bool> = visible.iter().map(|visible| !visible).collect();
         facing.iter().flatten().for_each(|&place| left[place] = false);
         left
+    }
+
+    /// Parts that have one face of each kind here are closed without the others. Where what is left
+    /// can be closed too, they are pairs, and the rest is paired by itself. None where all is rest.
+    fn apart(&self, view: &View, part: &mut dyn FnMut(Corner) -> u32) -> Option<Crowd> {
+        if !self.is_small() {
+            return None;
+        }
+        let mut places: Vec<usize> = (0..self.faces.len()).collect();
+        places.sort_by_key(|&place| (self.faces[place].part, !self.faces[place].runs_forth, place));
+        let (mut pairs, mut rest) = (Vec::new(), [Vec::new(), Vec::new()]);
+        for own in places.chunk_by(|&a, &b| self.faces[a].part == self.faces[b].part) {
+            match *own {
+                [one, other] if self.faces[one].runs_forth != self.faces[other].runs_forth => {
+                    pairs.push([one, other].map(|place| self.faces[place].half_edge));
+                }
+                _ => own.iter().for_each(|&place| {
+                    let Face { half_edge, runs_forth, .. } = self.faces[place];
+                    rest[usize::from(!runs_forth)].push(half_edge);
+                }),
+            }
+        }
+        let [forth, back] = rest;
+        if pairs.is_empty() || forth.len() != back.len() {
+            return None;
+        }
+        let crowd = crowd(view, &forth, &back, part);
+        pairs.extend(crowd.pairs);
+        Some(Crowd { pairs, ..crowd })
     }
 
     /// Pairs around the solids: going round, faces that run back open one, and those that run forth
@@ -356,7 +405,7 @@ mod tests {
         let half_edges = (0..faces.len()).map(|face| Corner::new(3 * face));
         let looks_left = |corner: &Corner| matches!(faces[corner.index() / 3], Left(_));
         let (forth, back): (Vec<_>, Vec<_>) = half_edges.partition(looks_left);
-        crowd(&view, &forth, &back)
+        crowd(&view, &forth, &back, &mut |corner| corner.0)
     }
 
     /// The pairs, each and all sorted, and what is left over behind what, as places of faces.

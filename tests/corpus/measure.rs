@@ -4,9 +4,11 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 
 use chamfer::check::{Findings, check};
-use chamfer::{Chamfered, EdgeVerdict, Mesh, Options, Reason, Totals, Verify, Width, chamfer};
-use chamfer_cli::document::ReadOptions;
-use chamfer_cli::format;
+use chamfer::{
+    ByReason, Chamfered, EdgeVerdict, Mesh, Options, Reason, Totals, Verify, Width, chamfer,
+};
+use chamfer_formats as formats;
+use chamfer_formats::ReadOptions;
 
 /// The models, beside the project.
 pub const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/corpus");
@@ -65,11 +67,12 @@ pub fn measure(
     verify: Verify,
     mut inspect: impl FnMut(&Mesh, &Chamfered),
 ) -> Result<Vec<Measured>, String> {
-    let options = Options { width: Width::PercentOfExtent(percent), verify, ..Options::default() };
-    let read = ReadOptions { smoothing_angle: 30.0 };
-    let document = format::read(path, &read).map_err(|error| format!("{error:#}"))?;
+    let options =
+        Options::default().with_width(Width::PercentOfExtent(percent)).with_verify(verify);
+    let read = ReadOptions::default();
+    let document = formats::read(path, &read).map_err(|error| format!("{error:#}"))?;
     let file = path.file_name().unwrap_or_default().to_string_lossy();
-    let mut measured = |source: &chamfer_cli::document::SourceMesh| {
+    let mut measured = |source: &chamfer_formats::SourceMesh| {
         let before = source.mesh.as_mesh();
         let start = std::time::Instant::now();
         let after = chamfer(&before, &options).map_err(|error| error.to_string())?;
@@ -96,7 +99,7 @@ pub struct Sum {
     pub hard_edges: u32,
     pub chamfered: u32,
     pub narrowed: u32,
-    pub skipped: [u32; Reason::ALL.len()],
+    pub skipped: ByReason,
     pub unsound: u32,
     pub seconds: f64,
     length: f64,
@@ -115,8 +118,8 @@ impl Sum {
         self.hard_edges += mesh.totals.hard_edges;
         self.chamfered += mesh.totals.chamfered;
         self.narrowed += mesh.totals.narrowed;
-        for (sum, skipped) in self.skipped.iter_mut().zip(mesh.totals.skipped) {
-            *sum += skipped;
+        for (reason, count) in mesh.totals.skipped.iter() {
+            self.skipped[reason] += count;
         }
         self.unsound += u32::from(!mesh.findings.is_sound());
         self.seconds += mesh.seconds;
@@ -130,7 +133,7 @@ impl Sum {
     /// The share of the hard edges that have a chamfer, by count, of those that may have one: along
     /// contacts light would show.
     pub fn chamfered_share(&self) -> f64 {
-        let contacts = self.skipped[Reason::Contact as usize];
+        let contacts = self.skipped[Reason::Contact];
         f64::from(self.chamfered + self.narrowed) / f64::from((self.hard_edges - contacts).max(1))
     }
 
@@ -161,8 +164,7 @@ impl fmt::Display for Sum {
             self.mean_open_width() * 100.0,
             self.seconds,
         )?;
-        for (reason, count) in Reason::ALL.iter().zip(self.skipped).filter(|(_, count)| *count > 0)
-        {
+        for (reason, count) in self.skipped.iter().filter(|(_, count)| *count > 0) {
             write!(f, " {} {count}", reason.name())?;
         }
         Ok(())

@@ -18,7 +18,7 @@ use glam::DVec3;
 
 /// Chamfers by a width in mesh units, and checks the result in full depth.
 fn chamfered(mesh: &MeshBuffers, width: f32) -> Chamfered {
-    chamfered_as(mesh, &Options { width: Width::Units(width), ..Options::default() })
+    chamfered_as(mesh, &Options::default().with_width(Width::Units(width)))
 }
 
 fn chamfered_as(mesh: &MeshBuffers, options: &Options) -> Chamfered {

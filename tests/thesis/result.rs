@@ -70,13 +70,14 @@ fn chamfers_go_to_the_given_submesh() {
 }
 
 fn submesh_counts(mesh: &MeshBuffers, chamfer_submesh: ChamferSubmesh) -> Vec<u32> {
-    let options = Options { width: Width::Units(0.02), chamfer_submesh, ..Options::default() };
+    let options =
+        Options::default().with_width(Width::Units(0.02)).with_chamfer_submesh(chamfer_submesh);
     chamfered_as(mesh, &options).mesh.submesh_index_counts
 }
 
 #[test]
 fn a_submesh_that_is_not_there_is_an_error() {
-    let options = Options { chamfer_submesh: ChamferSubmesh::Given(2), ..Options::default() };
+    let options = Options::default().with_chamfer_submesh(ChamferSubmesh::Given(2));
     let error = chamfer(&shapes::bolt().as_mesh(), &options).unwrap_err();
     assert_eq!(error, Error::SubmeshRange { submesh: 2, submeshes: 2 });
 }

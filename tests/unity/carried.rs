@@ -4,8 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use chamfer::{MeshBuffers, Options, Width, chamfer, shapes};
-use chamfer_cli::document::{Document, ReadOptions};
-use chamfer_cli::gltf_file::GltfDocument;
+use chamfer_formats::gltf_file::GltfDocument;
+use chamfer_formats::{Document, ReadOptions, encode};
 use serde_json::Value;
 
 use crate::glb::{Glb, with_everything};
@@ -81,12 +81,12 @@ struct Model {
 
 impl Model {
     fn new(path: &Path) -> Model {
-        let document = GltfDocument::read(path, &ReadOptions { smoothing_angle: 30.0 }).unwrap();
+        let document = GltfDocument::read(path, &ReadOptions::default()).unwrap();
         let meshes: Vec<_> = document.meshes().iter().map(|mesh| mesh.mesh.clone()).collect();
-        let options = Options { width: Width::PercentOfExtent(PERCENT), ..Options::default() };
+        let options = Options::default().with_width(Width::PercentOfExtent(PERCENT));
         let chamfered: Vec<_> =
             meshes.iter().map(|mesh| chamfer(&mesh.as_mesh(), &options).unwrap()).collect();
-        let files = document.encode(Path::new("after.glb"), &chamfered).unwrap();
+        let files = encode(&document, Path::new("after.glb"), &chamfered).unwrap().files;
         let name = path.file_name().unwrap().to_string_lossy().into_owned();
         let before = Glb::parse(&fs::read(path).unwrap());
         assert_eq!(before.mesh_count(), meshes.len(), "{name}");

@@ -48,7 +48,7 @@ fn c_program(header: &str) -> String {
 }
 
 fn field_name(line: &str) -> Option<&str> {
-    let declaration = line.strip_suffix(';').filter(|_| !line.starts_with("//"))?;
+    let declaration = line.strip_suffix(';').filter(|_| !line.starts_with(['/', '*']))?;
     let name = declaration.split('[').next()?.rsplit([' ', '*']).next()?;
     Some(name)
 }

@@ -4,6 +4,8 @@ mod carried;
 mod glb;
 mod layout;
 mod mono;
+mod packing;
+mod players;
 #[path = "../support/raw_mesh.rs"]
 mod raw_mesh;
 

@@ -10,8 +10,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use chamfer::{MeshBuffers, shapes};
-use chamfer_cli::document::ReadOptions;
-use chamfer_cli::format;
+use chamfer_formats as formats;
+use chamfer_formats::ReadOptions;
 use raw_mesh::Numbers;
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
@@ -33,7 +33,7 @@ fn models() -> Vec<PathBuf> {
 }
 
 fn meshes_of(path: &Path) -> Vec<MeshBuffers> {
-    let Ok(document) = format::read(path, &ReadOptions { smoothing_angle: 30.0 }) else {
+    let Ok(document) = formats::read(path, &ReadOptions::default()) else {
         return Vec::new();
     };
     document.meshes().iter().map(|source| source.mesh.clone()).collect()

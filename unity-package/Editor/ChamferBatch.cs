@@ -8,7 +8,7 @@ namespace ChamferEditor
 {
     /// <summary>
     /// For build machines: <c>Unity -batchmode -quit -projectPath P -executeMethod ChamferEditor.ChamferBatch.Run
-    /// -chamferFolder Assets/Props [-chamferWidth 0.02 | -chamferWidthPercent 1]</c>.
+    /// -chamferFolder Assets/Props [-chamferPreset Assets/Fine.asset] [-chamferWidth 0.02 | -chamferWidthPercent 1]</c>.
     /// </summary>
     public static class ChamferBatch
     {
@@ -49,10 +49,18 @@ namespace ChamferEditor
 
         private static ChamferSettings Settings(string[] arguments)
         {
-            var settings = ChamferProjectSettings.instance.settings;
+            var settings = Preset(Value(arguments, "-chamferPreset"));
             ReadWidth(arguments, "-chamferWidth", WidthUnit.MeshUnits, ref settings);
             ReadWidth(arguments, "-chamferWidthPercent", WidthUnit.PercentOfExtent, ref settings);
             return settings;
+        }
+
+        private static ChamferSettings Preset(string path)
+        {
+            if (path == null) { return ChamferProjectSettings.instance.settings; }
+            var preset = AssetDatabase.LoadAssetAtPath<ChamferPreset>(path);
+            if (preset != null) { return preset.settings; }
+            throw new ArgumentException("-chamferPreset needs the path of a Chamfer Preset, not '" + path + "'");
         }
 
         private static void ReadWidth(string[] arguments, string name, WidthUnit unit, ref ChamferSettings settings)

@@ -7,8 +7,8 @@ using UnityEngine;
 namespace ChamferEditor
 {
     /// <summary>
-    /// Chamfers the meshes of several scenes, each once. No mesh is made or changed before all are through, so that cancelling
-    /// leaves nothing behind.
+    /// Chamfers the meshes of several scenes, each once. No mesh is made or changed before all are through, so that
+    /// cancelling leaves nothing behind.
     /// </summary>
     internal sealed class ChamferJob
     {
@@ -52,12 +52,11 @@ namespace ChamferEditor
         private void RunOne(MeshScene scene, ChamferSettings settings, ChamferProgress progress)
         {
             progress.Begin(scene.Name);
-            if (scene.Objects.All(item => IsKnown(item.Mesh))) { return; }
+            if (scene.Wanted.All(IsKnown)) { return; }
             foreach (var result in SceneRun.Run(scene.Objects, settings, progress, progress.Cancellation, Fail))
             {
-                if (IsKnown(result.Mesh)) { continue; }
-                result.Output.Mesh.Name = result.Mesh.name + JobResult.Suffix;
-                results.Add(result.Mesh, new JobResult(result.Source.Positions, settings, result.Output));
+                if (IsKnown(result.Mesh) || !scene.Wanted.Contains(result.Mesh)) { continue; }
+                results.Add(result.Mesh, new JobResult(result, settings, scene.KeyOf(result.Mesh, settings)));
             }
         }
 

@@ -1,8 +1,10 @@
+using System;
 using System.Collections.Generic;
 using System.Linq;
 using Chamfer;
 using UnityEditor;
 using UnityEngine;
+using Object = UnityEngine.Object;
 
 namespace ChamferEditor
 {
@@ -14,28 +16,27 @@ namespace ChamferEditor
     {
         private const string Action = "Chamfer Selected";
 
-        private sealed class Group
-        {
-            internal string File;
-            internal Transform Root;
-            internal readonly List<MeshSlot> Slots = new List<MeshSlot>();
-        }
-
-        private readonly List<MeshSlot> slots = new List<MeshSlot>();
-        private readonly List<Group> groups = new List<Group>();
+        private readonly List<SlotGroup> groups = new List<SlotGroup>();
         private readonly List<Mesh> assets = new List<Mesh>();
+        private readonly HashSet<Component> holders = new HashSet<Component>();
+        private readonly SortedSet<string> reasons = new SortedSet<string>(StringComparer.Ordinal);
 
         internal ChamferSelection(IEnumerable<Object> selected)
         {
-            var holders = new HashSet<Component>();
             foreach (var item in selected)
             {
                 if (item is Mesh) { assets.Add((Mesh)item); }
-                if (item is GameObject) { AddHierarchy((GameObject)item, holders); }
+                if (item is GameObject) { AddHierarchy((GameObject)item); }
             }
+            // They have what their prefab has.
+            foreach (var group in groups) { group.Slots.RemoveAll(IsFollower); }
+            groups.RemoveAll(group => group.Slots.Count == 0);
         }
 
-        internal bool IsEmpty => slots.Count == 0 && assets.Count == 0;
+        internal bool IsEmpty => groups.Count == 0 && assets.Count == 0;
+
+        /// <summary>Why some of what is selected cannot be chamfered, and what to do.</summary>
+        internal IEnumerable<string> Reasons => reasons;
 
         /// <summary>Chamfers all in one undo step; null if the user cancelled.</summary>
         internal JobSummary Chamfer(ChamferSettings settings)
@@ -44,93 +45,82 @@ namespace ChamferEditor
             return Chamfer(settings, summary) ? summary : null;
         }
 
-        /// <summary>Chamfers all in one undo step, and adds to a summary; false if the user cancelled.</summary>
+        /// <summary>
+        /// Chamfers all in one undo step, and adds to a summary; false if the user cancelled. Whatever goes wrong,
+        /// either all is done or all is as before.
+        /// </summary>
         internal bool Chamfer(ChamferSettings settings, JobSummary summary)
         {
-            var scenes = groups.ConvertAll(one => MeshScene.Of(one.Root, one.Slots));
-            scenes.AddRange(assets.ConvertAll(mesh => MeshScene.Of(mesh)));
+            var plan = new SelectionPlan(groups, assets);
             var job = new ChamferJob();
-            if (!job.Run(scenes, settings)) { return false; }
-            int group = BeginUndo();
-            // What is in a file can be used by all others; what is in a scene, by that scene only.
-            SaveAssets(job);
-            ReplaceSlots(job, slots.Where(slot => SlotEditing.IsInPrefab(slot.Holder)));
-            ReplaceSlots(job, slots.Where(slot => !SlotEditing.IsInPrefab(slot.Holder)));
-            Undo.CollapseUndoOperations(group);
-            AssetDatabase.SaveAssets();
+            if (!job.Run(plan.Scenes, settings)) { return false; }
+            using (var step = new SelectionStep(Action))
+            {
+                if (!Redo(plan, summary)) { return false; }
+                var earlier = new EarlierResults();
+                foreach (var mesh in plan.Assets) { SaveBeside(mesh, earlier.Of(mesh), job, step); }
+                new SlotReplacement(plan, job, step).Run();
+                step.Finish();
+            }
             summary.Add(job);
+            summary.AddAlready(plan.Already);
             return true;
         }
 
-        private void AddHierarchy(GameObject root, HashSet<Component> holders)
+        /// <summary>Modifiers chamfer what is theirs, with their own settings.</summary>
+        private static bool Redo(SelectionPlan plan, JobSummary summary)
         {
-            foreach (var slot in MeshSlot.In(root, true))
+            foreach (var modifier in plan.Outdated)
             {
-                if (SlotEditing.IsLocked(slot.Holder) || !holders.Add(slot.Holder)) { continue; }
-                slots.Add(slot);
-                GroupOf(root).Slots.Add(slot);
+                var run = new ModifierRun(modifier, modifier.Effective);
+                if (!run.TryChamfer()) { return false; }
+                summary.Add(run);
+            }
+            return true;
+        }
+
+        private void AddHierarchy(GameObject root)
+        {
+            foreach (var slot in MeshSlot.In(root, true).Where(slot => !ModifierLods.IsFar(slot.Holder)))
+            {
+                string why = SlotEditing.WhyLocked(slot.Holder);
+                if (why != null) { reasons.Add(why); }
+                else if (holders.Add(slot.Holder)) { GroupOf(root).Add(slot, root); }
             }
         }
 
-        private Group GroupOf(GameObject root)
+        private SlotGroup GroupOf(GameObject root)
         {
             string file = AssetDatabase.GetAssetPath(root);
             var group = groups.Find(other => other.File == file);
-            if (group == null) { groups.Add(group = new Group { File = file, Root = root.transform }); }
+            if (group == null) { groups.Add(group = new SlotGroup(file, root.transform)); }
             return group;
         }
 
-        private static int BeginUndo()
+        /// <summary>Whether a slot has the mesh of a prefab that is processed, too: a variant's, or an instance's.</summary>
+        private bool IsFollower(MeshSlot slot)
         {
-            Undo.IncrementCurrentGroup();
-            Undo.SetCurrentGroupName(Action);
-            return Undo.GetCurrentGroup();
-        }
-
-        private static void ReplaceSlots(ChamferJob job, IEnumerable<MeshSlot> slots)
-        {
-            foreach (var slot in slots)
+            var source = PrefabUtility.GetCorrespondingObjectFromSource(slot.Holder);
+            for (; source != null; source = PrefabUtility.GetCorrespondingObjectFromSource(source))
             {
-                JobResult result;
-                if (!TryFind(job, slot.Mesh, out result)) { continue; }
-                if (result.Mesh == null) { SlotEditing.Write(result, slot.Holder, null, Action); }
-                MaterialSlots.Fill(slot, slot.Mesh, result.Mesh, Action);
-                SlotEditing.Set(slot, result.Mesh, Action);
+                if (MeshSlot.Of(source).Mesh != slot.Mesh) { return false; }
+                if (holders.Contains(source)) { return true; }
             }
+            return false;
         }
 
-        /// <summary>Meshes selected by themselves are not replaced: the new ones are saved beside them.</summary>
-        private void SaveAssets(ChamferJob job)
+        /// <summary>
+        /// Meshes selected by themselves are not replaced: the new ones are saved beside them. The file of an earlier
+        /// time is written anew, so that what uses it follows.
+        /// </summary>
+        private static void SaveBeside(Mesh mesh, Mesh earlier, ChamferJob job, SelectionStep step)
         {
-            foreach (var mesh in assets)
-            {
-                JobResult result;
-                string path = AssetDatabase.GetAssetPath(mesh);
-                bool isNew = TryFind(job, mesh, out result) && result.Mesh == null;
-                if (isNew && path.Length > 0) { SaveBeside(path, result); }
-            }
-        }
-
-        /// <summary>The file of an earlier time is written anew, so that what uses it follows.</summary>
-        private static void SaveBeside(string path, JobResult result)
-        {
-            path = path.Substring(0, path.LastIndexOf('/') + 1) + result.Name + ".asset";
-            var earlier = AssetDatabase.LoadAssetAtPath<Mesh>(path);
-            if (earlier != null)
-            {
-                Undo.RegisterCompleteObjectUndo(earlier, Action);
-                result.Write(earlier);
-                EditorUtility.SetDirty(earlier);
-                return;
-            }
-            result.Write();
-            AssetDatabase.CreateAsset(result.Mesh, AssetDatabase.GenerateUniqueAssetPath(path));
-        }
-
-        /// <summary>Meshes of which no edge can be chamfered, or none more, are left alone.</summary>
-        private static bool TryFind(ChamferJob job, Mesh mesh, out JobResult result)
-        {
-            return job.Results.TryGetValue(mesh, out result) && result.Report.Chamfered + result.Report.Narrowed > 0;
+            JobResult result;
+            string path = AssetDatabase.GetAssetPath(mesh);
+            bool isNew = job.Results.TryGetValue(mesh, out result) && result.HasChanged && result.Mesh == null;
+            if (!isNew || path.Length == 0) { return; }
+            if (earlier == null) { step.Create(result, AssetNames.Free(AssetNames.FolderBeside(mesh), mesh)); }
+            else if (!EarlierResults.IsCurrent(earlier, result)) { step.Rewrite(result, earlier); }
         }
     }
 }

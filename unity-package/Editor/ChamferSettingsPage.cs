@@ -18,14 +18,25 @@ namespace ChamferEditor
         private static void Draw()
         {
             var settings = ChamferProjectSettings.instance;
-            // Unity makes singletons of this kind not editable.
-            settings.hideFlags &= ~HideFlags.NotEditable;
             var serialized = new SerializedObject(settings);
+            EditorGUILayout.PropertyField(serialized.FindProperty("preset"));
             EditorGUILayout.PropertyField(serialized.FindProperty("settings"), true);
-            EditorGUILayout.PropertyField(serialized.FindProperty("folders"), true);
-            if (serialized.ApplyModifiedProperties()) { settings.Write(); }
+            EditorGUILayout.PropertyField(serialized.FindProperty("rules"), true);
+            if (serialized.ApplyModifiedProperties() | FolderDrop.Draw(settings)) { settings.Write(); }
+            if (GUILayout.Button("Try Rules")) { Try(); }
             EditorGUILayout.HelpBox("Models that are imported already follow when you press this.", MessageType.Info);
-            if (GUILayout.Button("Import Models Again")) { ImportDependency.ImportAgain(); }
+            if (GUILayout.Button("Import Models Again"))
+            {
+                ModelImports.All();
+                GUIUtility.ExitGUI();
+            }
+        }
+
+        private static void Try()
+        {
+            var rows = DryRun.Run(ChamferProjectSettings.instance);
+            if (rows != null) { DryRunWindow.Open(rows); }
+            GUIUtility.ExitGUI();
         }
     }
 }

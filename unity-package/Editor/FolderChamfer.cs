@@ -27,20 +27,39 @@ namespace ChamferEditor
         }
 
         /// <summary>
-        /// A model's file cannot be changed, but its import can: a label asks for it. Its meshes are tried here,
-        /// because what an import could not do is only told in the console.
+        /// A model's file cannot be changed, but its import can: a label asks for it. What was imported with that label
+        /// is left alone.
         /// </summary>
         private static bool RunModel(string path, ChamferSettings settings, JobSummary summary)
         {
-            var job = new ChamferJob();
-            if (!job.Run(Scenes(path), settings)) { return false; }
-            summary.Add(job);
-            if (job.Results.Values.All(result => result.Report.HardEdges == 0)) { return true; }
-            var model = AssetDatabase.LoadMainAssetAtPath(path);
-            var others = AssetDatabase.GetLabels(model).Where(label => !ImportRule.IsLabel(label));
-            AssetDatabase.SetLabels(model, others.Concat(new[] { ImportRule.LabelOf(settings) }).ToArray());
-            AssetDatabase.ImportAsset(path, ImportAssetOptions.ForceUpdate);
+            var record = AssetDatabase.LoadAssetAtPath<ChamferRecord>(path);
+            string label = ImportRule.LabelOf(settings);
+            var labels = AssetDatabase.GetLabels(AssetDatabase.GUIDFromAssetPath(path));
+            if (record != null && labels.Where(ImportRule.IsLabel).SequenceEqual(new[] { label }))
+            {
+                summary.AddImported(record, true);
+                return true;
+            }
+            bool isChamfered = record != null;
+            if (!isChamfered)
+            {
+                // What an import could not do is only told in the console, so its meshes are tried here.
+                var job = new ChamferJob();
+                if (!job.Run(Scenes(path), settings)) { return false; }
+                summary.Add(job);
+                if (job.Results.Values.All(result => result.Report.HardEdges == 0)) { return true; }
+            }
+            Import(path, labels.Where(other => !ImportRule.IsLabel(other)).Concat(new[] { label }).ToArray());
+            // What was imported before is chamfered, and could not be tried. Its record is another one now.
+            if (isChamfered) { summary.AddImported(AssetDatabase.LoadAssetAtPath<ChamferRecord>(path), false); }
             return true;
+        }
+
+        private static void Import(string path, string[] labels)
+        {
+            AssetDatabase.SetLabels(AssetDatabase.LoadMainAssetAtPath(path), labels);
+            ImportDependency.RegisterLabels();
+            AssetDatabase.ImportAsset(path, ImportAssetOptions.ForceUpdate);
         }
 
         /// <summary>The model as a whole, and each mesh that stands nowhere in it.</summary>
@@ -57,7 +76,8 @@ namespace ChamferEditor
         private static bool IsSource(string path)
         {
             return path.EndsWith(".asset", StringComparison.Ordinal)
-                && !path.EndsWith(JobResult.Suffix + ".asset", StringComparison.Ordinal);
+                && !path.EndsWith(JobResult.Suffix + ".asset", StringComparison.Ordinal)
+                && AssetDatabase.LoadAssetAtPath<ChamferRecord>(path) == null;
         }
 
         /// <summary>Sorted, so that each run does the same in the same order.</summary>

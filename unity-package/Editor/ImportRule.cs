@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Globalization;
+using System.Linq;
 using Chamfer;
 
 namespace ChamferEditor
@@ -11,22 +12,28 @@ namespace ChamferEditor
         private const string Label = "Chamfer";
 
         /// <summary>
-        /// The settings for a model; false if it is left alone. A label goes before a folder, and a nearer folder
-        /// before one further up.
+        /// The settings for a model; false if it is left alone. A label goes before rules, a nearer folder before one
+        /// further up, and of two rules for a folder the upper one.
         /// </summary>
         /// <exception cref="FormatException">A label begins well but holds no width.</exception>
         internal static bool TryFind(
-            string path,
-            IEnumerable<string> labels,
+            ModelFacts model,
             ChamferSettings common,
-            IEnumerable<FolderRule> folders,
+            IEnumerable<ModelRule> rules,
             out ChamferSettings settings)
         {
-            foreach (string label in labels)
+            foreach (string label in model.Labels)
             {
                 if (TryParse(label, common, out settings)) { return true; }
             }
-            return TryFolder(path, common, folders, out settings);
+            // Sorting keeps the order of equals.
+            var concerned = rules.Where(rule => rule.Concerns(model));
+            var nearest = concerned.OrderByDescending(rule => rule.Folder.Length).Take(1).ToList();
+            settings = common;
+            if (nearest.Count == 0 || nearest[0].exclude) { return false; }
+            // A rule that was just added to the list holds zeros.
+            if (nearest[0].settings.width != 0) { settings = nearest[0].settings; }
+            return true;
         }
 
         /// <summary>Whether a label is about chamfering.</summary>
@@ -40,7 +47,7 @@ namespace ChamferEditor
         internal static string LabelOf(ChamferSettings settings)
         {
             string unit = settings.unit == WidthUnit.PercentOfExtent ? "%" : "";
-            return Label + "=" + settings.width.ToString("R", CultureInfo.InvariantCulture) + unit;
+            return Label + "=" + SettingsText.Number(settings.width) + unit;
         }
 
         /// <summary>Reads <c>Chamfer</c>, <c>Chamfer=0.02</c> (mesh units) or <c>Chamfer=2%</c>.</summary>
@@ -57,26 +64,6 @@ namespace ChamferEditor
                 return true;
             }
             throw new FormatException("The label '" + label + "' holds no width: write Chamfer=0.02 or Chamfer=2%");
-        }
-
-        private static bool TryFolder(
-            string path,
-            ChamferSettings common,
-            IEnumerable<FolderRule> folders,
-            out ChamferSettings settings)
-        {
-            int longest = 0;
-            settings = default(ChamferSettings);
-            foreach (var rule in folders)
-            {
-                string folder = rule.Folder;
-                bool isInside = path.StartsWith(folder + "/", StringComparison.Ordinal);
-                if (folder.Length <= longest || !isInside) { continue; }
-                longest = folder.Length;
-                // A rule that was just added to the list holds zeros.
-                settings = rule.settings.width == 0 ? common : rule.settings;
-            }
-            return longest > 0;
         }
     }
 }

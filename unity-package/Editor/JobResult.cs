@@ -10,37 +10,68 @@ namespace ChamferEditor
         /// <summary>What the names of chamfered meshes end with.</summary>
         internal const string Suffix = " Chamfered";
 
-        private readonly Vector3[] positions;
-        private readonly ChamferSettings settings;
         private readonly ArrayResult output;
 
-        /// <param name="positions">Those of the source.</param>
+        /// <param name="result">What the library made of the source.</param>
         /// <param name="settings">How it was chamfered.</param>
-        /// <param name="output">What the library made of it.</param>
-        internal JobResult(Vector3[] positions, ChamferSettings settings, ArrayResult output)
+        /// <param name="key">Tells the source, the settings and what stood around.</param>
+        internal JobResult(SceneResult result, ChamferSettings settings, string key)
         {
-            this.positions = positions;
-            this.settings = settings;
-            this.output = output;
+            output = result.Output;
+            output.Mesh.Name = result.Mesh.name + Suffix;
+            Source = result.Mesh;
+            Settings = settings;
+            Key = key;
+            Text = ReportText.Of(result.Output.Report);
+            // A preview keeps them only if somebody looks at them.
+            bool hasVerdicts = Report.Verdicts.Count == Report.HardEdges;
+            if (hasVerdicts) { VerdictCache.Remember(key, new MeshVerdicts(result.Source, Report, settings)); }
         }
 
+        /// <summary>What somebody else made of the same source.</summary>
+        internal JobResult(ChamferedMesh shared)
+        {
+            Source = shared.original;
+            Mesh = shared.chamfered;
+            Settings = shared.settings;
+            Key = shared.key;
+            Text = shared.report;
+        }
+
+        /// <summary>Null for what somebody else made.</summary>
         internal ChamferReport Report => output.Report;
 
-        internal string Name => output.Mesh.Name;
+        internal Mesh Source { get; }
+
+        internal ChamferSettings Settings { get; }
+
+        internal string Key { get; }
+
+        /// <summary>The report in words, counted once.</summary>
+        internal string Text { get; }
 
         /// <summary>The mesh, once it is written.</summary>
         internal Mesh Mesh { get; private set; }
 
+        /// <summary>Whether some edge was chamfered: otherwise the source does as well.</summary>
+        internal bool HasChanged => Report.Chamfered + Report.Narrowed > 0;
+
         /// <summary>Makes the mesh, or replaces what another holds.</summary>
         internal void Write(Mesh overwritten = null)
         {
-            if (overwritten == null) { Mesh = MeshWriter.Write(output.Mesh); }
+            if (overwritten == null) { Mesh = MeshWriter.Write(output.Mesh, Source); }
             else
             {
-                MeshWriter.Overwrite(overwritten, output.Mesh);
+                MeshWriter.Overwrite(overwritten, output.Mesh, Source);
                 Mesh = overwritten;
             }
-            VerdictCache.Remember(Mesh, new MeshVerdicts(positions, Report, settings));
+        }
+
+        /// <summary>Replaces what a mesh holds that was made of the same source a moment ago.</summary>
+        internal void Renew(Mesh mesh)
+        {
+            MeshWriter.Renew(mesh, output.Mesh, Source);
+            Mesh = mesh;
         }
     }
 }

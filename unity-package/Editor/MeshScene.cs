@@ -8,16 +8,22 @@ namespace ChamferEditor
     /// <summary>Meshes that stand together, so that none loses what another rests on.</summary>
     internal sealed class MeshScene
     {
+        private string surroundings;
+
         private MeshScene(string name, List<PlacedMesh> objects)
         {
             Name = name;
             Objects = objects;
+            Wanted = new HashSet<Mesh>(objects.ConvertAll(one => one.Mesh));
         }
 
         /// <summary>For the progress bar.</summary>
         internal string Name { get; }
 
         internal IReadOnlyList<PlacedMesh> Objects { get; }
+
+        /// <summary>The meshes to chamfer; the others only stand around.</summary>
+        internal HashSet<Mesh> Wanted { get; private set; }
 
         /// <summary>What stands below a root, or beside it.</summary>
         internal static MeshScene Of(Transform root, IEnumerable<MeshSlot> slots)
@@ -37,6 +43,36 @@ namespace ChamferEditor
         internal static MeshScene Of(Mesh mesh)
         {
             return new MeshScene(mesh.name, new List<PlacedMesh> { new PlacedMesh(mesh, Matrix4x4.identity) });
+        }
+
+        /// <summary>The same scene, of which only some meshes are chamfered.</summary>
+        internal MeshScene Wanting(IEnumerable<Mesh> meshes)
+        {
+            Wanted = new HashSet<Mesh>(meshes);
+            return this;
+        }
+
+        /// <summary>
+        /// Tells a mesh, how it is chamfered and what stands around it: where keys are equal, results are. Unknown
+        /// where a mesh cannot be read.
+        /// </summary>
+        internal string KeyOf(Mesh mesh, ChamferSettings settings)
+        {
+            if (surroundings == null) { surroundings = Surroundings(); }
+            return MeshKeys.Join(MeshKeys.Of(mesh), SettingsText.Of(settings), surroundings);
+        }
+
+        /// <summary>A mesh that stands alone is the same wherever it stands.</summary>
+        private string Surroundings()
+        {
+            if (Objects.Count == 1) { return "alone"; }
+            var parts = new List<string>();
+            foreach (var one in Objects)
+            {
+                parts.Add(MeshKeys.Of(one.Mesh));
+                for (int i = 0; i < 16; i++) { parts.Add(SettingsText.Number(one.Transform[i])); }
+            }
+            return MeshKeys.Join(parts.ToArray());
         }
 
         /// <summary>

@@ -1,49 +1,60 @@
 using System;
 using System.Collections.Generic;
 using Chamfer;
+using Chamfer.Streams;
 using UnityEngine;
 
 namespace ChamferEditor
 {
-    /// <summary>What became of the hard edges of a mesh, and where they are.</summary>
+    /// <summary>What became of the hard edges of a mesh, and where they are: worked out when somebody looks.</summary>
     internal sealed class MeshVerdicts
     {
-        private readonly Vector3[][] segments;
+        private readonly Vector3[] positions;
+        private readonly int[][] ends = new int[ChamferReport.OutcomeSlots][];
+        private readonly Vector3[][] segments = new Vector3[ChamferReport.OutcomeSlots][];
 
-        /// <param name="positions">Those of the source, which need not be readable any more.</param>
+        /// <param name="source">What the edges are of; it need not be readable any more.</param>
         /// <param name="report">About the source's edges.</param>
         /// <param name="settings">What the mesh was made with.</param>
-        internal MeshVerdicts(Vector3[] positions, ChamferReport report, ChamferSettings settings)
+        internal MeshVerdicts(MeshArrays source, ChamferReport report, ChamferSettings settings)
         {
             Report = report;
             Settings = settings;
-            segments = new Vector3[Enum.GetValues(typeof(EdgeOutcome)).Length][];
-            for (int outcome = 0; outcome < segments.Length; outcome++)
-            {
-                segments[outcome] = Lines(positions, report.Verdicts, (EdgeOutcome)outcome);
-            }
+            bool hasBones = source.Skin != null && source.Skin.BonesPerVertex.Length > 0;
+            Skin = hasBones ? source.Skin : null;
+            positions = source.Positions;
         }
 
         internal ChamferReport Report { get; }
 
         internal ChamferSettings Settings { get; }
 
+        /// <summary>The source's bone weights; null if it has none.</summary>
+        internal Skin Skin { get; }
+
         /// <summary>Two points for each edge with that outcome.</summary>
         internal Vector3[] Segments(EdgeOutcome outcome)
         {
-            return segments[(int)outcome];
+            int slot = (int)outcome;
+            return segments[slot] ?? (segments[slot] = Array.ConvertAll(Ends(outcome), vertex => positions[vertex]));
         }
 
-        private static Vector3[] Lines(Vector3[] positions, IReadOnlyList<EdgeVerdict> verdicts, EdgeOutcome outcome)
+        /// <summary>As <see cref="Segments"/>, as vertices of the source.</summary>
+        internal int[] Ends(EdgeOutcome outcome)
         {
-            var ends = new List<Vector3>();
+            return ends[(int)outcome] ?? (ends[(int)outcome] = EndsOf(Report.Verdicts, outcome));
+        }
+
+        private static int[] EndsOf(IReadOnlyList<EdgeVerdict> verdicts, EdgeOutcome outcome)
+        {
+            var vertices = new List<int>();
             foreach (var verdict in verdicts)
             {
                 if (verdict.Outcome != outcome) { continue; }
-                ends.Add(positions[verdict.FirstVertex]);
-                ends.Add(positions[verdict.SecondVertex]);
+                vertices.Add(verdict.FirstVertex);
+                vertices.Add(verdict.SecondVertex);
             }
-            return ends.ToArray();
+            return vertices.ToArray();
         }
     }
 }

@@ -1,6 +1,5 @@
 using System;
 using System.Collections.Generic;
-using System.IO;
 using System.Linq;
 using Chamfer;
 using UnityEditor;
@@ -11,49 +10,38 @@ namespace ChamferEditor
     /// <summary>What the buttons of the modifier's inspector do.</summary>
     internal static class ModifierActions
     {
-        private const string ChamferName = "Chamfer";
         private const string RevertName = "Revert Chamfer";
-
-        /// <summary>Milliseconds that a preview may take before it shows progress.</summary>
-        private const double Patience = 500;
 
         /// <summary>Chamfers the originals with the modifier's settings; returns what went wrong.</summary>
         internal static IReadOnlyList<string> Chamfer(ChamferModifier modifier)
         {
-            return Chamfer(modifier, modifier.settings);
+            string why = SlotEditing.WhyLocked(modifier);
+            if (why != null) { return new[] { why }; }
+            var run = new ModifierRun(modifier, modifier.Effective);
+            run.TryChamfer();
+            return run.Failures;
         }
 
-        /// <summary>As <see cref="Chamfer(ChamferModifier)"/>, but in time for a slider that is dragged.</summary>
+        /// <summary>As <see cref="Chamfer"/>, but in time for a slider that is dragged.</summary>
         internal static IReadOnlyList<string> Preview(ChamferModifier modifier)
         {
-            var settings = modifier.settings;
-            if (settings.verify == VerifyMode.Seen) { settings.verify = VerifyMode.Full; }
-            return Chamfer(modifier, settings);
-        }
-
-        private static IReadOnlyList<string> Chamfer(ChamferModifier modifier, ChamferSettings settings)
-        {
-            var slots = MeshSlot.In(modifier.gameObject, modifier.includeChildren);
-            slots.RemoveAll(slot => SlotEditing.IsLocked(slot.Holder));
-            var originals = slots.ConvertAll(slot => Original(modifier, slot));
-            var job = new ChamferJob(Patience);
-            var scene = MeshScene.Of(modifier.transform, slots, slot => Original(modifier, slot));
-            if (!job.Run(new[] { scene }, settings)) { return new string[0]; }
-            // Results of the last time are no originals of the next, also where children are left out now.
-            var former = modifier.meshes.ToArray();
-            Restore(modifier, ChamferName);
-            Apply(modifier, settings, slots, originals, job, former);
-            DropUnused(modifier, former);
-            return job.Failures;
+            string why = SlotEditing.WhyLocked(modifier);
+            if (why != null) { return new[] { why }; }
+            var run = new PreviewRun(modifier);
+            run.Work();
+            run.Finish();
+            return run.Failures;
         }
 
         /// <summary>Puts the original meshes back.</summary>
         internal static void Revert(ChamferModifier modifier)
         {
+            if (SlotEditing.IsLocked(modifier)) { return; }
             var former = modifier.meshes.ToArray();
+            ModifierLods.Drop(modifier);
             Restore(modifier, RevertName);
             SlotEditing.Changed(modifier);
-            DropUnused(modifier, former);
+            DropUnused(former);
         }
 
         /// <summary>Saves the chamfered meshes as files in a folder of the project; returns their paths.</summary>
@@ -63,11 +51,14 @@ namespace ChamferEditor
             foreach (var entry in modifier.meshes)
             {
                 if (entry.chamfered == null || AssetDatabase.Contains(entry.chamfered)) { continue; }
-                string path = AssetDatabase.GenerateUniqueAssetPath(folder + "/" + FileName(entry.chamfered) + ".asset");
+                string path = AssetNames.Free(folder, entry.original != null ? entry.original : entry.chamfered);
                 AssetDatabase.CreateAsset(entry.chamfered, path);
+                // Undo would destroy the mesh, but not the file.
+                Undo.ClearUndo(entry.chamfered);
+                ChamferRecords.Write(entry.chamfered, ChamferRecord.Make(entry.original, entry.settings));
+                AssetDatabase.SaveAssetIfDirty(entry.chamfered);
                 paths.Add(path);
             }
-            AssetDatabase.SaveAssets();
             return paths;
         }
 
@@ -78,76 +69,64 @@ namespace ChamferEditor
             return isInside ? "Assets" + folder.Substring(assets.Length) : null;
         }
 
-        /// <summary>The mesh that a slot held before this modifier.</summary>
-        private static Mesh Original(ChamferModifier modifier, MeshSlot slot)
-        {
-            var current = slot.Mesh;
-            int known = modifier.meshes.FindIndex(entry => entry.holder == slot.Holder);
-            bool isOurs = known >= 0 && modifier.meshes[known].chamfered == current;
-            return isOurs && modifier.meshes[known].original != null ? modifier.meshes[known].original : current;
-        }
-
-        private static void Restore(ChamferModifier modifier, string action)
+        /// <summary>Puts a result into a slot, and remembers what it replaced.</summary>
+        internal static void Put(ChamferModifier modifier, MeshSlot slot, JobResult result, Matrix4x4 placed, string action)
         {
             Undo.RecordObject(modifier, action);
-            foreach (var entry in modifier.meshes)
+            SlotEditing.Set(slot, result.Mesh, action);
+            modifier.meshes.Add(new ChamferedMesh
             {
-                if (entry.holder == null || entry.original == null) { continue; }
-                var slot = MeshSlot.Of(entry.holder);
-                // A mesh that someone else has put there since is theirs.
-                if (slot.Mesh != entry.chamfered) { continue; }
-                SlotEditing.Set(slot, entry.original, action);
-                MaterialSlots.Drop(slot, entry.addedMaterials, action);
-            }
-            modifier.meshes.Clear();
-        }
-
-        private static void Apply(
-            ChamferModifier modifier,
-            ChamferSettings settings,
-            List<MeshSlot> slots,
-            List<Mesh> originals,
-            ChamferJob job,
-            ChamferedMesh[] former)
-        {
-            for (int i = 0; i < slots.Count; i++)
-            {
-                JobResult result;
-                if (!job.Results.TryGetValue(originals[i], out result)) { continue; }
-                if (result.Mesh == null) { Write(result, slots[i], originals[i], former); }
-                SlotEditing.Set(slots[i], result.Mesh, ChamferName);
-                modifier.meshes.Add(new ChamferedMesh
-                {
-                    holder = slots[i].Holder,
-                    original = originals[i],
-                    chamfered = result.Mesh,
-                    settings = settings,
-                    placed = MeshScene.Place(modifier.transform, slots[i].Holder),
-                    addedMaterials = MaterialSlots.Fill(slots[i], originals[i], result.Mesh, ChamferName)
-                });
-            }
+                holder = slot.Holder,
+                original = result.Source,
+                chamfered = result.Mesh,
+                settings = result.Settings,
+                key = result.Key,
+                sourceKey = MeshKeys.Of(result.Source),
+                report = result.Text,
+                placed = placed,
+                addedMaterials = MaterialSlots.Fill(slot, result.Source, result.Mesh, action)
+            });
             SlotEditing.Changed(modifier);
         }
 
-        private static void Write(JobResult result, MeshSlot slot, Mesh original, ChamferedMesh[] former)
+        /// <summary>Puts back what the entries of a modifier replaced, and forgets them.</summary>
+        internal static void Restore(ChamferModifier modifier, string action)
         {
-            var ours = former.FirstOrDefault(entry => entry.original == original).chamfered;
-            SlotEditing.Write(result, slot.Holder, ours, ChamferName);
+            Undo.RecordObject(modifier, action);
+            foreach (var entry in modifier.meshes) { Restore(entry, action); }
+            modifier.meshes.Clear();
         }
 
-        private static void DropUnused(ChamferModifier modifier, ChamferedMesh[] former)
+        /// <summary>Puts back what a modifier replaced in one object, because another modifier has that now.</summary>
+        internal static void Restore(ChamferModifier modifier, Component holder, string action)
         {
-            var used = new HashSet<Mesh>(modifier.meshes.ConvertAll(entry => entry.chamfered));
-            foreach (var entry in former)
+            Undo.RecordObject(modifier, action);
+            int number = modifier.meshes.FindIndex(entry => entry.holder == holder);
+            Restore(modifier.meshes[number], action);
+            modifier.meshes.RemoveAt(number);
+            SlotEditing.Changed(modifier);
+        }
+
+        /// <summary>Takes away the meshes of former entries that nobody uses any more.</summary>
+        internal static void DropUnused(IEnumerable<ChamferedMesh> former)
+        {
+            var known = former.Where(entry => entry.chamfered != null && entry.holder != null);
+            foreach (var same in known.GroupBy(entry => entry.chamfered))
             {
-                if (entry.chamfered == null || entry.holder == null || !used.Add(entry.chamfered)) { continue; }
-                SlotEditing.DropFromPrefab(entry.chamfered, entry.holder);
+                var holders = new HashSet<Component>(same.Select(entry => entry.holder));
+                bool isHeld = holders.Any(holder => MeshSlot.Of(holder).Mesh == same.Key);
+                if (!isHeld && !MeshUsers.HasOthers(same.Key, holders)) { SlotEditing.Drop(same.Key, holders.First()); }
             }
         }
 
-        private static string FileName(Mesh mesh)
+        private static void Restore(ChamferedMesh entry, string action)
         {
-            return string.Join("_", mesh.name.Split(Path.GetInvalidFileNameChars()));
+            if (entry.holder == null || entry.original == null) { return; }
+            var slot = MeshSlot.Of(entry.holder);
+            // A mesh that someone else has put there since is theirs.
+            if (slot.Mesh != entry.chamfered) { return; }
+            SlotEditing.Set(slot, entry.original, action);
+            MaterialSlots.Drop(slot, entry.addedMaterials, action);
         }
     }
 }

@@ -1,3 +1,4 @@
+using System;
 using System.Linq;
 using System.Text;
 using Chamfer;
@@ -7,37 +8,35 @@ namespace ChamferEditor
     /// <summary>What the inspector says about the meshes of a modifier.</summary>
     internal static class ReportText
     {
+        internal const string OutOfDate = "Out of date: a source mesh or the preset has changed since. Press Chamfer, or "
+            + "choose Tools > Chamfer All Again in Open Scenes";
+
+        internal const string EdgesUnknown = "The edges are not known any more: press Chamfer to see them";
+
+        /// <summary>Of all meshes of a modifier, as it was written when they were chamfered.</summary>
         internal static string Of(ChamferModifier modifier)
         {
-            var text = new StringBuilder();
-            foreach (var entry in modifier.meshes)
-            {
-                if (entry.original == null) { continue; }
-                if (text.Length > 0) { text.Append('\n'); }
-                text.Append(entry.original.name).Append(": ");
-                var verdicts = VerdictCache.Of(modifier, entry);
-                if (verdicts == null) { text.Append("chamfered earlier"); }
-                else { Append(text, verdicts.Report); }
-            }
-            if (modifier.meshes.Any(entry => entry.settings.verify != modifier.settings.verify))
-            {
-                text.Append("\nThis is a preview that nobody has looked through: press Chamfer");
-            }
-            return text.ToString();
+            var known = modifier.meshes.Where(entry => entry.original != null);
+            string text = string.Join("\n", known.Select(entry => entry.original.name + ": " + entry.report));
+            bool isPreview = modifier.meshes.Any(entry => entry.settings.verify != modifier.Effective.verify);
+            return isPreview ? text + "\nThis is a preview that nobody has looked through: press Chamfer" : text;
         }
 
-        private static void Append(StringBuilder text, ChamferReport report)
+        /// <summary>Of one mesh.</summary>
+        internal static string Of(ChamferReport report)
         {
+            var text = new StringBuilder();
             text.Append(report.VerticesBefore).Append(" -> ").Append(report.VerticesAfter).Append(" vertices, ");
             text.Append(report.TrianglesBefore).Append(" -> ").Append(report.TrianglesAfter).Append(" triangles; ");
             text.Append(report.HardEdges).Append(" hard edges, ").Append(report.Chamfered).Append(" at full width");
             AppendReasons(text, report, EdgeOutcome.Narrowed, "narrowed");
             AppendReasons(text, report, EdgeOutcome.Skipped, "skipped");
+            return text.ToString();
         }
 
         private static void AppendReasons(StringBuilder text, ChamferReport report, EdgeOutcome outcome, string name)
         {
-            for (var reason = EdgeReason.None; reason <= EdgeReason.Contact; reason++)
+            foreach (EdgeReason reason in Enum.GetValues(typeof(EdgeReason)))
             {
                 int count = report.Count(outcome, reason);
                 if (count == 0) { continue; }

@@ -20,7 +20,7 @@ namespace ChamferEditor
     /// </summary>
     internal static class SceneRun
     {
-        /// <param name="failed">Told what could not be chamfered and why.</param>
+        /// <summary>Reads and chamfers a scene, on the main thread.</summary>
         internal static List<SceneResult> Run(
             IEnumerable<PlacedMesh> objects,
             ChamferSettings settings,
@@ -28,7 +28,22 @@ namespace ChamferEditor
             CancellationToken cancellation,
             Action<string, Mesh> failed)
         {
-            var scene = Read(objects, failed);
+            return Run(Read(objects, MeshReader.Read, failed), settings, progress, cancellation, failed);
+        }
+
+        /// <summary>Chamfers a scene that was read, on any thread.</summary>
+        /// <param name="scene">Loses what could not be chamfered.</param>
+        /// <param name="settings">How.</param>
+        /// <param name="progress">Told the share done.</param>
+        /// <param name="cancellation">Asked whenever progress is told.</param>
+        /// <param name="failed">Told what could not be chamfered and why.</param>
+        internal static List<SceneResult> Run(
+            SceneArrays scene,
+            ChamferSettings settings,
+            IProgress<float> progress,
+            CancellationToken cancellation,
+            Action<string, Mesh> failed)
+        {
             while (scene.Meshes.Count > 0)
             {
                 try { return Results(scene, settings, progress, cancellation); }
@@ -43,9 +58,13 @@ namespace ChamferEditor
             return new List<SceneResult>();
         }
 
-        private static SceneArrays Read(IEnumerable<PlacedMesh> objects, Action<string, Mesh> failed)
+        /// <summary>Reads what can be read, on the main thread.</summary>
+        internal static SceneArrays Read(
+            IEnumerable<PlacedMesh> objects,
+            Func<Mesh, MeshArrays> read,
+            Action<string, Mesh> failed)
         {
-            var scene = new SceneArrays(new PlacedMesh[0]);
+            var scene = new SceneArrays(new PlacedMesh[0], read);
             var unread = new HashSet<Mesh>();
             foreach (var item in objects)
             {

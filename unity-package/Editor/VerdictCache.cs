@@ -1,51 +1,36 @@
 using System.Collections.Generic;
-using System.Linq;
-using System.Threading;
 using Chamfer;
-using UnityEngine;
 
 namespace ChamferEditor
 {
     /// <summary>
-    /// What became of the edges of chamfered meshes. It is kept beside the modifier, where undo does not lose it,
-    /// and worked out anew after scripts were loaded again.
+    /// What became of the edges of the meshes that were chamfered last, by what they were made of: undo brings back
+    /// keys, and so their edges. After scripts were loaded again it is empty, and nothing is chamfered to fill it.
     /// </summary>
     internal static class VerdictCache
     {
-        private static readonly Dictionary<Mesh, MeshVerdicts> known = new Dictionary<Mesh, MeshVerdicts>();
+        /// <summary>They have a line for each hard edge, so only some are kept.</summary>
+        private const int Most = 16;
 
-        internal static void Remember(Mesh chamfered, MeshVerdicts verdicts)
+        private static readonly Dictionary<string, MeshVerdicts> known = new Dictionary<string, MeshVerdicts>();
+        private static readonly List<string> order = new List<string>();
+
+        internal static void Remember(string key, MeshVerdicts verdicts)
         {
-            foreach (var gone in known.Keys.Where(mesh => mesh == null).ToList()) { known.Remove(gone); }
-            known[chamfered] = verdicts;
+            if (key == MeshKeys.Unknown) { return; }
+            order.Remove(key);
+            order.Add(key);
+            known[key] = verdicts;
+            if (order.Count <= Most) { return; }
+            known.Remove(order[0]);
+            order.RemoveAt(0);
         }
 
-        /// <summary>Null where the mesh is gone or cannot be chamfered any more.</summary>
-        internal static MeshVerdicts Of(ChamferModifier modifier, ChamferedMesh entry)
+        /// <summary>Null where they are not known any more: chamfer again to see them.</summary>
+        internal static MeshVerdicts Of(ChamferedMesh entry)
         {
-            if (entry.original == null || entry.chamfered == null) { return null; }
             MeshVerdicts verdicts;
-            // Undo may have given the mesh back what it held before.
-            bool isKnown = known.TryGetValue(entry.chamfered, out verdicts)
-                && (verdicts == null || verdicts.Settings.Equals(entry.settings));
-            if (!isKnown) { ChamferAgain(modifier, entry.settings); }
-            return known.TryGetValue(entry.chamfered, out verdicts) ? verdicts : null;
-        }
-
-        /// <summary>All meshes of a modifier, as they stood when they were chamfered.</summary>
-        private static void ChamferAgain(ChamferModifier modifier, ChamferSettings settings)
-        {
-            var entries = modifier.meshes.FindAll(entry => entry.original != null && entry.chamfered != null);
-            var objects = entries.ConvertAll(entry => new PlacedMesh(entry.original, entry.placed));
-            foreach (var entry in entries) { known[entry.chamfered] = null; }
-            foreach (var result in SceneRun.Run(objects, settings, null, CancellationToken.None, (why, mesh) => { }))
-            {
-                var verdicts = new MeshVerdicts(result.Source.Positions, result.Output.Report, settings);
-                foreach (var entry in entries.FindAll(entry => entry.original == result.Mesh))
-                {
-                    known[entry.chamfered] = verdicts;
-                }
-            }
+            return known.TryGetValue(entry.key ?? MeshKeys.Unknown, out verdicts) ? verdicts : null;
         }
     }
 }

@@ -1,27 +1,53 @@
 using Chamfer;
 using UnityEditor;
 using UnityEngine;
+using UnityEngine.Rendering;
 
 namespace ChamferEditor
 {
-    /// <summary>Hard edges in the scene view, in the colour of what became of them.</summary>
+    /// <summary>Hard edges in the scene view, in the colour of what became of them; faint where something is before.</summary>
     internal static class VerdictOverlay
     {
+        /// <summary>Enough to find an edge on the far side, without taking it for one on this side.</summary>
+        private const float Faint = 0.15f;
+
         private static readonly EdgeOutcome[] outcomes = { EdgeOutcome.Full, EdgeOutcome.Narrowed, EdgeOutcome.Skipped };
 
         internal static void Draw(ChamferModifier modifier)
         {
-            foreach (var entry in modifier.meshes)
+            var before = Handles.zTest;
+            try
             {
-                var verdicts = VerdictCache.Of(modifier, entry);
-                if (verdicts == null || entry.holder == null) { continue; }
-                foreach (var outcome in outcomes)
-                {
-                    using (new Handles.DrawingScope(ColorOf(outcome), entry.holder.transform.localToWorldMatrix))
-                    {
-                        Handles.DrawLines(verdicts.Segments(outcome));
-                    }
-                }
+                foreach (var entry in modifier.meshes) { Draw(entry); }
+            }
+            finally { Handles.zTest = before; }
+        }
+
+        private static void Draw(ChamferedMesh entry)
+        {
+            var verdicts = VerdictCache.Of(entry);
+            if (verdicts == null || entry.holder == null) { return; }
+            foreach (var outcome in outcomes)
+            {
+                var posed = PosedEdges.Of(verdicts, outcome, entry.holder);
+                var place = posed != null ? Matrix4x4.identity : entry.holder.transform.localToWorldMatrix;
+                Draw(posed ?? verdicts.Segments(outcome), place, ColorOf(outcome));
+            }
+        }
+
+        private static void Draw(Vector3[] lines, Matrix4x4 place, Color color)
+        {
+            Draw(lines, place, color, CompareFunction.LessEqual);
+            color.a = Faint;
+            Draw(lines, place, color, CompareFunction.Greater);
+        }
+
+        private static void Draw(Vector3[] lines, Matrix4x4 place, Color color, CompareFunction test)
+        {
+            using (new Handles.DrawingScope(color, place))
+            {
+                Handles.zTest = test;
+                Handles.DrawLines(lines);
             }
         }
 

@@ -17,6 +17,16 @@ namespace Chamfer
         internal LibraryMissingException(string platform, Exception inner)
             : base("There is no native chamfer library for " + platform + ": build it from the sources for that "
                 + "platform and put it into the package's folder Runtime/Plugins", inner) { }
+
+        private LibraryMissingException(string message) : base(message) { }
+
+        /// <summary>For platforms on which the package does not even look for the library.</summary>
+        internal static LibraryMissingException OnThisPlatform()
+        {
+            return new LibraryMissingException("The package has no native chamfer library for this platform: chamfer "
+                + "meshes in the editor or when they are imported; or build the library from its sources, add it to the "
+                + "project as a plugin, and define the scripting symbol CHAMFER_LIBRARY for the platform");
+        }
     }
 
     /// <summary>The native library and the package are of different versions.</summary>

@@ -17,6 +17,9 @@ namespace Chamfer
         /// <summary>How many triangles the result has.</summary>
         public int TrianglesAfter { get; internal set; }
 
+        /// <summary>How many faces of four corners there are, which stay as they are.</summary>
+        public int Quads { get; internal set; }
+
         /// <summary>Hard edges with two sides.</summary>
         public int HardEdges { get; internal set; }
 
@@ -41,15 +44,14 @@ namespace Chamfer
         /// <summary>What became of each hard edge.</summary>
         public IReadOnlyList<EdgeVerdict> Verdicts { get; internal set; }
 
+        internal const int OutcomeSlots = 3;
+
+        internal int[] Counts { get; set; }
+
         /// <summary>How many edges have this outcome for this reason.</summary>
         public int Count(EdgeOutcome outcome, EdgeReason reason)
         {
-            int count = 0;
-            foreach (var verdict in Verdicts)
-            {
-                if (verdict.Outcome == outcome && verdict.Reason == reason) { count++; }
-            }
-            return count;
+            return Counts[(int)outcome * (Counts.Length / OutcomeSlots) + (int)reason];
         }
 
         /// <summary>The counts in one line.</summary>

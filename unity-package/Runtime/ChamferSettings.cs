@@ -41,7 +41,7 @@ namespace Chamfer
     [Serializable]
     public struct ChamferSettings
     {
-        [Tooltip("The distance between an old edge and the pulled one.")]
+        [Tooltip("The distance between an old edge and the pulled one."), Min(0)]
         public float width;
 
         [Tooltip("What the width is measured in.")]
@@ -53,8 +53,11 @@ namespace Chamfer
         [Tooltip("Which submesh, and so which material, the chamfers have.")]
         public ChamferSubmesh submeshMode;
 
-        [Tooltip("With Given: the submesh that chamfers go to.")]
+        [Tooltip("With Given: the submesh that chamfers go to."), Min(0)]
         public int submesh;
+
+        [Tooltip("How much of the breadth of each face stays between its chamfers, as a share; 0 for the usual fifth.")]
+        [Range(0, 1)] public float leastBreadth;
 
         /// <summary>One percent of the extent, fully verified, in the submesh of the face beside it.</summary>
         public static ChamferSettings Default => new ChamferSettings

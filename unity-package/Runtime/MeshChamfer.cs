@@ -23,7 +23,7 @@ namespace Chamfer
             IProgress<float> progress = null,
             CancellationToken cancellation = default(CancellationToken))
         {
-            return Finish(ArrayChamfer.Run(MeshReader.Read(source), settings, progress, cancellation));
+            return Finish(ArrayChamfer.Run(MeshReader.Read(source), settings, progress, cancellation), source);
         }
 
         /// <summary>
@@ -38,7 +38,7 @@ namespace Chamfer
         {
             var arrays = MeshReader.Read(source);
             // Unity's synchronization context brings the rest back to the main thread.
-            return Finish(await Task.Run(() => ArrayChamfer.Run(arrays, settings, progress, cancellation)));
+            return Finish(await Task.Run(() => ArrayChamfer.Run(arrays, settings, progress, cancellation)), source);
         }
 
         /// <summary>
@@ -75,16 +75,37 @@ namespace Chamfer
                 () => SceneChamfer.Run(scene.Arrays, scene.Placed, settings, progress, cancellation)));
         }
 
+#if UNITY_6000_0_OR_NEWER
+        /// <summary>As <see cref="RunAsync"/>, for code that awaits Unity's own kind of task.</summary>
+        public static Awaitable<ChamferResult> RunAwaitable(
+            Mesh source,
+            ChamferSettings settings,
+            IProgress<float> progress = null,
+            CancellationToken cancellation = default(CancellationToken))
+        {
+            var completion = new AwaitableCompletionSource<ChamferResult>();
+            Complete(completion, RunAsync(source, settings, progress, cancellation));
+            return completion.Awaitable;
+        }
+
+        private static async void Complete(AwaitableCompletionSource<ChamferResult> completion, Task<ChamferResult> task)
+        {
+            try { completion.SetResult(await task); }
+            catch (OperationCanceledException) { completion.SetCanceled(); }
+            catch (Exception exception) { completion.SetException(exception); }
+        }
+
+#endif
         private static Dictionary<Mesh, ChamferResult> Finish(SceneArrays scene, ArrayResult[] results)
         {
             var finished = new Dictionary<Mesh, ChamferResult>();
-            for (int i = 0; i < results.Length; i++) { finished.Add(scene.Meshes[i], Finish(results[i])); }
+            for (int i = 0; i < results.Length; i++) { finished.Add(scene.Meshes[i], Finish(results[i], scene.Meshes[i])); }
             return finished;
         }
 
-        private static ChamferResult Finish(ArrayResult result)
+        private static ChamferResult Finish(ArrayResult result, Mesh source)
         {
-            return new ChamferResult(MeshWriter.Write(result.Mesh), result.Report);
+            return new ChamferResult(MeshWriter.Write(result.Mesh, source), result.Report);
         }
     }
 }

@@ -7,8 +7,8 @@ use std::error::Error;
 use std::path::Path;
 
 use chamfer::{Chamfered, MeshBuffers, Options, Width, chamfer, shapes};
-use chamfer_cli::document::IDENTITY;
 use chamfer_cli::preview::{Panel, Placed, Surface, Zoom, before_after};
+use chamfer_formats::IDENTITY;
 use image::{RgbImage, imageops};
 
 use atlas::Atlas;
@@ -52,7 +52,7 @@ fn table_atlas() -> Result<RgbImage, Box<dyn Error>> {
 
 fn chamfered(mesh: &MeshBuffers, percent: f32) -> Result<Chamfered, chamfer::Error> {
     let width = Width::PercentOfExtent(percent);
-    chamfer(&mesh.as_mesh(), &Options { width, ..Options::default() })
+    chamfer(&mesh.as_mesh(), &Options::default().with_width(width))
 }
 
 fn both<'a>(panel: Panel<'a>, before: &'a MeshBuffers, after: &'a Chamfered) -> Panel<'a> {

@@ -5,10 +5,10 @@ use std::path::Path;
 
 use anyhow::Result;
 use chamfer::see_through::{Eyes, Leak, REACH, SceneTriangle, leaks};
+use chamfer_formats::Document;
 use glam::Vec3;
 
 use crate::close_up::close_up;
-use crate::document::Document;
 use crate::pictures::write_png;
 use crate::preview::{Panel, before_after, contact_sheet};
 use crate::scene::{placed, scene_triangles};
@@ -28,7 +28,7 @@ pub fn look([before, after]: [&dyn Document; 2], width: Option<f32>) -> SeeThrou
         None if before == after => SeeThrough::default(),
         None => SeeThrough::not_checked("there are no chamfers to tell the width: give --width"),
         Some(width) => {
-            let found = leaks(&before, &after, width, Eyes::with_threads(0));
+            let found = leaks(&before, &after, width, Eyes::default().with_threads(0));
             SeeThrough { width: Some(width), places: merged(found, width), ..SeeThrough::default() }
         }
     }
@@ -94,12 +94,7 @@ mod tests {
 
     /// Each seen from another side.
     fn leak(places: &[[f32; 3]], depth: f32) -> Leak {
-        Leak {
-            toward_eye: [0.0, depth, 1.0],
-            places: places.to_vec(),
-            depth,
-            is_past_outlines: false,
-        }
+        Leak::new([0.0, depth, 1.0], places.to_vec(), depth)
     }
 
     #[test]

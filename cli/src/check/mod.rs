@@ -11,13 +11,13 @@ use std::process::ExitCode;
 use anyhow::{Result, anyhow, ensure};
 use chamfer::check::{Findings, Rule, compare};
 use chamfer::{Chamfered, EdgeVerdict, MeshBuffers, Options, Outcome, Verify};
+use chamfer_formats as formats;
+use chamfer_formats::paths::identity;
+use chamfer_formats::{Document, NormalsRead, ReadOptions};
 
 use crate::args::{CheckArgs, CheckDepth};
 use crate::batch::{USAGE, name_of, one_line};
 use crate::console::{say, warn};
-use crate::document::{Document, NormalsRead, ReadOptions};
-use crate::format;
-use crate::jobs::identity;
 use crate::process::chamfer_document;
 use crate::scene::largest_length;
 use crate::write;
@@ -52,7 +52,7 @@ fn check(args: &CheckArgs) -> Result<Verdict> {
     let documents = [&*before as &dyn Document, &*after];
     let report = CheckReport::new(
         [&args.before, &args.after],
-        pairs.missing.iter().map(|&mesh| before.meshes()[mesh].name.clone()).collect(),
+        missing(&*before, &pairs),
         pairs.added.iter().map(|&mesh| after.meshes()[mesh].name.clone()).collect(),
         see_through(args, documents, &pairs, &checks),
         checks,
@@ -65,6 +65,13 @@ fn check(args: &CheckArgs) -> Result<Verdict> {
         light::draw(path, &name_of(&args.after), documents, &report.see_through)?;
     }
     Ok(report.verdict)
+}
+
+/// The names of the meshes that are gone. One without triangles is nothing to lose: not every format
+/// can say that it is there.
+fn missing(before: &dyn Document, pairs: &Pairs) -> Vec<String> {
+    let meshes = pairs.missing.iter().map(|&mesh| &before.meshes()[mesh]);
+    meshes.filter(|mesh| !mesh.mesh.indices.is_empty()).map(|mesh| mesh.name.clone()).collect()
 }
 
 fn refuse_to_overwrite(args: &CheckArgs) -> Result<()> {
@@ -91,7 +98,7 @@ fn see_through(
 }
 
 fn read(path: &Path, options: &ReadOptions) -> Result<Box<dyn Document + Send>> {
-    format::read(path, options).map_err(|error| anyhow!("{}: {error:#}", path.display()))
+    formats::read(path, options).map_err(|error| anyhow!("{}: {error:#}", path.display()))
 }
 
 /// A mesh of one of the two files.
@@ -124,7 +131,7 @@ impl Side<'_> {
 fn expected(before: &dyn Document, args: &CheckArgs) -> Result<Vec<Chamfered>> {
     let Some(width) = args.width() else { return Ok(Vec::new()) };
     let verify = if args.no_see_through { args.verify.into() } else { Verify::Seen };
-    let options = Options { width, verify, ..Options::default() };
+    let options = Options::default().with_width(width).with_verify(verify);
     Ok(chamfer_document(before, &options, &|_| ())?.meshes)
 }
 

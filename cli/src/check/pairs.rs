@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::document::SourceMesh;
+use chamfer_formats::SourceMesh;
 
 /// The meshes of two files, by their numbers.
 #[derive(Debug, PartialEq)]

@@ -294,7 +294,7 @@ impl MeshCheck {
             counts: Counts::new(findings),
             matched_by: match findings.matching {
                 Matching::Geometry => "geometry",
-                Matching::Order | Matching::Provenance => "order",
+                _ => "order",
             },
             not_found: findings.lost,
             defects: defects.collect(),
@@ -444,12 +444,11 @@ mod tests {
     use super::*;
 
     fn edge(length: f32, widths: [f32; 2]) -> MeasuredEdge {
-        MeasuredEdge {
-            vertices: [0, 1],
-            length,
-            distances: widths.map(|width| [width; 2]),
-            is_open: widths.map(|width| width > 0.0),
-        }
+        let mut edge = MeasuredEdge::default();
+        edge.length = length;
+        edge.distances = widths.map(|width| [width; 2]);
+        edge.is_open = widths.map(|width| width > 0.0);
+        edge
     }
 
     #[test]

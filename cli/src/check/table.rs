@@ -161,12 +161,7 @@ mod tests {
 
     #[test]
     fn the_worst_places_are_named_and_the_rest_counted() {
-        let leak = |depth| Leak {
-            toward_eye: [0.0, 0.0, 1.0],
-            places: vec![[0.5, 1.0, -2.0]; 3],
-            depth,
-            is_past_outlines: false,
-        };
+        let leak = |depth| Leak::new([0.0, 0.0, 1.0], vec![[0.5, 1.0, -2.0]; 3], depth);
         let found = |count: usize| {
             let places = [f32::INFINITY, 0.6].into_iter().cycle().take(count);
             let places = places.map(|depth| Place::new(leak(depth))).collect();

@@ -7,9 +7,22 @@ using Object = UnityEngine.Object;
 
 namespace UnityEditor
 {
+    public enum ModelImporterMeshCompression { Off, Low, Medium, High }
+
     public static class MeshUtility
     {
         public static Mesh.MeshDataArray AcquireReadOnlyMeshData(Mesh mesh) { return Mesh.Snapshot(mesh); }
+        public static ModelImporterMeshCompression GetMeshCompression(Mesh mesh) { return mesh.compression; }
+        public static void SetMeshCompression(Mesh mesh, ModelImporterMeshCompression value) { mesh.compression = value; }
+    }
+
+    public static class MeshLodUtility
+    {
+        public static void GenerateMeshLods(Mesh mesh, int meshLodLimit = -1)
+        {
+            mesh.lodCount = meshLodLimit + 1;
+            mesh.lodsOf = mesh.version;
+        }
     }
 
     public static class EditorUtility
@@ -18,87 +31,72 @@ namespace UnityEditor
         public static readonly HashSet<Object> dirty = new HashSet<Object>();
         public static Func<float, bool> onProgress = share => false;
         public static bool barShown;
-        public static bool IsPersistent(Object target) { return persistent.Contains(target); }
+        public static bool IsPersistent(Object target) { return persistent.Contains(target) || AssetDatabase.Contains(target); }
         public static void SetDirty(Object target) { dirty.Add(target); }
+
+        /// Of renderers: what draws.
+        public static void CopySerialized(Object from, Object to)
+        {
+            ((Renderer)to).sharedMaterials = ((Renderer)from).sharedMaterials;
+            if (to is SkinnedMeshRenderer) { ((SkinnedMeshRenderer)to).bones = ((SkinnedMeshRenderer)from).bones; }
+        }
+
+        public static int GetDirtyCount(Object target) { return target is Mesh ? ((Mesh)target).version : 0; }
         public static void ClearProgressBar() { barShown = false; }
         /// The folder that the user chooses; none if the dialogue is cancelled.
         public static string chosen = "";
-        public static string SaveFolderPanel(string title, string folder, string name) { return chosen; }
+        public static readonly List<string> dialogs = new List<string>();
+
+        public static string SaveFolderPanel(string title, string folder, string name)
+        {
+            GUILayout.broken = true;
+            return chosen;
+        }
+
+        public static bool DisplayDialog(string title, string message, string ok)
+        {
+            GUILayout.broken = true;
+            dialogs.Add(message);
+            return true;
+        }
 
         public static bool DisplayCancelableProgressBar(string title, string info, float progress)
         {
             barShown = true;
+            GUILayout.broken = true;
             return onProgress(progress);
         }
     }
 
-    public static class PrefabUtility
+    public static class Selection
     {
-        public static readonly HashSet<Object> instances = new HashSet<Object>();
-        public static readonly List<Object> modified = new List<Object>();
-        public static bool IsPartOfPrefabInstance(Object target) { return instances.Contains(target); }
-        public static void RecordPrefabInstancePropertyModifications(Object target) { modified.Add(target); }
+        public static Object[] objects = new Object[0];
+        public static System.Action selectionChanged;
     }
 
-    public struct GUID { public string path; }
-
-    public static class AssetDatabase
+    public static class EditorApplication
     {
-        public static readonly Dictionary<Object, string> paths = new Dictionary<Object, string>();
-        public static readonly Dictionary<string, string[]> labels = new Dictionary<string, string[]>();
-        public static readonly Dictionary<string, Hash128> dependencies = new Dictionary<string, Hash128>();
-        public static readonly List<string> imported = new List<string>();
-        public static bool Contains(Object target) { return paths.ContainsKey(target); }
-        public static string GetAssetPath(Object target) { return Contains(target) ? paths[target] : ""; }
-        public static void AddObjectToAsset(Object target, string path) { paths[target] = path; }
-        public static void CreateAsset(Object target, string path) { paths[target] = path; }
-        public static string GenerateUniqueAssetPath(string path) { return path; }
-        public static void SaveAssets() { }
-        public static bool CanOpenForEdit(Object target) { return !paths[target].StartsWith("Packages/"); }
-        public static bool IsValidFolder(string path) { return path.StartsWith("Assets"); }
-        public static GUID GUIDFromAssetPath(string path) { return new GUID { path = path }; }
-        public static string GUIDToAssetPath(string guid) { return guid; }
-        public static string[] GetLabels(GUID guid) { return labels.ContainsKey(guid.path) ? labels[guid.path] : new string[0]; }
+        public delegate void CallbackFunction();
+        public static int exitCode = -1;
+        public static CallbackFunction delayCall, update;
+        public static Action projectChanged;
+        public static void Exit(int code) { exitCode = code; }
 
-        public static string[] GetLabels(Object target) { return GetLabels(GUIDFromAssetPath(paths[target])); }
-        public static void SetLabels(Object target, string[] values) { labels[paths[target]] = values; }
-        public static void ImportAsset(string path, ImportAssetOptions options) { imported.Add(path); }
-        public static bool IsAssetImportWorkerProcess() { return false; }
-        public static void RegisterCustomDependency(string name, Hash128 hash) { dependencies[name] = hash; }
-        public static void Refresh() { imported.Add("(what depends on changes)"); }
-        public static Object LoadMainAssetAtPath(string path) { return LoadAssetAtPath<GameObject>(path); }
-
-        /// The kinds that are used: t:Model, t:Prefab, t:Mesh.
-        public static string[] FindAssets(string filter, string[] folders)
+        /// What happens when the editor has nothing else to do.
+        public static void Idle()
         {
-            return paths.Where(entry => IsOfKind(entry.Key, entry.Value, filter) && entry.Value.StartsWith(folders[0] + "/"))
-                .Select(entry => entry.Value).ToArray();
-        }
-
-        private static bool IsOfKind(Object asset, string path, string filter)
-        {
-            if (filter == "t:Mesh") { return asset is Mesh; }
-            return asset is GameObject && path.EndsWith(".prefab") == (filter == "t:Prefab");
-        }
-
-        public static Object[] LoadAllAssetsAtPath(string path)
-        {
-            return paths.Where(entry => entry.Value == path).Select(entry => entry.Key).ToArray();
-        }
-
-        public static T LoadAssetAtPath<T>(string path) where T : Object
-        {
-            return LoadAllAssetsAtPath(path).OfType<T>().FirstOrDefault();
+            while (delayCall != null) { var calls = delayCall; delayCall = null; calls(); }
+            if (update != null) { update(); }
         }
     }
 
-    public enum ImportAssetOptions { Default = 0, ForceUpdate = 1 }
+    public static class AssemblyReloadEvents
+    {
+        public delegate void AssemblyReloadCallback();
+        public static event AssemblyReloadCallback beforeAssemblyReload;
+        public static void Reload() { if (beforeAssemblyReload != null) { beforeAssemblyReload(); } }
+    }
 
-    [AttributeUsage(AttributeTargets.Method)]
-    public class InitializeOnLoadMethodAttribute : Attribute { }
-
-    public static class Selection { public static Object[] objects = new Object[0]; }
-    public static class EditorApplication { public static int exitCode = -1; public static void Exit(int code) { exitCode = code; } }
     public class MenuCommand { public Object context; }
 
     [AttributeUsage(AttributeTargets.Method, AllowMultiple = true)]
@@ -110,46 +108,55 @@ namespace UnityEditor
         public MenuItem(string path, bool isValidator, int priority) : this(path, isValidator) { }
     }
 
-    public class AssetPostprocessor
+    [AttributeUsage(AttributeTargets.Method)]
+    public class InitializeOnLoadMethodAttribute : Attribute { }
+}
+
+namespace UnityEditorInternal
+{
+    public static class InternalEditorUtility
     {
-        public string assetPath { get; set; }
-        public AssetImporters.AssetImportContext context { get; set; }
-        public virtual uint GetVersion() { return 0; }
+        /// What is in files that are no assets.
+        public static readonly Dictionary<string, Object[]> files = new Dictionary<string, Object[]>();
+        public static int saves;
+
+        public static Object[] LoadSerializedFileAndForget(string path)
+        {
+            Object[] saved;
+            if (!files.TryGetValue(path, out saved)) { return new Object[0]; }
+            return saved.Select(Copies.Of).ToArray();
+        }
+
+        public static void SaveToSerializedFileAndForget(Object[] objects, string path, bool allowTextSerialization)
+        {
+            saves++;
+            files[path] = objects.Select(Copies.Of).ToArray();
+        }
     }
 
-    [AttributeUsage(AttributeTargets.Class)]
-    public class FilePathAttribute : Attribute
+    internal static class Copies
     {
-        public enum Location { PreferencesFolder, ProjectFolder }
-        public FilePathAttribute(string path, Location location) { }
-    }
-
-    public class ScriptableSingleton<T> : ScriptableObject where T : ScriptableObject, new()
-    {
-        private static T made;
-        public static T instance { get { return made ?? (made = new T()); } }
-        protected void Save(bool asText) { }
+        internal static Object Of(Object original)
+        {
+            var copy = Object.Instantiate(original);
+            copy.hideFlags = HideFlags.None;
+            Duplicates.Redirect(copy, new Dictionary<object, object>());
+            return copy;
+        }
     }
 }
 
-namespace UnityEditor.AssetImporters
+namespace UnityEditor.Build
 {
-    public class AssetImportContext
+    public interface IOrderedCallback { int callbackOrder { get; } }
+
+    public interface IProcessSceneWithReport : IOrderedCallback
     {
-        public readonly List<string> warnings = new List<string>();
-        public readonly List<string> dependencies = new List<string>();
-        public void DependsOnCustomDependency(string dependency) { dependencies.Add(dependency); }
-        public void LogImportWarning(string message, Object target = null) { warnings.Add(message); }
+        void OnProcessScene(UnityEngine.SceneManagement.Scene scene, Reporting.BuildReport report);
     }
 }
 
-namespace UnityEditor.SceneManagement
+namespace UnityEditor.Build.Reporting
 {
-    public class PrefabStage { public string assetPath { get; set; } }
-
-    public static class PrefabStageUtility
-    {
-        public static PrefabStage stage;
-        public static PrefabStage GetPrefabStage(GameObject target) { return stage; }
-    }
+    public class BuildReport : Object { }
 }

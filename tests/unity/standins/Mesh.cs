@@ -1,4 +1,5 @@
-// UnityEngine.Mesh in managed arrays, with Unity's rule that unreadable meshes refuse to be read.
+// UnityEngine.Mesh in managed arrays. As in Unity, a mesh that is not readable logs an error, reads as empty, and stays as
+// it is when it is written.
 using System;
 using System.Collections.Generic;
 using Unity.Collections;
@@ -20,7 +21,14 @@ namespace UnityEngine
         private BoneWeight1[] boneWeightValues = new BoneWeight1[0];
         private readonly List<Frame> frames = new List<Frame>();
 
-        public bool readable = true, canBeMadeReadable = true;
+        public bool readable = true, canBeMadeReadable = true, keepVertices = true, keepIndices = true;
+        public UnityEditor.ModelImporterMeshCompression compression;
+
+        /// Levels of detail, and of which version of the mesh they were made.
+        public int lodCount = 1, lodsOf;
+
+        /// Counts what changed, for EditorUtility.GetDirtyCount.
+        public int version;
 
         public bool isReadable { get { return readable && canBeMadeReadable; } }
         public Bounds bounds { get; set; }
@@ -31,13 +39,19 @@ namespace UnityEngine
 
         public Mesh() { bindposes = new Matrix4x4[0]; }
 
-        private T Read<T>(T value)
+        private bool Allows(string what)
         {
-            if (!readable) { throw new InvalidOperationException("Not allowed to access a mesh without Read/Write"); }
-            return value;
+            if (!isReadable) { Debug.LogError("Not allowed to access " + what + " on mesh '" + name + "'"); }
+            return isReadable;
         }
 
-        private T[] ReadArray<T>(T[] values) { return (T[])Read(values).Clone(); }
+        private bool Writes(string what)
+        {
+            version++;
+            return Allows(what);
+        }
+
+        private T[] ReadArray<T>(T[] values, string what) { return Allows(what) ? (T[])values.Clone() : new T[0]; }
 
         private T[] Checked<T>(T[] values)
         {
@@ -45,30 +59,32 @@ namespace UnityEngine
             return (T[])values.Clone();
         }
 
-        public Vector3[] vertices { get { return ReadArray(positions); } set { positions = (Vector3[])value.Clone(); } }
-        public Vector3[] normals { get { return ReadArray(normalValues); } set { normalValues = Checked(value); } }
-        public Vector4[] tangents { get { return ReadArray(tangentValues); } set { tangentValues = Checked(value); } }
-        public Color[] colors { get { return ReadArray(colorValues); } set { SetColors(value); } }
+        public Vector3[] vertices { get { return ReadArray(positions, "vertices"); } set { if (Writes("vertices")) { positions = (Vector3[])value.Clone(); } } }
+        public Vector3[] normals { get { return ReadArray(normalValues, "normals"); } set { if (Writes("normals")) { normalValues = Checked(value); } } }
+        public Vector4[] tangents { get { return ReadArray(tangentValues, "tangents"); } set { if (Writes("tangents")) { tangentValues = Checked(value); } } }
+        public Color[] colors { get { return ReadArray(colorValues, "colors"); } set { SetColors(value); } }
 
         public void SetColors(Color[] values)
         {
+            if (!Writes("colors")) { return; }
             colorValues = Checked(values);
             colorFormat = VertexAttributeFormat.Float32;
         }
 
         public Color32[] colors32
         {
-            get { return Array.ConvertAll(Read(colorValues), color => (Color32)color); }
+            get { return Array.ConvertAll(ReadArray(colorValues, "colors"), color => (Color32)color); }
             set
             {
+                if (!Writes("colors")) { return; }
                 colorValues = Checked(Array.ConvertAll(value, color => (Color)color));
                 colorFormat = VertexAttributeFormat.UNorm8;
             }
         }
 
-        public void SetUVs(int channel, Vector2[] values) { uvs[channel] = Checked(values); }
-        public void SetUVs(int channel, Vector3[] values) { uvs[channel] = Checked(values); }
-        public void SetUVs(int channel, Vector4[] values) { uvs[channel] = Checked(values); }
+        public void SetUVs(int channel, Vector2[] values) { if (Writes("uvs")) { uvs[channel] = Checked(values); } }
+        public void SetUVs(int channel, Vector3[] values) { if (Writes("uvs")) { uvs[channel] = Checked(values); } }
+        public void SetUVs(int channel, Vector4[] values) { if (Writes("uvs")) { uvs[channel] = Checked(values); } }
         public void GetUVs(int channel, List<Vector2> values) { Fill(channel, values); }
         public void GetUVs(int channel, List<Vector3> values) { Fill(channel, values); }
         public void GetUVs(int channel, List<Vector4> values) { Fill(channel, values); }
@@ -76,11 +92,13 @@ namespace UnityEngine
         private void Fill<T>(int channel, List<T> values)
         {
             values.Clear();
-            if (Read(uvs[channel]) != null) { values.AddRange((T[])uvs[channel]); }
+            if (Allows("uvs") && uvs[channel] != null) { values.AddRange((T[])uvs[channel]); }
         }
 
         public void Clear()
         {
+            if (!Writes("everything")) { return; }
+            lodCount = 1;
             positions = normalValues = new Vector3[0];
             tangentValues = new Vector4[0];
             colorValues = new Color[0];
@@ -90,7 +108,7 @@ namespace UnityEngine
             submeshes = new[] { new Submesh { Indices = new int[0] } };
         }
 
-        public void ClearBlendShapes() { frames.Clear(); }
+        public void ClearBlendShapes() { version++; frames.Clear(); }
 
         public bool HasVertexAttribute(VertexAttribute attribute)
         {
@@ -114,15 +132,17 @@ namespace UnityEngine
 
         public VertexAttributeFormat GetVertexAttributeFormat(VertexAttribute attribute) { return colorFormat; }
 
+        public int[] triangles { get { return GetIndices(0); } }
         public int subMeshCount { get { return submeshes.Length; } set { Array.Resize(ref submeshes, value); } }
         public MeshTopology GetTopology(int submesh) { return submeshes[submesh].Topology; }
-        public int[] GetIndices(int submesh) { return ReadArray(submeshes[submesh].Indices); }
+        public int[] GetIndices(int submesh) { return ReadArray(submeshes[submesh].Indices, "indices"); }
         public int[] GetTriangles(int submesh) { return GetIndices(submesh); }
         public uint GetIndexCount(int submesh) { return (uint)submeshes[submesh].Indices.Length; }
         public void SetTriangles(int[] indices, int submesh) { SetIndices(indices, MeshTopology.Triangles, submesh, true); }
 
         public void SetIndices(int[] indices, MeshTopology topology, int submesh, bool calculateBounds)
         {
+            if (!Writes("indices")) { return; }
             foreach (int index in indices)
             {
                 if (index < 0 || index >= vertexCount) { throw new ArgumentException("index range"); }
@@ -131,11 +151,12 @@ namespace UnityEngine
             submeshes[submesh] = new Submesh { Topology = topology, Indices = (int[])indices.Clone() };
         }
 
-        public NativeArray<byte> GetBonesPerVertex() { return new NativeArray<byte>(Read(bonesPerVertex), Allocator.None); }
-        public NativeArray<BoneWeight1> GetAllBoneWeights() { return new NativeArray<BoneWeight1>(Read(boneWeightValues), Allocator.None); }
+        public NativeArray<byte> GetBonesPerVertex() { return new NativeArray<byte>(ReadArray(bonesPerVertex, "bones"), Allocator.None); }
+        public NativeArray<BoneWeight1> GetAllBoneWeights() { return new NativeArray<BoneWeight1>(ReadArray(boneWeightValues, "bones"), Allocator.None); }
 
         public void SetBoneWeights(NativeArray<byte> counts, NativeArray<BoneWeight1> weights)
         {
+            if (!Writes("bones")) { return; }
             int sum = 0;
             foreach (byte count in counts.ToArray()) { sum += count; }
             if (counts.Length != vertexCount || weights.Length != sum) { throw new ArgumentException("bone weights"); }
@@ -158,6 +179,7 @@ namespace UnityEngine
 
         public void AddBlendShapeFrame(string shape, float weight, Vector3[] positions, Vector3[] normals, Vector3[] tangents)
         {
+            version++;
             frames.Add(new Frame { Shape = shape, Weight = weight, Positions = Checked(positions), Normals = Checked(normals), Tangents = Checked(tangents) });
         }
 
@@ -176,6 +198,7 @@ namespace UnityEngine
 
         public void RecalculateBounds()
         {
+            if (!Writes("bounds")) { return; }
             if (positions.Length == 0) { bounds = new Bounds(); return; }
             Vector3 min = positions[0], max = positions[0];
             foreach (var position in positions) { min = Vector3.Min(min, position); max = Vector3.Max(max, position); }

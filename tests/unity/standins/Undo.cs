@@ -10,23 +10,36 @@ namespace UnityEditor
 {
     public static class Undo
     {
-        private sealed class Step { public int Group; public string Name; public Action Revert; }
+        private sealed class Step { public int Group; public string Name; public Action Revert; public Object Target; }
 
         private static readonly List<Step> steps = new List<Step>();
         private static int group;
         private static string groupName;
 
+        public delegate void UndoRedoCallback();
+        public static UndoRedoCallback undoRedoPerformed;
+
         public static int GetCurrentGroup() { return group; }
         public static void IncrementCurrentGroup() { group++; groupName = null; }
         public static void SetCurrentGroupName(string name) { groupName = name; }
-        public static void RecordObject(Object target, string name) { Add(name, Snapshot(target)); }
-        public static void RegisterCompleteObjectUndo(Object target, string name) { Add(name, Snapshot(target)); }
-        public static void RegisterCreatedObjectUndo(Object target, string name) { Add(name, () => target.destroyed = true); }
+        public static void RecordObject(Object target, string name) { Add(name, target, Snapshot(target)); }
+        public static void RegisterCompleteObjectUndo(Object target, string name) { Add(name, target, Snapshot(target)); }
+        public static void RegisterCreatedObjectUndo(Object target, string name) { Add(name, target, () => target.destroyed = true); }
+
+        public static T AddComponent<T>(UnityEngine.GameObject item) where T : UnityEngine.Component, new()
+        {
+            var component = item.AddComponent<T>();
+            RegisterCreatedObjectUndo(component, "Add Component");
+            return component;
+        }
+
+        /// Forgets all that is known of an object.
+        public static void ClearUndo(Object target) { steps.RemoveAll(step => ReferenceEquals(step.Target, target)); }
 
         public static void DestroyObjectImmediate(Object target)
         {
             target.destroyed = true;
-            Add("Destroy", () => target.destroyed = false);
+            Add("Destroy", target, () => target.destroyed = false);
         }
 
         public static void CollapseUndoOperations(int from)
@@ -45,15 +58,20 @@ namespace UnityEditor
 
         public static void PerformUndo()
         {
-            int last = steps.Last().Group;
-            foreach (var step in steps.Where(step => step.Group == last).Reverse().ToList()) { step.Revert(); }
-            steps.RemoveAll(step => step.Group == last);
+            RevertAllDownToGroup(steps.Last().Group);
             group++;
+            if (undoRedoPerformed != null) { undoRedoPerformed(); }
         }
 
-        private static void Add(string name, Action revert)
+        public static void RevertAllDownToGroup(int from)
         {
-            steps.Add(new Step { Group = group, Name = groupName ?? name, Revert = revert });
+            foreach (var step in steps.Where(step => step.Group >= from).Reverse().ToList()) { step.Revert(); }
+            steps.RemoveAll(step => step.Group >= from);
+        }
+
+        private static void Add(string name, Object target, Action revert)
+        {
+            steps.Add(new Step { Group = group, Name = groupName ?? name, Revert = revert, Target = target });
         }
 
         private static Action Snapshot(Object target)
@@ -62,7 +80,7 @@ namespace UnityEditor
             for (var type = target.GetType(); type != typeof(Object); type = type.BaseType)
             {
                 var declared = BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic | BindingFlags.DeclaredOnly;
-                foreach (var field in type.GetFields(declared)) { fields[field] = Copy(field.GetValue(target)); }
+                foreach (var field in type.GetFields(declared).Where(field => !field.IsNotSerialized)) { fields[field] = Copy(field.GetValue(target)); }
             }
             return () => { foreach (var entry in fields) { entry.Key.SetValue(target, Copy(entry.Value)); } };
         }

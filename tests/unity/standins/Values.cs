@@ -55,6 +55,7 @@ namespace UnityEngine
     public struct Hash128
     {
         public string text;
+        public override string ToString() { return text; }
         public static Hash128 Compute(string text) { return new Hash128 { text = text }; }
     }
 
@@ -88,6 +89,11 @@ namespace UnityEngine
             return product;
         }
 
+        public Vector3 MultiplyPoint3x4(Vector3 p)
+        {
+            return new Vector3(m00 * p.x + m01 * p.y + m02 * p.z + m03, m10 * p.x + m11 * p.y + m12 * p.z + m13, m20 * p.x + m21 * p.y + m22 * p.z + m23);
+        }
+
         public static Matrix4x4 TRS(Vector3 position, Quaternion rotation, Vector3 scale)
         {
             return new Matrix4x4 { m00 = scale.x, m11 = scale.y, m22 = scale.z, m33 = 1, m03 = position.x, m13 = position.y, m23 = position.z };
@@ -105,7 +111,7 @@ namespace UnityEngine
         }
     }
 
-    public struct Rect { }
+    public struct Rect { public bool Contains(Vector2 place) { return true; } }
 
     public struct Bounds
     {
@@ -128,6 +134,7 @@ namespace UnityEngine
 namespace UnityEngine.Rendering
 {
     public enum IndexFormat { UInt16, UInt32 }
+    public enum CompareFunction { Disabled, Never, Less, Equal, LessEqual, Greater, NotEqual, GreaterEqual, Always }
     public enum VertexAttribute { Position, Normal, Tangent, Color, TexCoord0, TexCoord1, TexCoord2, TexCoord3, TexCoord4, TexCoord5, TexCoord6, TexCoord7, BlendWeight, BlendIndices }
     public enum VertexAttributeFormat { Float32, Float16, UNorm8 }
 

@@ -32,7 +32,7 @@ namespace Chamfer.Tests
             for (int time = 0; time < 2; time++)
             {
                 Check.Equal(0, Run("Assets/Meshes"));
-                Check.Equal(2, AssetDatabase.paths.Values.Count(path => path.StartsWith("Assets/Meshes/")));
+                Check.Equal(2, Scene.FilesIn("Assets/Meshes/").Count);
             }
             Check.Equal(12 * 3, mesh.GetTriangles(0).Length);
         }
@@ -44,7 +44,7 @@ namespace Chamfer.Tests
             AssetDatabase.paths[mesh] = "Assets/Earlier/Cube Chamfered.asset";
             Check.Equal(0, Run("Assets/Earlier"));
             Check.Equal(12 * 3, mesh.GetTriangles(0).Length);
-            Check.Equal(1, AssetDatabase.paths.Values.Count(path => path.StartsWith("Assets/Earlier/")));
+            Check.Equal(1, Scene.FilesIn("Assets/Earlier/").Count);
         }
 
         public static void Models_are_labelled_and_imported_again()
@@ -57,6 +57,35 @@ namespace Chamfer.Tests
             Check.Equal(0, Run("Assets/Models"));
             Check.That(AssetDatabase.labels["Assets/Models/model.fbx"].SequenceEqual(new[] { "Prop", "Chamfer=0.1" }), "labels");
             Check.Equal("Assets/Models/model.fbx", AssetDatabase.imported.Last());
+        }
+
+        /// What was imported with a label is chamfered: trying it would chamfer it twice.
+        public static void A_second_run_leaves_models_alone()
+        {
+            Project.postprocessors.AddRange(new[] { typeof(ModelChamfer), typeof(ImportChanges) });
+            try
+            {
+                Project.AddModel("Assets/Again/a.fbx", () => Scene.Holding(Shapes.Cube(), "Model"));
+                EditorApplication.Idle();
+                AssetDatabase.imported.Clear();
+                Check.Equal(0, Run("Assets/Again"));
+                EditorApplication.Idle();
+                Check.Equal("Assets/Again/a.fbx", AssetDatabase.imported.Single());
+                AssetDatabase.imported.Clear();
+                Check.Equal(0, Run("Assets/Again"));
+                Check.Equal(0, AssetDatabase.imported.Count);
+                Check.That(Debug.logged.Last().EndsWith("1 mesh chamfered already left alone"), Debug.logged.Last());
+                Check.Equal(0, Run("Assets/Again", "0.2"));
+                Check.Equal("Assets/Again/a.fbx", AssetDatabase.imported.Single());
+                Check.That(Debug.logged.Last().EndsWith("\nCube: 12 hard edges: 12 chamfered, 0 narrowed, 0 skipped; 12 -> 44 triangles"), Debug.logged.Last());
+            }
+            finally { Project.postprocessors.Clear(); }
+        }
+
+        public static void The_editor_ends_with_the_exit_code()
+        {
+            ChamferBatch.Run();
+            Check.Equal(2, EditorApplication.exitCode);
         }
 
         public static void Failures_have_an_exit_code()

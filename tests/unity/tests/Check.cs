@@ -36,6 +36,8 @@ namespace Chamfer.Tests
         {
             if (arguments.Length > 0 && arguments[0] == "layout") { Layout.Print(); return 0; }
             if (arguments.Length > 0 && arguments[0] == "carry") { Carry.Run(arguments[1], arguments[2], arguments[3]); return 0; }
+            if (arguments.Length > 0 && arguments[0] == "drag") { Drag.Measure(); return 0; }
+            bool stopsAtFirst = arguments.Length > 0 && arguments[0] == "first";
             int failures = 0, passes = 0;
             foreach (var type in Assembly.GetExecutingAssembly().GetTypes())
             {
@@ -47,6 +49,7 @@ namespace Chamfer.Tests
                     {
                         failures++;
                         Console.WriteLine("FAILED " + type.Name + "." + test.Name + ": " + exception.InnerException);
+                        if (stopsAtFirst) { return failures; }
                     }
                 }
             }

@@ -28,15 +28,40 @@ namespace Chamfer.Tests
         private static void Click(ModifierInspector inspector, string button)
         {
             GUILayout.clicked = button;
-            try { inspector.OnInspectorGUI(); }
+            try { Draw(inspector); }
             finally { GUILayout.clicked = null; }
+        }
+
+        /// As Unity does: it ends where the inspector says so, and complains of what is laid out after a dialogue.
+        private static bool Draw(ModifierInspector inspector)
+        {
+            GUILayout.broken = false;
+            GUILayout.depth = 0;
+            try { inspector.OnInspectorGUI(); }
+            catch (ExitGUIException) { return true; }
+            Check.Equal(0, GUILayout.depth);
+            return false;
+        }
+
+        /// What Unity draws after an inspector would be an error.
+        public static void Clicks_end_what_is_drawn()
+        {
+            var inspector = Inspector(Modifier(Shapes.Cube()));
+            Check.That(!Draw(inspector), "nothing was clicked on");
+            foreach (string button in new[] { "Chamfer", "Save as Asset", "Revert" })
+            {
+                GUILayout.clicked = button;
+                try { Check.That(Draw(inspector), button); }
+                finally { GUILayout.clicked = null; }
+            }
         }
 
         private static void ChangeSetting(ModifierInspector inspector)
         {
             SerializedObject.changed = true;
-            try { inspector.OnInspectorGUI(); }
+            try { Draw(inspector); }
             finally { SerializedObject.changed = false; }
+            PreviewQueue.Flush();
         }
 
         public static void Buttons_act_on_all_selected()
@@ -68,7 +93,7 @@ namespace Chamfer.Tests
             var inspector = Inspector(Modifier(bad), Modifier(Shapes.Cube()));
             Click(inspector, "Chamfer");
             EditorGUILayout.boxes.Clear();
-            inspector.OnInspectorGUI();
+            Draw(inspector);
             Check.That(EditorGUILayout.boxes.Any(box => box.Contains("'Bad'")), "the failure of the first");
             Check.That(EditorGUILayout.boxes.Any(box => box.StartsWith("Cube: 24 -> 24 vertices")), "the report of the second");
         }
@@ -76,17 +101,18 @@ namespace Chamfer.Tests
         public static void The_preview_follows_what_is_applied_only()
         {
             var modifier = Modifier(Shapes.Cube());
+            modifier.showEdges = true;
             var inspector = Inspector(modifier);
             ChangeSetting(inspector);
             Check.That(!modifier.IsApplied, "the first click is the user's");
             Click(inspector, "Chamfer");
             modifier.settings.width = 5;
             ChangeSetting(inspector);
-            Check.Near(0.1f, VerdictCache.Of(modifier, modifier.meshes[0]).Report.Width);
+            Check.Near(0.1f, VerdictCache.Of(modifier.meshes[0]).Report.Width);
             modifier.livePreview = false;
             modifier.settings.width = 2;
             ChangeSetting(inspector);
-            Check.Near(0.1f, VerdictCache.Of(modifier, modifier.meshes[0]).Report.Width);
+            Check.Near(0.1f, VerdictCache.Of(modifier.meshes[0]).Report.Width);
         }
 
         public static void Nothing_is_reverted_or_saved_before_it_is_chamfered()
@@ -112,7 +138,7 @@ namespace Chamfer.Tests
             Click(inspector, "Save as Asset");
             EditorUtility.chosen = "";
             EditorGUILayout.boxes.Clear();
-            inspector.OnInspectorGUI();
+            Draw(inspector);
             Check.That(EditorGUILayout.boxes.Any(box => box.Contains("inside the project's Assets")), "told");
         }
 
@@ -123,23 +149,93 @@ namespace Chamfer.Tests
             Click(inspector, "Chamfer");
             var draw = typeof(ModifierInspector).GetMethod("OnSceneGUI", BindingFlags.Instance | BindingFlags.NonPublic);
             Handles.drawn.Clear();
+            Handles.tested.Clear();
             draw.Invoke(inspector, null);
             Check.Equal(0, Handles.drawn.Count);
             modifier.showEdges = true;
             draw.Invoke(inspector, null);
             Check.Equal(24, Handles.drawn[Color.green]);
+            Check.Equal(UnityEngine.Rendering.CompareFunction.LessEqual, Handles.tested[Color.green]);
+            Check.That(Handles.tested.All(one => one.Key.a == 1 || one.Value == UnityEngine.Rendering.CompareFunction.Greater), "faint behind");
+            Check.Equal(6, Handles.tested.Count);
+            Check.Equal(UnityEngine.Rendering.CompareFunction.Always, Handles.zTest);
+        }
+
+        /// Bone 0 holds what is below, bone 1 what is above.
+        public static void Edges_follow_the_bones()
+        {
+            var item = new GameObject("Skinned");
+            var renderer = item.AddComponent<SkinnedMeshRenderer>();
+            renderer.sharedMesh = Shapes.FullCube();
+            var bones = new[] { new GameObject("Lower"), new GameObject("Upper") };
+            bones[1].transform.localPosition = new Vector3(0, 10, 0);
+            renderer.bones = new[] { bones[0].transform, bones[1].transform };
+            var modifier = item.AddComponent<ChamferModifier>();
+            ModifierActions.Chamfer(modifier);
+            Handles.points.Clear();
+            VerdictOverlay.Draw(modifier);
+            Check.Equal(11f, Handles.points.Max(p => p.y));
+            Check.Equal(-1f, Handles.points.Min(p => p.y));
+            Check.That(Handles.points.All(p => p.y == 11 || p.y == -1), "each end with its bone");
+        }
+
+        public static void Buttons_that_are_off_say_why()
+        {
+            var inspector = Inspector(Modifier(Shapes.Cube()));
+            Draw(inspector);
+            Check.That(GUILayout.tooltips["Revert"].Contains("press Chamfer"), "why");
+            Click(inspector, "Chamfer");
+            Draw(inspector);
+            Check.Equal("", GUILayout.tooltips["Revert"]);
+        }
+
+        public static void Undo_of_a_setting_reaches_the_file()
+        {
+            ChamferProjectSettings.Listen();
+            var project = ChamferProjectSettings.instance;
+            Undo.Click();
+            Undo.RecordObject(project, "Settings");
+            project.settings.width = 7;
+            project.Write();
+            Check.Equal(7f, ChamferProjectSettings.Load().settings.width);
+            int saves = UnityEditorInternal.InternalEditorUtility.saves;
+            Undo.PerformUndo();
+            Check.Equal(1f, ChamferProjectSettings.Load().settings.width);
+            var item = new GameObject("Item");
+            Undo.Click();
+            Undo.RecordObject(item.transform, "Other");
+            Undo.PerformUndo();
+            Check.Equal(saves + 1, UnityEditorInternal.InternalEditorUtility.saves);
+        }
+
+        public static void The_settings_page_writes_what_was_changed()
+        {
+            var create = typeof(ChamferSettingsPage).GetMethod("Create", BindingFlags.Static | BindingFlags.NonPublic);
+            var page = (SettingsProvider)create.Invoke(null, null);
+            int saves = UnityEditorInternal.InternalEditorUtility.saves;
+            GUILayout.broken = false;
+            page.guiHandler("");
+            Check.Equal(saves, UnityEditorInternal.InternalEditorUtility.saves);
+            SerializedObject.changed = true;
+            try { page.guiHandler(""); }
+            finally { SerializedObject.changed = false; }
+            Check.Equal(saves + 1, UnityEditorInternal.InternalEditorUtility.saves);
         }
 
         public static void The_settings_page_imports_again_on_demand()
         {
             var create = typeof(ChamferSettingsPage).GetMethod("Create", BindingFlags.Static | BindingFlags.NonPublic);
             var page = (SettingsProvider)create.Invoke(null, null);
-            int imports = AssetDatabase.imported.Count;
+            AssetDatabase.paths[new GameObject("Again")] = "Assets/Again/again.fbx";
+            AssetDatabase.labels["Assets/Again/again.fbx"] = new[] { "Chamfer" };
+            AssetDatabase.imported.Clear();
+            GUILayout.broken = false;
             page.guiHandler("");
-            Check.Equal(imports, AssetDatabase.imported.Count);
+            Check.Equal(0, AssetDatabase.imported.Count);
             GUILayout.clicked = "Import Models Again";
-            page.guiHandler("");
-            Check.That(AssetDatabase.imported.Count > imports, "imported");
+            try { page.guiHandler(""); }
+            catch (ExitGUIException) { }
+            Check.That(AssetDatabase.imported.Contains("together: Assets/Again/again.fbx"), "imported");
         }
     }
 }

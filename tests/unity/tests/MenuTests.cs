@@ -46,10 +46,10 @@ namespace Chamfer.Tests
             Mesh shared;
             var root = Scene.Hierarchy(out shared);
             var materials = root.GetComponents<Renderer>()[0].sharedMaterials;
-            int components = root.GetComponents<Component>().Length;
             ChamferAll(root);
             Check.That(materials.SequenceEqual(root.GetComponents<Renderer>()[0].sharedMaterials), "materials");
-            Check.Equal(components, root.GetComponents<Component>().Length);
+            Check.Equal(1, root.GetComponentsInChildren<ChamferModifier>(true).Length);
+            Check.Equal(0, root.children[0].GetComponents<ChamferModifier>().Length);
         }
 
         public static void A_submesh_of_their_own_has_a_material()
@@ -98,7 +98,7 @@ namespace Chamfer.Tests
             var once = Scene.MeshOf(root);
             string summary = ChamferAll(root).ToString();
             Check.That(Scene.MeshOf(root) == once, "the same mesh");
-            Check.That(summary.EndsWith("2 meshes without hard edges left alone"), summary);
+            Check.That(summary.EndsWith("2 meshes chamfered already left alone"), summary);
         }
 
         public static void Validators_look_at_the_selection()
@@ -125,16 +125,23 @@ namespace Chamfer.Tests
             Check.That(items.GroupBy(item => item.path).All(entry => entry.Any(item => item.isValidator)), "validators");
         }
 
-        /// Unity calls an entry of the GameObject menu once for each selected object.
+        /// Unity calls an entry of the GameObject menu once for each selected object, in any order.
         public static void The_menu_of_objects_runs_once()
         {
-            Mesh shared;
-            var root = Scene.Hierarchy(out shared);
-            Selection.objects = new Object[] { root, root.children[0] };
             var entry = typeof(ChamferMenu).GetMethod("RunFromGameObject", BindingFlags.Static | BindingFlags.NonPublic);
-            int logged = Debug.logged.Count;
-            foreach (var item in Selection.objects) { entry.Invoke(null, new object[] { new MenuCommand { context = item } }); }
-            Check.Equal(1, Debug.logged.Count - logged);
+            for (int time = 0; time < 2; time++)
+            {
+                Mesh shared;
+                var root = Scene.Hierarchy(out shared);
+                var selected = new Object[] { shared, root, root.children[0] };
+                Selection.objects = selected;
+                int logged = Debug.logged.Count;
+                var called = time == 0 ? selected.Skip(1) : selected.Skip(1).Reverse();
+                foreach (var item in called) { entry.Invoke(null, new object[] { new MenuCommand { context = item } }); }
+                EditorApplication.Idle();
+                Check.Equal(1, Debug.logged.Count - logged);
+                Check.That(Scene.MeshOf(root) != shared, "chamfered");
+            }
         }
 
         public static void Imported_models_are_not_selectable()
@@ -161,7 +168,7 @@ namespace Chamfer.Tests
             Check.Equal(44 * 3, saved.GetTriangles(0).Length);
             ChamferAll(mesh);
             Check.That(AssetDatabase.LoadAssetAtPath<Mesh>("Assets/Beside/Cube Chamfered.asset") == saved, "the same file again");
-            Check.Equal(1, AssetDatabase.paths.Values.Count(path => path.StartsWith("Assets/Beside/Cube Chamfered")));
+            Check.Equal(1, Scene.FilesIn("Assets/Beside/").Count(path => path.StartsWith("Assets/Beside/Cube Chamfered")));
         }
 
         public static void Meshes_of_prefabs_go_into_their_file()

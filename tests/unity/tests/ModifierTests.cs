@@ -73,7 +73,7 @@ namespace Chamfer.Tests
             modifier.settings.width = 5;
             ModifierActions.Chamfer(modifier);
             Check.Equal(3, modifier.meshes.Count);
-            Check.Equal(12, VerdictCache.Of(modifier, modifier.meshes[0]).Report.HardEdges);
+            Check.Equal(12, VerdictCache.Of(modifier.meshes[0]).Report.HardEdges);
             Check.That(modifier.meshes[0].original == original, "original");
             Check.That(modifier.meshes[0].chamfered == modifier.meshes[1].chamfered, "shared");
             modifier.includeChildren = false;
@@ -90,8 +90,8 @@ namespace Chamfer.Tests
             ModifierActions.Chamfer(wide);
             ModifierActions.Chamfer(narrow);
             Check.That(Scene.MeshOf(wide.gameObject) != Scene.MeshOf(narrow.gameObject), "own meshes");
-            Check.Near(0.1f, VerdictCache.Of(wide, wide.meshes[0]).Report.Width);
-            Check.Near(0.02f, VerdictCache.Of(narrow, narrow.meshes[0]).Report.Width);
+            Check.Near(0.1f, VerdictCache.Of(wide.meshes[0]).Report.Width);
+            Check.Near(0.02f, VerdictCache.Of(narrow.meshes[0]).Report.Width);
         }
 
         public static void A_mesh_that_someone_else_set_is_theirs()
@@ -143,7 +143,7 @@ namespace Chamfer.Tests
             float wide = mesh.vertices[0].y;
             Undo.PerformUndo();
             Check.That(mesh.vertices[0].y != wide, "undo brings back what the mesh held");
-            Check.Near(0.02f, VerdictCache.Of(modifier, modifier.meshes[0]).Report.Width);
+            Check.Near(0.02f, VerdictCache.Of(modifier.meshes[0]).Report.Width);
             Undo.Click();
             ModifierActions.Revert(modifier);
             Check.Equal(0, Scene.MeshesIn("Assets/Box.prefab").Count);

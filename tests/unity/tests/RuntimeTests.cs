@@ -155,6 +155,19 @@ namespace Chamfer.Tests
             Check.Equal(132, mesh.GetIndices(0).Length);
         }
 
+        public static void Points_and_strips_of_lines_pass()
+        {
+            var source = Shapes.FullCube();
+            source.subMeshCount = 3;
+            source.SetIndices(new[] { 5 }, MeshTopology.Points, 1, false);
+            source.SetIndices(new[] { 0, 1, 3 }, MeshTopology.LineStrip, 2, false);
+            var result = Run(source);
+            Check.Equal(MeshTopology.Points, result.Mesh.GetTopology(1));
+            Check.Equal(source.vertices[5], result.Mesh.vertices[result.Mesh.GetIndices(1)[0]]);
+            Check.Equal(3, result.Mesh.GetIndices(2).Length);
+            Check.Equal(0, result.Report.Quads);
+        }
+
         public static void Bounds_never_shrink()
         {
             var mesh = Shapes.Cube();
@@ -168,6 +181,9 @@ namespace Chamfer.Tests
             Check.Equal(72000, mesh.vertexCount);
             Check.That(mesh.indexFormat == IndexFormat.UInt32, "32 bits");
             Check.Equal(3000 * 132, mesh.GetIndices(0).Length);
+            var arrays = MeshReader.Read(mesh);
+            arrays.HasWideIndices = false;
+            Check.That(MeshWriter.Write(arrays, mesh).indexFormat == IndexFormat.UInt32, "though the source had 16");
         }
 
         public static void The_editor_reads_meshes_without_read_write()
@@ -176,8 +192,25 @@ namespace Chamfer.Tests
             mesh.SetUVs(1, new Vector3[24]);
             mesh.readable = false;
             var result = Run(mesh).Mesh;
-            Check.Equal(132, result.GetTriangles(0).Length);
+            Check.Equal(132, MeshReader.Read(result).Submeshes[0].Indices.Length);
             Check.Equal(3, result.GetVertexAttributeDimension(VertexAttribute.TexCoord1));
+        }
+
+        public static void All_streams_are_read_without_read_write()
+        {
+            var mesh = Shapes.Cube();
+            mesh.tangents = Array.ConvertAll(mesh.normals, n => new Vector4(n.y, n.z, n.x, -1));
+            mesh.colors32 = Array.ConvertAll(mesh.vertices, p => (Color32)new Color(p.x, p.y, p.z, 1));
+            mesh.SetUVs(0, Array.ConvertAll(mesh.vertices, p => new Vector2(p.x, p.y)));
+            mesh.SetUVs(1, mesh.vertices);
+            mesh.SetUVs(2, Array.ConvertAll(mesh.vertices, p => new Vector4(p.x, p.y, p.z, 1)));
+            mesh.indexFormat = IndexFormat.UInt32;
+            var expected = MeshReader.Read(mesh);
+            mesh.readable = false;
+            var found = MeshReader.Read(mesh);
+            Check.Equal(ContentHash.Of(expected), ContentHash.Of(found));
+            Check.That(found.HasByteColors && found.HasWideIndices, "flags");
+            Check.Equal("Cube", found.Name);
         }
 
         public static void The_editor_reads_skins_and_blend_shapes_without_read_write()
@@ -186,8 +219,52 @@ namespace Chamfer.Tests
             mesh.readable = false;
             var result = Run(mesh).Mesh;
             Check.Equal(2, result.blendShapeCount);
-            Check.Equal(result.vertexCount, result.GetBonesPerVertex().Length);
+            Check.Equal(result.vertexCount, MeshReader.Read(result).Skin.BonesPerVertex.Length);
             Check.That(!mesh.readable && mesh != null, "the source is as it was");
+        }
+
+        public static void A_result_is_stored_as_its_source()
+        {
+            foreach (bool flag in new[] { false, true })
+            {
+                var mesh = Shapes.Cube();
+                mesh.readable = mesh.keepVertices = flag;
+                mesh.keepIndices = !flag;
+                mesh.compression = flag ? UnityEditor.ModelImporterMeshCompression.High : UnityEditor.ModelImporterMeshCompression.Off;
+                mesh.indexFormat = flag ? IndexFormat.UInt32 : IndexFormat.UInt16;
+                var result = Run(mesh).Mesh;
+                Check.Equal(flag, result.isReadable);
+                Check.Equal(flag, result.keepVertices);
+                Check.Equal(!flag, result.keepIndices);
+                Check.Equal(mesh.compression, result.compression);
+                Check.Equal(mesh.indexFormat, result.indexFormat);
+                Check.Equal(mesh.indexFormat, MeshChamfer.RunScene(new[] { new PlacedMesh(mesh, Matrix4x4.identity) }, Width(0.1f))[mesh].Mesh.indexFormat);
+            }
+        }
+
+        public static void What_cannot_be_read_can_be_written_all_the_same()
+        {
+            Mesh source = Shapes.FullCube(), target = Shapes.FullCube();
+            source.readable = target.readable = false;
+            var arrays = MeshReader.Read(Run(source).Mesh);
+            MeshWriter.Overwrite(target, arrays, source);
+            Check.Equal(132, MeshReader.Read(target).Submeshes[0].Indices.Length);
+            Check.Equal(2, target.blendShapeCount);
+            Check.That(!target.isReadable, "as before");
+            source.readable = true;
+            MeshWriter.Overwrite(target, arrays, source);
+            Check.That(target.isReadable, "as the source");
+        }
+
+        /// One stream after the other: what a mesh held before must not stay.
+        public static void Overwriting_leaves_nothing_of_before()
+        {
+            var target = Shapes.FullCube();
+            MeshWriter.Overwrite(target, MeshReader.Read(Shapes.Cube()), target);
+            var found = MeshReader.Read(target);
+            Check.That(found.Tangents == null && found.Colors == null && found.Skin.BonesPerVertex.Length == 0, "streams");
+            Check.That(found.Uvs.All(uvs => uvs == null), "channels");
+            Check.Equal(0, target.blendShapeCount);
         }
 
         public static void What_even_a_copy_does_not_show_is_refused()

@@ -1,5 +1,6 @@
 // Objects for the tests of the editor.
 using System.Collections.Generic;
+using System.Linq;
 using UnityEditor;
 using UnityEngine;
 
@@ -60,6 +61,12 @@ namespace Chamfer.Tests
                 EditorUtility.persistent.Add(component);
                 AssetDatabase.paths[component] = path;
             }
+        }
+
+        /// The files of a folder, each once.
+        internal static List<string> FilesIn(string folder)
+        {
+            return AssetDatabase.paths.Where(entry => entry.Key != null && entry.Value.StartsWith(folder)).Select(entry => entry.Value).Distinct().ToList();
         }
 
         internal static List<Mesh> MeshesIn(string path)

@@ -13,7 +13,8 @@ namespace Chamfer.Interop
         /// <summary>The version of the interface that these declarations describe.</summary>
         internal const uint AbiVersion = 1;
 
-#if (UNITY_IOS || UNITY_WEBGL) && !UNITY_EDITOR
+#if UNITY_EDITOR || UNITY_STANDALONE || CHAMFER_LIBRARY
+#if (UNITY_IOS || UNITY_TVOS || UNITY_VISIONOS || UNITY_WEBGL || UNITY_SWITCH) && !UNITY_EDITOR
         private const string Library = "__Internal";
 #else
         private const string Library = "chamfer";
@@ -63,5 +64,108 @@ namespace Chamfer.Interop
 
         [DllImport(Library, EntryPoint = "chamfer_result_destroy", CallingConvention = Cdecl)]
         internal static extern void ResultDestroy(IntPtr result);
+
+        [DllImport(Library, EntryPoint = "chamfer_prepare", CallingConvention = Cdecl)]
+        internal static extern int Prepare(ref NativeMesh mesh, out PreparedHandle prepared, ref NativeError error);
+
+        [DllImport(Library, EntryPoint = "chamfer_prepared_run", CallingConvention = Cdecl)]
+        internal static extern int PreparedRun(
+            PreparedHandle prepared,
+            ref NativeOptions options,
+            NativeProgress progress,
+            IntPtr user,
+            out ResultHandle result,
+            ref NativeError error);
+
+        [DllImport(Library, EntryPoint = "chamfer_prepared_destroy", CallingConvention = Cdecl)]
+        internal static extern void PreparedDestroy(IntPtr prepared);
+#else
+        // A player for a platform without the library does not link if it names an entry point of it.
+        internal static uint LibraryAbiVersion()
+        {
+            throw Missing();
+        }
+
+        internal static IntPtr VersionString()
+        {
+            throw Missing();
+        }
+
+        internal static int Run(
+            ref NativeMesh mesh,
+            ref NativeOptions options,
+            NativeProgress progress,
+            IntPtr user,
+            out ResultHandle result,
+            ref NativeError error)
+        {
+            throw Missing();
+        }
+
+        internal static int SceneRun(
+            IntPtr[] meshes,
+            uint meshCount,
+            NativeObject[] objects,
+            uint objectCount,
+            ref NativeOptions options,
+            NativeProgress progress,
+            IntPtr user,
+            IntPtr[] results,
+            ref NativeError error)
+        {
+            throw Missing();
+        }
+
+        internal static int ResultMesh(ResultHandle result, ref NativeMesh mesh)
+        {
+            throw Missing();
+        }
+
+        internal static int ResultTotals(ResultHandle result, ref NativeTotals totals)
+        {
+            throw Missing();
+        }
+
+        internal static int ResultVerdicts(ResultHandle result, out IntPtr verdicts, out uint count)
+        {
+            throw Missing();
+        }
+
+        internal static int ResultVertexSources(ResultHandle result, out IntPtr sources, out uint count)
+        {
+            throw Missing();
+        }
+
+        internal static void ResultDestroy(IntPtr result)
+        {
+            throw Missing();
+        }
+
+        internal static int Prepare(ref NativeMesh mesh, out PreparedHandle prepared, ref NativeError error)
+        {
+            throw Missing();
+        }
+
+        internal static int PreparedRun(
+            PreparedHandle prepared,
+            ref NativeOptions options,
+            NativeProgress progress,
+            IntPtr user,
+            out ResultHandle result,
+            ref NativeError error)
+        {
+            throw Missing();
+        }
+
+        internal static void PreparedDestroy(IntPtr prepared)
+        {
+            throw Missing();
+        }
+
+        private static LibraryMissingException Missing()
+        {
+            return LibraryMissingException.OnThisPlatform();
+        }
+#endif
     }
 }

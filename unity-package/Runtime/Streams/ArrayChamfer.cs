@@ -27,20 +27,33 @@ namespace Chamfer.Streams
             var watch = Stopwatch.StartNew();
             using (var result = Call(source, settings, progress, cancellation))
             {
-                return Finish(source, result, watch.Elapsed);
+                return Finish(source, result, watch.Elapsed, true);
             }
         }
 
         /// <summary>Copies a native result, and carries along what the library does not know of.</summary>
-        internal static ArrayResult Finish(MeshArrays source, ResultHandle result, TimeSpan took)
+        internal static ArrayResult Finish(MeshArrays source, ResultHandle result, TimeSpan took, bool keepsVerdicts)
         {
             var output = ResultReader.Mesh(result, source);
-            var sources = Passthrough.Restore(source, output, ResultReader.VertexSources(result));
-            output.Skin = SkinCarrier.Carry(source.Skin, sources);
-            output.BlendShapes = BlendShapeCarrier.Carry(source.BlendShapes, sources);
-            var report = ResultReader.Report(result, source, output);
+            // The library makes them when they are asked for, and that costs time.
+            if (NeedsSources(source)) { Carry(source, output, ResultReader.VertexSources(result)); }
+            else { output.Skin = source.Skin; }
+            var report = ResultReader.Report(result, source, output, keepsVerdicts);
             report.Milliseconds = took.TotalMilliseconds;
             return new ArrayResult { Mesh = output, Report = report };
+        }
+
+        private static bool NeedsSources(MeshArrays source)
+        {
+            bool hasBones = source.Skin != null && source.Skin.BonesPerVertex.Length > 0;
+            return hasBones || source.BlendShapes.Length > 0 || Array.Exists(source.Submeshes, one => !one.IsTriangles);
+        }
+
+        private static void Carry(MeshArrays source, MeshArrays output, NativeVertexSource[] known)
+        {
+            var sources = Passthrough.Restore(source, output, known);
+            output.Skin = SkinCarrier.Carry(source.Skin, sources);
+            output.BlendShapes = BlendShapeCarrier.Carry(source.BlendShapes, sources);
         }
 
         private static ResultHandle Call(

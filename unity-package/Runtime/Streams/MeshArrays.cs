@@ -8,6 +8,10 @@ namespace Chamfer.Streams
     {
         public string Name;
         public Bounds Bounds;
+
+        /// <summary>Whether indices have 32 bits: some games ask for that on purpose.</summary>
+        public bool HasWideIndices;
+
         public Vector3[] Positions = new Vector3[0];
         public Vector3[] Normals;
         public Vector4[] Tangents;

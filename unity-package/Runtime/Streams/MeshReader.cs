@@ -16,6 +16,7 @@ namespace Chamfer.Streams
             {
                 Name = mesh.name,
                 Bounds = mesh.bounds,
+                HasWideIndices = HasWideIndices(mesh),
                 Positions = mesh.vertices,
                 Normals = OrNull(mesh.normals),
                 Tangents = OrNull(mesh.tangents),
@@ -27,6 +28,11 @@ namespace Chamfer.Streams
             };
             for (int channel = 0; channel < arrays.Uvs.Length; channel++) { arrays.Uvs[channel] = Uvs(mesh, channel); }
             return arrays;
+        }
+
+        internal static bool HasWideIndices(Mesh mesh)
+        {
+            return mesh.indexFormat == IndexFormat.UInt32;
         }
 
         internal static bool HasByteColors(Mesh mesh)

@@ -11,15 +11,48 @@ namespace Chamfer.Streams
         /// <summary>The most vertices that 16-bit indices reach: Unity keeps the last one for itself.</summary>
         private const int MostShortVertices = 65535;
 
-        internal static Mesh Write(MeshArrays arrays)
+        /// <summary>A new mesh, with the flags of its source: whether scripts may read it, and how it is compressed.</summary>
+        internal static Mesh Write(MeshArrays arrays, Mesh source)
         {
             var mesh = new Mesh { name = arrays.Name };
             Fill(mesh, arrays);
+            MeshLods.Make(mesh, MeshLods.Count(source));
+            MeshFlags.Copy(source, mesh);
             return mesh;
         }
 
-        /// <summary>Replaces everything that a mesh holds: importers know their meshes by identity.</summary>
-        internal static void Overwrite(Mesh mesh, MeshArrays arrays)
+        /// <summary>
+        /// As <see cref="Overwrite"/>, of a mesh that was written from the same source a moment ago: its flags are those
+        /// of the source already, and looking at them takes longer than writing.
+        /// </summary>
+        internal static void Renew(Mesh mesh, MeshArrays arrays, Mesh source)
+        {
+            if (!mesh.isReadable || MeshLods.Count(source) > 1)
+            {
+                Overwrite(mesh, arrays, source);
+                return;
+            }
+            Replace(mesh, arrays);
+        }
+
+        /// <summary>
+        /// Replaces everything that a mesh holds: importers know their meshes by identity. The source may be the mesh
+        /// itself.
+        /// </summary>
+        internal static void Overwrite(Mesh mesh, MeshArrays arrays, Mesh source)
+        {
+            bool isReadable = source.isReadable;
+            int levels = MeshLods.Count(source);
+            // Unity refuses to write what it does not let anybody read.
+            MeshFlags.SetReadable(mesh, true);
+            Replace(mesh, arrays);
+            MeshLods.Make(mesh, levels);
+            MeshFlags.Copy(source, mesh);
+            MeshFlags.SetReadable(mesh, isReadable);
+        }
+
+        /// <summary>What the mesh held must not stay where the arrays hold nothing.</summary>
+        private static void Replace(Mesh mesh, MeshArrays arrays)
         {
             mesh.Clear();
             mesh.ClearBlendShapes();
@@ -28,7 +61,8 @@ namespace Chamfer.Streams
 
         private static void Fill(Mesh mesh, MeshArrays arrays)
         {
-            mesh.indexFormat = arrays.Positions.Length > MostShortVertices ? IndexFormat.UInt32 : IndexFormat.UInt16;
+            bool isWide = arrays.HasWideIndices || arrays.Positions.Length > MostShortVertices;
+            mesh.indexFormat = isWide ? IndexFormat.UInt32 : IndexFormat.UInt16;
             WriteVertices(mesh, arrays);
             WriteSubmeshes(mesh, arrays.Submeshes);
             if (arrays.Skin != null) { WriteSkin(mesh, arrays.Skin); }

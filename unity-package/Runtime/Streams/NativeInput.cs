@@ -1,5 +1,4 @@
 using System;
-using System.Collections.Generic;
 using Chamfer.Interop;
 using UnityEngine;
 
@@ -18,7 +17,8 @@ namespace Chamfer.Streams
                 Verify = (uint)settings.verify,
                 SubmeshMode = (uint)settings.submeshMode,
                 Submesh = (uint)settings.submesh,
-                Threads = 1
+                Threads = 1,
+                LeastBreadth = settings.leastBreadth
             };
         }
 
@@ -53,18 +53,29 @@ namespace Chamfer.Streams
 
         private static void PinIndices(ref NativeMesh mesh, SubmeshArrays[] submeshes, PinnedArrays pins)
         {
-            var counts = new uint[submeshes.Length];
-            var indices = new List<int>();
-            for (int submesh = 0; submesh < submeshes.Length; submesh++)
-            {
-                if (!submeshes[submesh].IsTriangles) { continue; }
-                counts[submesh] = (uint)submeshes[submesh].Indices.Length;
-                indices.AddRange(submeshes[submesh].Indices);
-            }
+            var counts = Array.ConvertAll(submeshes, one => one.IsTriangles ? (uint)one.Indices.Length : 0);
             mesh.SubmeshCount = (uint)counts.Length;
             mesh.SubmeshIndexCounts = pins.Pin(counts);
-            mesh.IndexCount = (uint)indices.Count;
-            mesh.Indices = pins.Pin(indices.ToArray());
+            var indices = Indices(submeshes);
+            mesh.IndexCount = (uint)indices.Length;
+            mesh.Indices = pins.Pin(indices);
+        }
+
+        /// <summary>One after the other; where there is one only, itself.</summary>
+        private static int[] Indices(SubmeshArrays[] submeshes)
+        {
+            var triangles = Array.FindAll(submeshes, one => one.IsTriangles);
+            if (triangles.Length == 1) { return triangles[0].Indices; }
+            int count = 0;
+            foreach (var submesh in triangles) { count += submesh.Indices.Length; }
+            var all = new int[count];
+            int start = 0;
+            foreach (var submesh in triangles)
+            {
+                submesh.Indices.CopyTo(all, start);
+                start += submesh.Indices.Length;
+            }
+            return all;
         }
     }
 }

@@ -16,6 +16,7 @@ namespace Chamfer.Streams
             {
                 Name = source.Name,
                 Bounds = source.Bounds,
+                HasWideIndices = source.HasWideIndices,
                 Positions = PinnedArrays.Copy<Vector3>(native.Positions, count) ?? new Vector3[0],
                 Normals = PinnedArrays.Copy<Vector3>(native.Normals, count),
                 Tangents = PinnedArrays.Copy<Vector4>(native.Tangents, count),
@@ -38,14 +39,16 @@ namespace Chamfer.Streams
             return PinnedArrays.Copy<NativeVertexSource>(sources, (int)count) ?? new NativeVertexSource[0];
         }
 
-        internal static ChamferReport Report(ResultHandle result, MeshArrays source, MeshArrays output)
+        internal static ChamferReport Report(ResultHandle result, MeshArrays source, MeshArrays output, bool keepsVerdicts)
         {
+            var verdicts = new NativeVerdicts(result);
             var totals = NativeTotals.Empty();
             Failure.Require(NativeMethods.ResultTotals(result, ref totals));
             return new ChamferReport
             {
                 VerticesBefore = source.Positions.Length,
                 VerticesAfter = output.Positions.Length,
+                Quads = Quads(source),
                 TrianglesBefore = Triangles(source),
                 TrianglesAfter = Triangles(output),
                 HardEdges = (int)totals.HardEdges,
@@ -54,7 +57,8 @@ namespace Chamfer.Streams
                 Skipped = (int)totals.Skipped,
                 Width = totals.Width,
                 MeanWidth = totals.MeanWidth,
-                Verdicts = Array.ConvertAll(Verdicts(result), Verdict)
+                Counts = verdicts.Counts(),
+                Verdicts = keepsVerdicts ? verdicts.ToArray() : new EdgeVerdict[0]
             };
         }
 
@@ -72,24 +76,23 @@ namespace Chamfer.Streams
         private static SubmeshArrays[] Submeshes(NativeMesh native, MeshArrays source)
         {
             var counts = PinnedArrays.Copy<int>(native.SubmeshIndexCounts, (int)native.SubmeshCount) ?? new int[0];
-            var indices = PinnedArrays.Copy<int>(native.Indices, (int)native.IndexCount);
             var submeshes = new SubmeshArrays[counts.Length];
             int start = 0;
             for (int submesh = 0; submesh < counts.Length; submesh++)
             {
                 bool isNew = submesh >= source.Submeshes.Length;
                 submeshes[submesh] = isNew || source.Submeshes[submesh].IsTriangles
-                    ? Triangles(indices, start, counts[submesh])
+                    ? Triangles(native.Indices, start, counts[submesh])
                     : source.Submeshes[submesh];
                 start += counts[submesh];
             }
             return submeshes;
         }
 
-        private static SubmeshArrays Triangles(int[] all, int start, int count)
+        /// <summary>Copied once, right into the array that the mesh gets.</summary>
+        private static SubmeshArrays Triangles(IntPtr all, int start, int count)
         {
-            var indices = new int[count];
-            if (count > 0) { Array.Copy(all, start, indices, 0, count); }
+            var indices = count > 0 ? PinnedArrays.Copy<int>(IntPtr.Add(all, start * sizeof(int)), count) : new int[0];
             return new SubmeshArrays { Topology = MeshTopology.Triangles, Indices = indices };
         }
 
@@ -103,25 +106,14 @@ namespace Chamfer.Streams
             return corners / 3;
         }
 
-        private static NativeEdgeVerdict[] Verdicts(ResultHandle result)
+        private static int Quads(MeshArrays mesh)
         {
-            IntPtr verdicts;
-            uint count;
-            Failure.Require(NativeMethods.ResultVerdicts(result, out verdicts, out count));
-            return PinnedArrays.Copy<NativeEdgeVerdict>(verdicts, (int)count) ?? new NativeEdgeVerdict[0];
-        }
-
-        private static unsafe EdgeVerdict Verdict(NativeEdgeVerdict native)
-        {
-            return new EdgeVerdict
+            int corners = 0;
+            foreach (var submesh in mesh.Submeshes)
             {
-                FirstVertex = (int)native.Vertices[0],
-                SecondVertex = (int)native.Vertices[1],
-                Outcome = (EdgeOutcome)native.Outcome,
-                Reason = (EdgeReason)native.Reason,
-                FirstWidth = native.Widths[0],
-                SecondWidth = native.Widths[1]
-            };
+                if (submesh.Topology == MeshTopology.Quads) { corners += submesh.Indices.Length; }
+            }
+            return corners / 4;
         }
     }
 }

@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 using UnityEngine;
 
@@ -11,8 +12,11 @@ namespace Chamfer.Streams
         private readonly List<MeshArrays> arrays = new List<MeshArrays>();
         private readonly List<PlacedArrays> placed = new List<PlacedArrays>();
 
-        internal SceneArrays(IEnumerable<PlacedMesh> objects)
+        private readonly Func<Mesh, MeshArrays> read;
+
+        internal SceneArrays(IEnumerable<PlacedMesh> objects, Func<Mesh, MeshArrays> read = null)
         {
+            this.read = read ?? MeshReader.Read;
             foreach (var item in objects) { Add(item); }
         }
 
@@ -30,7 +34,7 @@ namespace Chamfer.Streams
             int number;
             if (ReferenceEquals(item.Mesh, null) || !numbers.TryGetValue(item.Mesh, out number))
             {
-                arrays.Add(MeshReader.Read(item.Mesh));
+                arrays.Add(read(item.Mesh));
                 number = meshes.Count;
                 meshes.Add(item.Mesh);
                 numbers.Add(item.Mesh, number);

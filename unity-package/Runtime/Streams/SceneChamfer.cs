@@ -35,7 +35,7 @@ namespace Chamfer.Streams
             var objects = placed.Select(one => NativeObject.Of(one.Mesh, one.Transform)).ToArray();
             var results = Call(meshes, objects, settings, progress, cancellation);
             watch.Stop();
-            try { return results.Select((result, mesh) => ArrayChamfer.Finish(meshes[mesh], result, watch.Elapsed)).ToArray(); }
+            try { return results.Select((result, mesh) => ArrayChamfer.Finish(meshes[mesh], result, watch.Elapsed, true)).ToArray(); }
             finally { foreach (var result in results) { result.Dispose(); } }
         }
 

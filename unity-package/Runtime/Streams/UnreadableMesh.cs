@@ -19,13 +19,14 @@ namespace Chamfer.Streams
 #else
         internal static MeshArrays Read(Mesh mesh)
         {
-            // A snapshot lacks what deforms a mesh.
-            if (SkinReader.IsDeformed(mesh)) { return ReadCopy(mesh); }
+            // A snapshot lacks what deforms a mesh, and shows the triangles of all levels of detail as one.
+            if (SkinReader.IsDeformed(mesh) || MeshLods.Count(mesh) > 1) { return ReadCopy(mesh); }
             using (var snapshot = MeshUtility.AcquireReadOnlyMeshData(mesh))
             {
                 var arrays = Streams(snapshot[0]);
                 arrays.Name = mesh.name;
                 arrays.Bounds = mesh.bounds;
+                arrays.HasWideIndices = MeshReader.HasWideIndices(mesh);
                 arrays.HasByteColors = MeshReader.HasByteColors(mesh);
                 return arrays;
             }
@@ -37,7 +38,7 @@ namespace Chamfer.Streams
             var copy = UnityEngine.Object.Instantiate(mesh);
             try
             {
-                MarkReadable(copy);
+                MeshFlags.SetReadable(copy, true);
                 if (!copy.isReadable || copy.vertexCount != mesh.vertexCount)
                 {
                     throw new MeshNotReadableException(mesh.name, ", because it has a skin or blend shapes");
@@ -47,17 +48,6 @@ namespace Chamfer.Streams
                 return arrays;
             }
             finally { UnityEngine.Object.DestroyImmediate(copy); }
-        }
-
-        private static void MarkReadable(Mesh mesh)
-        {
-            using (var serialized = new SerializedObject(mesh))
-            {
-                var flag = serialized.FindProperty("m_IsReadable");
-                if (flag == null) { return; }
-                flag.boolValue = true;
-                serialized.ApplyModifiedPropertiesWithoutUndo();
-            }
         }
 
         private static MeshArrays Streams(Mesh.MeshData data)

@@ -1,9 +1,0 @@
-//! glTF files in and out, as a program that reads the files sees them.
-
-mod corpus;
-mod damage;
-mod features;
-mod files;
-mod followers;
-mod morphs;
-mod support;

@@ -1,0 +1,123 @@
+//! A model file as all readers hand it over: meshes to chamfer, and all the rest to keep.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::Result;
+use chamfer::{Chamfered, MeshBuffers};
+
+/// The formats of model files. What there is to know of each stands in
+/// [`FORMATS`](crate::FORMATS).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// glTF in one binary file.
+    Glb,
+    /// glTF as JSON, with its buffers beside it or inside.
+    Gltf,
+    /// Wavefront OBJ.
+    Obj,
+    /// Stereolithography triangles, ASCII or binary.
+    Stl,
+    /// Autodesk's FBX, binary or ASCII.
+    Fbx,
+}
+
+/// One mesh of a file, in the layout of the core.
+pub struct SourceMesh {
+    /// As the file calls it, or its kind and number.
+    pub name: String,
+    /// Its streams; submeshes are the file's primitives, groups or materials.
+    pub mesh: MeshBuffers,
+}
+
+/// The transform of a mesh that stands where its file has it; column-major.
+pub const IDENTITY: [[f32; 4]; 4] =
+    [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
+
+/// One placed mesh of a file's scene; its mesh is one of [`Document::meshes`].
+pub use chamfer::Placed as Instance;
+
+/// A file to be written: nothing is on disk before every file of a document is encoded.
+pub struct OutputFile {
+    /// Where it goes.
+    pub path: PathBuf,
+    /// What it holds.
+    pub bytes: Vec<u8>,
+}
+
+/// A document that was encoded.
+#[derive(Default)]
+pub struct Encoded {
+    /// The file of the path asked for, then those that belong to it.
+    pub files: Vec<OutputFile>,
+    /// What is otherwise than one may expect, or was lost: a sentence each.
+    pub notes: Vec<String>,
+}
+
+impl From<Vec<OutputFile>> for Encoded {
+    fn from(files: Vec<OutputFile>) -> Encoded {
+        Encoded { files, notes: Vec::new() }
+    }
+}
+
+/// How to read a file. Further options may come: start from the default.
+#[derive(Clone, Copy, Debug)]
+pub struct ReadOptions {
+    /// For models without normals: faces that meet at up to this angle, in degrees, shade as one.
+    /// 30 by default.
+    pub smoothing_angle: f32,
+    /// Which vertices become one; by default those at the very same place.
+    pub weld: Weld,
+}
+
+impl Default for ReadOptions {
+    fn default() -> Self {
+        ReadOptions { smoothing_angle: 30.0, weld: Weld::Equal }
+    }
+}
+
+/// Which vertices of a mesh become one.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Weld {
+    /// Those whose positions are equal to the bit.
+    #[default]
+    Equal,
+    /// Those at most so far from each other, in mesh units.
+    Within(f32),
+    /// Those that only rounding may have set apart.
+    Auto,
+}
+
+/// What reading did to the normals of a mesh.
+#[derive(Clone, Debug, Default)]
+pub struct NormalsRead {
+    /// Whether some are not in the file, but made by the smoothing angle.
+    pub computed: bool,
+    /// Those in the file that are plainly not unit length, by vertex. The mesh has others there.
+    pub repaired: Vec<(u32, [f32; 3])>,
+}
+
+/// A model file that was read.
+pub trait Document {
+    /// The meshes to chamfer.
+    fn meshes(&self) -> &[SourceMesh];
+
+    /// What became of the normals of each mesh (`#meshes`).
+    fn normals(&self) -> &[NormalsRead];
+
+    /// Where the meshes stand in the scene: each once and where it is, if the format has none.
+    fn instances(&self) -> Vec<Instance> {
+        (0..self.meshes().len()).map(|mesh| Instance { mesh, transform: IDENTITY }).collect()
+    }
+
+    /// What the user should know of what was read: a sentence each.
+    fn notes(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// The file with `chamfered[i]` in the place of mesh `i`, in one of the formats that it can have:
+    /// the file of the path `output` first, then those that belong to it.
+    ///
+    /// # Errors
+    /// Where the result does not fit the format.
+    fn encode(&self, format: Format, output: &Path, chamfered: &[Chamfered]) -> Result<Encoded>;
+}

@@ -1,0 +1,25 @@
+//! Model files in and out: readers and writers, each of which keeps what chamfering does not change.
+//!
+//! A file is read into a [`Document`]: meshes in the layout of the core, and all the rest as it
+//! stood. Chamfered meshes go back into it with [`encode`]. Which formats there are, how files of
+//! each are named and what they can become stands in one table, [`FORMATS`].
+
+mod document;
+pub mod fbx_file;
+mod foreign;
+pub mod glb;
+pub mod gltf_file;
+pub mod obj_file;
+mod parts;
+pub mod paths;
+pub mod pictures;
+mod polygon;
+mod registry;
+pub mod stl_file;
+pub mod weld;
+
+pub use document::{
+    Document, Encoded, Format, IDENTITY, Instance, NormalsRead, OutputFile, ReadOptions,
+    SourceMesh, Weld,
+};
+pub use registry::{FORMATS, Row, decode, encode, endings, read, row_of};

@@ -1,0 +1,110 @@
+//! FBX files, written here as text, and what becomes of them.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use chamfer::{Options, Width, chamfer};
+use chamfer_formats::{Document, ReadOptions, decode, encode};
+use serde_json::Value;
+
+#[path = "support/cube_fbx.rs"]
+mod cube_fbx;
+
+use cube_fbx::cube_fbx;
+
+fn read(text: &str) -> Result<Box<dyn Document + Send>, String> {
+    let options = ReadOptions::default();
+    decode(Path::new("model.fbx"), text.as_bytes().to_vec(), &options)
+        .map_err(|error| format!("{error:#}"))
+}
+
+/// The JSON of the .glb that a model becomes, chamfered.
+fn written(text: &str) -> (Value, Vec<u8>) {
+    let document = read(text).unwrap();
+    let options = Options::default().with_width(Width::PercentOfExtent(10.0));
+    let chamfered: Vec<_> = document
+        .meshes()
+        .iter()
+        .map(|source| chamfer(&source.mesh.as_mesh(), &options).unwrap())
+        .collect();
+    assert_eq!(chamfered[0].totals.chamfered, 12);
+    let folder: PathBuf = Path::new(env!("CARGO_TARGET_TMPDIR")).join("fbx");
+    fs::create_dir_all(&folder).unwrap();
+    let files = encode(&*document, &folder.join("out.glb"), &chamfered).unwrap().files;
+    assert_eq!(files.len(), 1);
+    let length = u32::from_le_bytes(files[0].bytes[12..16].try_into().unwrap()) as usize;
+    (serde_json::from_slice(&files[0].bytes[20..20 + length]).unwrap(), files[0].bytes.clone())
+}
+
+#[test]
+fn a_cube_is_read_in_metres_with_its_streams() {
+    let document = read(&cube_fbx()).unwrap();
+    let [source] = document.meshes() else { panic!("{} meshes", document.meshes().len()) };
+    assert_eq!(source.name, "box");
+    let mesh = &source.mesh;
+    assert_eq!((mesh.positions.len(), mesh.indices.len()), (24, 36));
+    assert!(mesh.positions.as_flattened().iter().all(|at| (at.abs() - 0.01).abs() < 1e-8));
+    assert_eq!(mesh.normals[0], [-1.0, 0.0, 0.0]);
+    assert_eq!(mesh.uvs[0].values[..4], [0.0, 1.0, 1.0, 1.0]);
+    assert_eq!(mesh.submesh_index_counts, [30, 6]);
+    let [instance] = document.instances()[..] else { panic!("it stands more than once") };
+    assert_eq!(instance.transform[3], [0.0, 5.0, 0.0, 1.0]);
+    assert_eq!(document.notes(), ["of an FBX these do not go along: cameras (1)"]);
+}
+
+#[test]
+fn skin_shapes_materials_and_hierarchy_go_along() {
+    let (json, bytes) = written(&cube_fbx());
+    let names = |key: &str| -> Vec<String> {
+        let items = json[key].as_array().unwrap();
+        items.iter().map(|item| item["name"].as_str().unwrap().to_owned()).collect()
+    };
+    assert_eq!(names("materials"), ["red", "lid"]);
+    assert_eq!(names("nodes"), ["box", "left bone", "right bone", "eye"]);
+    let factor = &json["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"];
+    assert_eq!(factor, &serde_json::json!([1.0, 0.0, 0.0, 1.0]));
+    assert_eq!(json["skins"][0]["joints"], serde_json::json!([1, 2]));
+    assert_eq!(json["nodes"][0]["skin"], 0);
+    assert_eq!(json["meshes"][0]["extras"]["targetNames"], serde_json::json!(["lift"]));
+    let primitives = json["meshes"][0]["primitives"].as_array().unwrap();
+    assert_eq!(primitives.len(), 2);
+    for primitive in primitives {
+        assert!(primitive["attributes"]["JOINTS_0"].is_u64());
+        assert!(primitive["attributes"]["WEIGHTS_0"].is_u64());
+        assert_eq!(primitive["targets"].as_array().unwrap().len(), 1);
+    }
+    let again = decode(Path::new("out.glb"), bytes, &ReadOptions::default());
+    assert_eq!(again.unwrap().meshes()[0].mesh.indices.len(), 44 * 3);
+}
+
+#[test]
+fn what_is_no_fbx_is_refused() {
+    for text in ["hello", "Kaydara FBX Binary  \0\u{1a}\0", "; FBX 7.4.0 project file\nObjects: {"]
+    {
+        let told = read(text).err();
+        // Text without any object is an empty scene.
+        assert!(told.is_none_or(|told| told.starts_with("cannot be read as FBX: ")));
+    }
+    assert!(read("Kaydara FBX Binary  \0\u{1a}\0").is_err());
+}
+
+/// Cut off anywhere, and with a number or a letter wrong.
+#[test]
+fn damaged_files_are_read_or_refused() {
+    let text = cube_fbx();
+    for place in (0..text.len()).step_by(7) {
+        if let Ok(document) = read(&text[..place]) {
+            assert!(document.meshes().len() <= 1);
+        }
+        for wrong in ["9", "-", "\"", "}"] {
+            let mut changed = text.clone();
+            changed.replace_range(place..place + 1, wrong);
+            if let Ok(document) = read(&changed) {
+                for source in document.meshes() {
+                    let count = source.mesh.positions.len();
+                    assert!(source.mesh.indices.iter().all(|&index| (index as usize) < count));
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,30 @@
+//! Stored values in double precision.
+
+use glam::DVec3;
+
+/// How far a unit vector may be from length 1, and a tangent from a right angle: what importers
+/// leave behind that store directions in 10 to 16 bits.
+pub(super) const UNIT_TOLERANCE: f64 = 1e-3;
+
+/// A triangle has no area if twice its area is at most this share of its longest side squared:
+/// far above the rounding of a cross product in double precision (1e-16), far below the height
+/// that single-precision corners give to anything but a line (1e-7).
+const NO_AREA: f64 = 1e-10;
+
+/// A stored vector in double precision.
+pub(super) fn vector(stored: &[f32; 3]) -> DVec3 {
+    DVec3::from(stored.map(f64::from))
+}
+
+/// Whether a vector has length 1, as nearly as importers store it.
+pub(super) fn is_unit(vector: DVec3) -> bool {
+    (vector.length() - 1.0).abs() <= UNIT_TOLERANCE
+}
+
+/// The normal of a triangle, twice its area long; none where that is nothing.
+pub(super) fn normal_with_area([a, b, c]: [DVec3; 3]) -> Option<DVec3> {
+    let normal = (b - a).cross(c - a);
+    let longest =
+        [b - a, c - b, a - c].iter().map(|side| side.length_squared()).fold(0.0, f64::max);
+    (normal.length() > NO_AREA * longest).then_some(normal)
+}

@@ -1,0 +1,154 @@
+//! Crowds: what meets by the dozen at one vertex or edge of the source.
+//!
+//! Boxes around all of them overlap there, so boxes alone would have each compared with each. As
+//! seen from there they lie in different directions, and still do when they have been pulled apart;
+//! and what lies beside a crowd is told from it the same way.
+
+use crate::ids::{Cluster, Corner, Id, IdVec, Sector, Vertex};
+use crate::intersect::Around;
+use crate::placement::Placement;
+use crate::plan::Plan;
+use crate::topology::Topology;
+
+use super::Element;
+
+/// Where fewer meet, comparing each with each costs less than telling them apart.
+const CROWD: u32 = 32;
+
+/// What a crowd meets at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Crowd {
+    /// Half-edges, all on the edge of this one.
+    Side(Corner),
+    /// Corners that move as one.
+    Sector(Sector),
+    /// Corners that part.
+    Cluster(Cluster),
+}
+
+impl Crowd {
+    /// Crowds with different names have nothing in common.
+    pub fn name(self) -> u64 {
+        let (kind, number) = match self {
+            Crowd::Side(corner) => (0, corner.0),
+            Crowd::Sector(sector) => (1, sector.0),
+            Crowd::Cluster(cluster) => (2, cluster.0),
+        };
+        kind << 32 | u64::from(number)
+    }
+
+    /// From where its members lie in different directions, where the sectors stand now.
+    pub fn around(self, plan: &Plan, placement: &Placement) -> Around {
+        let source = |vertex: Vertex| plan.view.mesh.positions[vertex.index()];
+        let at = |corner: Corner| source(plan.view.vertex_at(corner));
+        match self {
+            Crowd::Side(corner) => Around::line([at(corner), at(corner.next())]),
+            Crowd::Sector(sector) => Around::point(placement.point[sector].as_vec3().to_array()),
+            Crowd::Cluster(cluster) => Around::point(source(plan.weld.first_vertex[cluster])),
+        }
+    }
+}
+
+/// Where crowds meet in a mesh.
+pub struct Crowds {
+    /// `#clusters`: how many corners are there.
+    at_cluster: IdVec<Cluster, u32>,
+    /// `#sectors`: how many corners are in each.
+    in_sector: IdVec<Sector, u32>,
+    /// Half-edges on crowded edges, each with the one that stands for all of them; sorted.
+    on_side: Vec<[Corner; 2]>,
+}
+
+/// None in most meshes.
+pub fn crowds(plan: &Plan) -> Option<Crowds> {
+    let mut at_cluster = IdVec::filled(0, plan.weld.first_vertex.len());
+    plan.topology.cluster_at.iter().for_each(|&cluster| at_cluster[cluster] += 1);
+    if at_cluster.iter().all(|&count| count < CROWD) {
+        return None;
+    }
+    let mut in_sector = IdVec::filled(0, plan.sectors.fans.len());
+    let sectors = plan.sectors.sector_of.iter().filter(|sector| sector.is_some());
+    sectors.for_each(|&sector| in_sector[sector] += 1);
+    Some(Crowds { at_cluster, in_sector, on_side: crowded_sides(&plan.topology) })
+}
+
+impl Crowds {
+    /// The crowd that an element belongs to, or else one that it lies beside.
+    pub fn of(&self, plan: &Plan, element: Element) -> Option<Crowd> {
+        match element {
+            Element::Surface(triangle) => self.among(plan, &triangle.corners()),
+            Element::Strip(edge) => {
+                let sides = plan.edges.hard[edge].sides;
+                self.among(plan, &[sides[0], sides[0].next()])
+                    .or_else(|| self.beside(plan, sides.into_iter()))
+            }
+            Element::Fill(ring) => {
+                let sectors = plan.sectors.ring(ring).iter();
+                self.beside(plan, sectors.map(|&sector| plan.sectors.fans[sector].first))
+            }
+        }
+    }
+
+    /// The crowd of the faces of some corners. One that moves as one, such as the end of a cylinder,
+    /// comes first: it is flat as a rule, and then boxes alone tell nothing apart.
+    fn beside(&self, plan: &Plan, corners: impl Iterator<Item = Corner>) -> Option<Crowd> {
+        let faces = corners.map(|corner| corner.triangle().corners());
+        let crowds = faces.filter_map(|corners| self.among(plan, &corners));
+        crowds.max_by_key(|crowd| matches!(crowd, Crowd::Sector(_)))
+    }
+
+    /// The largest crowd that one of some corners is in; a crowded edge before all others.
+    fn among(&self, plan: &Plan, corners: &[Corner]) -> Option<Crowd> {
+        let side = |corner: &Corner| self.on_side.binary_search_by_key(corner, |side| side[0]).ok();
+        if let Some(place) = corners.iter().find_map(side) {
+            return Some(Crowd::Side(self.on_side[place][1]));
+        }
+        let count = |corner: Corner| self.at_cluster[plan.topology.cluster_at[corner]];
+        let most = corners.iter().copied().max_by_key(|&corner| count(corner))?;
+        let sector = plan.sectors.sector_of[most];
+        match () {
+            () if count(most) < CROWD => None,
+            () if sector.is_some() && self.in_sector[sector] >= CROWD => {
+                Some(Crowd::Sector(sector))
+            }
+            () => Some(Crowd::Cluster(plan.topology.cluster_at[most])),
+        }
+    }
+}
+
+/// The half-edges on edges that carry a crowd of them, each with the one that stands for all;
+/// sorted.
+fn crowded_sides(topology: &Topology) -> Vec<[Corner; 2]> {
+    let groups = topology.touching.chunk_by(|one, other| one[0] == other[0]);
+    let crowded = groups.filter(|group| group.len() as u32 + 1 >= CROWD);
+    let mut sides: Vec<[Corner; 2]> = crowded
+        .flat_map(|group| {
+            let first = group[0][0];
+            std::iter::once([first; 2]).chain(group.iter().map(move |pair| [pair[1], first]))
+        })
+        .collect();
+    sides.sort_unstable();
+    sides
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::tests::plan_of;
+    use crate::shapes;
+
+    #[test]
+    fn many_faces_at_one_corner_are_a_crowd() {
+        let (few, many) = (shapes::pyramid(8), shapes::pyramid(40));
+        assert!(crowds(&plan_of(&few, 0.1)).is_none());
+        let plan = plan_of(&many, 0.1);
+        let crowds = crowds(&plan).unwrap();
+        let of = |triangle| crowds.of(&plan, Element::Surface(triangle)).unwrap();
+        let found: Vec<Crowd> = plan.view.triangles().map(of).collect();
+        // The faces around the tip, and the floor, whose triangles have one corner in common.
+        assert!(found[..40].iter().all(|crowd| *crowd == found[0]));
+        assert!(matches!(found[0], Crowd::Cluster(_)));
+        assert!(found[40..].iter().all(|crowd| *crowd == found[40]));
+        assert!(matches!(found[40], Crowd::Sector(_)));
+    }
+}

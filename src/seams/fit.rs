@@ -1,0 +1,113 @@
+//! Fit: how badly a chamfer lies on the texture.
+
+use glam::{DVec2, DVec3};
+
+use super::density::{density, texture_area};
+use super::feet::Room;
+use super::ground::Ground;
+use crate::ids::Corner;
+use crate::math::area_vector;
+use crate::plan::Plan;
+
+/// A chamfer that lies this many times denser or thinner on the texture than the face that it
+/// continues looks smeared or noisy: then another way to map it is tried.
+pub const MOST_STRETCH: f64 = 3.9;
+
+/// Past the end of its chart a chamfer shows what belongs elsewhere, which is worse than any
+/// stretch that can still be looked at.
+const BEYOND: f64 = 100.0;
+
+/// A chamfer as it lies on the texture.
+pub struct Lie<'a> {
+    /// `#triangles`: places in the points.
+    pub triangles: &'a [[usize; 3]],
+    pub points: &'a [DVec3],
+    /// `#points`.
+    pub uvs: &'a [DVec2],
+}
+
+impl Lie<'_> {
+    /// The triangles on the texture.
+    fn texture(&self) -> impl Iterator<Item = [DVec2; 3]> + '_ {
+        self.triangles.iter().map(|triangle| triangle.map(|place| self.uvs[place]))
+    }
+}
+
+/// How a chamfer may lie on the texture.
+#[derive(Clone, Copy, PartialEq)]
+pub enum Facing {
+    /// As the face that it continues does.
+    AsFace,
+    /// Mirrored too: between faces of which one is, the texture turns over somewhere.
+    Either,
+}
+
+/// The factor by which the worst of some triangles lies denser or thinner on the texture than a
+/// face of the given density: 1 at best, infinite where one is mirrored or has no UV area.
+fn stretch(density: f64, facing: Facing, resolution: f64, lie: &Lie) -> f64 {
+    if density == 0.0 {
+        return 1.0;
+    }
+    let of_triangle = |triangle: &[usize; 3]| {
+        let area = area_vector(triangle.map(|place| lie.points[place])).length();
+        let signed = texture_area(triangle.map(|place| lie.uvs[place])) / density / area;
+        let ratio = if facing == Facing::Either { signed.abs() } else { signed };
+        let is_tiny = area <= resolution * resolution;
+        match () {
+            () if is_tiny => 1.0,
+            () if ratio > 0.0 => ratio.max(1.0 / ratio),
+            () => f64::INFINITY,
+        }
+    };
+    lie.triangles.iter().map(of_triangle).fold(1.0, f64::max)
+}
+
+/// How badly a chamfer lies on the texture of a face: as [`stretch`], and many times as much where
+/// it leaves the ground.
+pub fn misfit(
+    plan: &Plan,
+    face: Corner,
+    facing: Facing,
+    channel: usize,
+    ground: &Ground,
+    lie: &Lie,
+) -> f64 {
+    let density = density(plan, face.triangle(), channel);
+    let stretch = stretch(density, facing, plan.view.resolution, lie);
+    if stretch.is_finite() && !lie.texture().all(|uvs| ground.covers(uvs)) {
+        return stretch * BEYOND;
+    }
+    stretch
+}
+
+/// Where the ground has the most room to lay a chamfer of a face flat, as dense as the face.
+pub fn roomiest(plan: &Plan, face: Corner, channel: usize, ground: &Ground) -> Room {
+    let corner = Corner(3 * ground.roomiest().0);
+    let densities = [face, corner].map(|at| density(plan, at.triangle(), channel).abs());
+    let scale = (densities[0] / densities[1]).sqrt();
+    Room { corner, scale: if scale.is_finite() { scale } else { 1.0 } }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const UVS: [DVec2; 3] = [DVec2::ZERO, DVec2::X, DVec2::Y];
+
+    #[test]
+    fn thin_and_dense_are_alike_and_mirrored_is_worst() {
+        let stretch = |facing: Facing, uvs: [DVec2; 3]| {
+            let points = [DVec3::ZERO, DVec3::X, DVec3::Y];
+            let lie = Lie { triangles: &[[0, 1, 2]], points: &points, uvs: &uvs };
+            stretch(1.0, facing, 1e-6, &lie)
+        };
+        let of = |uvs| stretch(Facing::AsFace, uvs);
+        assert_eq!(of(UVS), 1.0);
+        assert_eq!(of(UVS.map(|uv| uv * 2.0)), 4.0);
+        assert_eq!(of(UVS.map(|uv| uv * 0.5)), 4.0);
+        assert_eq!(of([UVS[0], UVS[2], UVS[1]]), f64::INFINITY);
+        assert_eq!(of([UVS[0]; 3]), f64::INFINITY);
+        let either = |uvs| stretch(Facing::Either, uvs);
+        assert_eq!(either([UVS[0], UVS[2], UVS[1]]), 1.0);
+    }
+}

@@ -1,0 +1,142 @@
+//! Parts that touch: boxes that share corners, edges, faces or flush sides, some of them open, some
+//! there twice, some turned.
+//!
+//! The same cases on every run. For more: `PROPTEST_CASES=4000 cargo test --release --test
+//! assemblies`.
+
+#[path = "support/boxes.rs"]
+mod boxes;
+
+use chamfer::check::{assert_sound, check, compare};
+use chamfer::{Chamfered, MeshBuffers, Options, Reason, Verify, Width, chamfer};
+use glam::{DMat3, DVec3};
+use proptest::collection::vec;
+use proptest::prelude::*;
+use proptest::test_runner::{Config, RngSeed};
+
+use boxes::{Block, Skin, assembly};
+
+/// As many as a debug build checks in a few seconds.
+const CASES: u32 = 300;
+
+fn config() -> Config {
+    let asked = Config::default();
+    Config {
+        cases: if std::env::var_os("PROPTEST_CASES").is_some() { asked.cases } else { CASES },
+        rng_seed: match asked.rng_seed {
+            RngSeed::Random => RngSeed::Fixed(1),
+            fixed => fixed,
+        },
+        failure_persistence: None,
+        ..asked
+    }
+}
+
+/// Places on a coarse grid, so that boxes have corners, edges and sides in common.
+fn block() -> impl Strategy<Value = Block> {
+    let without =
+        prop_oneof![4 => Just(0u8), 1 => (0..6u32).prop_map(|face| 1 << face), 1 => 0..63u8];
+    let skin = prop_oneof![
+        5 => Just(Skin::Once),
+        1 => Just(Skin::Copied),
+        1 => Just(Skin::TwoSided)
+    ];
+    let place = ([0..4i32, 0..4i32, 0..4i32], [1..4i32, 1..4i32, 1..4i32]);
+    (place, without, skin, 0..4096u16).prop_map(|((low, size), without, skin, diagonals)| {
+        let at = |k: usize| f64::from(low[k]);
+        let end = |k: usize| f64::from(low[k] + size[k]);
+        Block { low: [0, 1, 2].map(at), high: [0, 1, 2].map(end), without, skin, diagonals }
+    })
+}
+
+fn turn() -> impl Strategy<Value = DMat3> {
+    let turned =
+        (0.0..3.0f64).prop_map(|angle| DMat3::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), angle));
+    prop_oneof![2 => Just(DMat3::IDENTITY), 1 => turned]
+}
+
+fn percent() -> impl Strategy<Value = f32> {
+    prop_oneof![Just(1.0f32), 0.1..4.0f32, 4.0..20.0f32]
+}
+
+proptest! {
+    #![proptest_config(config())]
+
+    #[test]
+    fn assemblies_of_boxes_are_sound(
+        blocks in vec(block(), 1..6),
+        turn in turn(),
+        is_merged in any::<bool>(),
+        percent in percent(),
+    ) {
+        let mesh = assembly(&blocks, turn, is_merged);
+        for verify in [Verify::Fast, Verify::Full] {
+            let width = Width::PercentOfExtent(percent);
+            let options = Options::default().with_width(width).with_verify(verify);
+            let result = chamfer(&mesh.as_mesh(), &options).unwrap();
+            let findings = check(&mesh.as_mesh(), &result, verify);
+            prop_assert!(findings.is_sound(), "{verify:?}: {findings}");
+        }
+    }
+}
+
+fn chamfered(name: &str, mesh: &MeshBuffers, width: f32) -> Chamfered {
+    let options = Options::default().with_width(Width::Units(width));
+    let result = chamfer(&mesh.as_mesh(), &options).unwrap();
+    assert_sound(name, &mesh.as_mesh(), &result);
+    result
+}
+
+/// A top and four legs that reach through it, flush with its sides and its upper face: five solids.
+#[test]
+fn a_table_with_flush_legs_is_five_solids() {
+    let mut blocks = vec![Block::new([0.0, 0.9, 0.0], [2.0, 1.0, 1.0])];
+    for (x, z) in [(0.0, 0.0), (1.9, 0.0), (0.0, 0.9), (1.9, 0.9)] {
+        blocks.push(Block::new([x, 0.0, z], [x + 0.1, 1.0, z + 0.1]));
+    }
+    let table = assembly(&blocks, DMat3::IDENTITY, false);
+    let result = chamfered("table", &table, 0.02);
+    assert!(result.totals.chamfered + result.totals.narrowed >= 58);
+}
+
+/// A wall and a skirting board with a lower edge in common: both keep their own faces there.
+#[test]
+fn a_board_on_a_wall_is_chamfered_with_it() {
+    let wall = Block::new([0.0, 0.0, 0.0], [4.0, 3.0, 0.2]);
+    let board = Block::new([0.0, 0.0, 0.0], [4.0, 0.2, 0.3]);
+    let mesh = assembly(&[wall, board], DMat3::IDENTITY, false);
+    let result = chamfered("wall", &mesh, 0.04);
+    assert_eq!(result.totals.chamfered, 24);
+}
+
+#[test]
+fn a_box_that_is_there_twice_is_chamfered_twice() {
+    for (skin, diagonals) in
+        [(Skin::Copied, 0), (Skin::Copied, 0o77), (Skin::TwoSided, 0), (Skin::TwoSided, 0o52)]
+    {
+        let block = Block { diagonals, ..Block::new([0.0; 3], [1.0; 3]).with(skin) };
+        let mesh = assembly(&[block], DMat3::IDENTITY, false);
+        let result = chamfered("box", &mesh, 0.02);
+        assert_eq!(result.totals.chamfered, 24, "{skin:?}");
+        let [first, second] = [0, 24].map(|start| {
+            let mut points = result.mesh.positions[start..start + 24].to_vec();
+            points.sort_by(|a, b| a.partial_cmp(b).unwrap());
+            points
+        });
+        assert_eq!(first, second, "both skins follow");
+        let edges = compare(&mesh.as_mesh(), &result.mesh.as_mesh(), Verify::Fast).edges;
+        assert_eq!(edges.len(), 24);
+        let is_measured = |width: f32| (width - 0.02).abs() < 1e-6;
+        assert!(edges.iter().all(|edge| edge.widths().into_iter().all(is_measured)), "{edges:?}");
+    }
+}
+
+/// A folded sheet of two sides ends somewhere: it is a card, and keeps its shape.
+#[test]
+fn a_folded_card_of_two_sides_keeps_its_fold() {
+    let block = Block { without: 0b11_1010, ..Block::new([0.0; 3], [1.0; 3]).with(Skin::TwoSided) };
+    let card = assembly(&[block], DMat3::IDENTITY, false);
+    let result = chamfered("card", &card, 0.02);
+    assert_eq!(result.mesh.positions, card.positions);
+    assert!(result.verdicts.iter().all(|verdict| verdict.reason == Reason::ZeroThickness));
+}

@@ -1,0 +1,195 @@
+//! Slivers that exporters leave: triangles that are hardly more than a line, or nothing else. Each
+//! mesh is the smallest one of its kind.
+
+use chamfer::check::check;
+use chamfer::{Chamfered, MeshBuffers, Options, Outcome, Reason, Verify, Width, chamfer};
+
+const UP: [f32; 3] = [0.0, 1.0, 0.0];
+
+/// A mesh of triangles with vertices of their own, each a position and a normal.
+fn triangles(triangles: &[[([f32; 3], [f32; 3]); 3]]) -> MeshBuffers {
+    let corners = triangles.as_flattened();
+    MeshBuffers {
+        positions: corners.iter().map(|corner| corner.0).collect(),
+        normals: corners.iter().map(|corner| corner.1).collect(),
+        indices: (0..corners.len() as u32).collect(),
+        submesh_index_counts: vec![corners.len() as u32],
+        ..MeshBuffers::default()
+    }
+}
+
+/// A triangle with one normal.
+fn flat(points: [[f32; 3]; 3], normal: [f32; 3]) -> [([f32; 3], [f32; 3]); 3] {
+    points.map(|point| (point, normal))
+}
+
+/// Chamfered soundly at both depths.
+#[track_caller]
+fn chamfered(mesh: &MeshBuffers, width: Width) -> Chamfered {
+    let [_, full] = [Verify::Fast, Verify::Full].map(|verify| {
+        let options = Options::default().with_width(width).with_verify(verify);
+        let result = chamfer(&mesh.as_mesh(), &options).unwrap();
+        let findings = check(&mesh.as_mesh(), &result, verify);
+        assert!(findings.is_sound(), "{verify:?}: {findings}");
+        result
+    });
+    full
+}
+
+//        N
+//      / | \         a nearly flat sheet: across O-E normals differ by 1.7 degrees, and both by
+//     W--O==E        half of that from those of the other triangles at O. The chamfer tapers to a
+//      \ | /         point there.
+//        S
+#[test]
+fn where_a_chamfer_tapers_both_normals_are_left_whatever_others_are_there() {
+    let lean = |degrees: f32| {
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        [0.0, cos, sin]
+    };
+    let [o, e, n, w, s] =
+        [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
+    let sheet = triangles(&[
+        flat([o, n, w], UP),
+        flat([o, w, s], UP),
+        [(o, lean(-0.85)), (e, lean(-0.85)), (n, UP)],
+        [(o, lean(0.85)), (s, UP), (e, lean(0.85))],
+    ]);
+    let result = chamfered(&sheet, Width::Units(0.1));
+    assert_eq!(result.totals.chamfered, 1);
+}
+
+//  . .            a floor seen from above, with walls below a-b and b-c. At b the floor is flat; its
+//  .   c --. d    other part, behind the line far-b-c, is shaded round. b is pulled over there, and
+//  a . b  .       the flat part keeps its normal.
+//   .  | .
+//     far
+#[test]
+fn what_is_flat_keeps_its_normal_where_a_line_leads_away_from_it() {
+    let [a, b, c] = [[-0.5, 0.0, 0.2], [0.0; 3], [0.0, 0.0, -0.2]];
+    let (far, d) = ([0.0, 0.0, 30.0], [0.3, 0.0, 30.0]);
+    let low = |[x, y, z]: [f32; 3]| [x, y - 1.0, z];
+    let walls =
+        [([a, b, low(a)], [-0.371_390_7, 0.0, -0.928_476_7]), ([b, c, low(b)], [-1.0, 0.0, 0.0])];
+    let round = [(c, UP), (far, UP), (d, [-0.12, 0.992_774, 0.0])];
+    let mut faces = vec![flat([b, a, far], UP), flat([c, b, far], UP), round];
+    faces.extend(walls.map(|(points, normal)| flat(points, normal)));
+    let result = chamfered(&triangles(&faces), Width::Units(0.1));
+    assert_eq!(result.totals.narrowed + result.totals.chamfered, 2);
+}
+
+//  A-B ---------------- C     the upper border of a wall, with a line along it: C is a rounding
+//  |                    |     nearer than A and B. Where A is pulled onto B, nothing is left of it.
+//  |                    |
+//  F ------------------ G
+#[test]
+fn a_line_keeps_the_area_that_it_has() {
+    let nearer = -1.0 + 2.0 * f32::EPSILON;
+    let [a, b, c] = [[-0.75, 0.5, -1.0], [-0.74, 0.5, -1.0], [0.0, 0.5, nearer]];
+    let (f, g) = ([-0.75, 0.25, -1.0], [0.0, 0.25, nearer]);
+    let behind = [-0.75, 0.5, -1.25];
+    let (front, side) = ([0.0, 0.0, 1.0], [-1.0, 0.0, 0.0]);
+    let wall = triangles(&[
+        flat([f, a, behind], side),
+        flat([a, f, g], front),
+        flat([a, g, c], front),
+        flat([b, a, c], front),
+    ]);
+    chamfered(&wall, Width::Units(0.02));
+}
+
+//  t---f       a narrow wall, and the seam b-f across it. The corner b goes towards r, past its own
+//  | . |       triangle t-b-f, whose places are so large that single precision cannot hold what they
+//  b---r       lead to.
+#[test]
+fn texture_places_of_any_size_stay_finite() {
+    let [b, r] = [[0.0; 3], [0.01, 0.0, 0.0]];
+    let [t, f] = [[0.0, 1.0, 0.0], [0.01, 1.0, 0.0]];
+    let front = [0.0, 0.0, 1.0];
+    let mut wall = triangles(&[
+        flat([f, t, b], front),
+        flat([f, b, r], front),
+        flat([b, t, [0.0, 0.0, -1.0]], [-1.0, 0.0, 0.0]),
+    ]);
+    wall.uvs[0].components = 2;
+    wall.uvs[0].values = vec![0.0; 2 * wall.positions.len()];
+    wall.uvs[0].values[..6].copy_from_slice(&[3e38, -3e38, 0.0, 0.0, 2.5e38, -2.5e38]);
+    let result = chamfered(&wall, Width::Units(0.1));
+    assert!(result.mesh.uvs[0].values.iter().all(|value| value.is_finite()));
+}
+
+//  A---------B     the front of a box of 2 by 1 by 1, cut into so many parts, and seen from the
+//  |    M    |     front: its top has one edge from A to B, and lines like A-M-B close the gap. They
+//  |    |    |     have the normal that is given.
+//  '----'----'
+fn box_with_cut_front(parts: usize, normal: [f32; 3]) -> MeshBuffers {
+    let at = |part: usize, y: f32| [2.0 * part as f32 / parts as f32, y, 1.0];
+    let quad = |points: [[f32; 3]; 4], normal| {
+        let [a, b, c, d] = points;
+        [flat([a, b, c], normal), flat([a, c, d], normal)]
+    };
+    let [low, high] = [[0.0; 3], [2.0, 1.0, 0.0]];
+    let (a, b) = (at(0, 1.0), at(parts, 1.0));
+    let (left, right) = ([0.0, 1.0, 0.0], [2.0, 0.0, 0.0]);
+    let mut faces = Vec::new();
+    faces.extend(quad([low, at(0, 0.0), a, left], [-1.0, 0.0, 0.0]));
+    faces.extend(quad([right, high, b, at(parts, 0.0)], [1.0, 0.0, 0.0]));
+    faces.extend(quad([left, a, b, high], UP));
+    faces.extend(quad([low, left, high, right], [0.0, 0.0, -1.0]));
+    faces.push(flat([low, right, at(parts, 0.0)], [0.0, -1.0, 0.0]));
+    for part in 0..parts {
+        let [here, next] = [part, part + 1];
+        let front = [at(here, 0.0), at(next, 0.0), at(next, 1.0), at(here, 1.0)];
+        faces.extend(quad(front, [0.0, 0.0, 1.0]));
+        faces.push(flat([low, at(next, 0.0), at(here, 0.0)], [0.0, -1.0, 0.0]));
+        if part > 0 {
+            faces.push(flat([a, at(here, 1.0), at(next, 1.0)], normal));
+        }
+    }
+    triangles(&faces)
+}
+
+/// Whichever face the lines belong to, all edges get the full width. Below, each part has an edge of
+/// its own; above, too, where the lines are part of the top.
+#[test]
+fn a_line_between_an_edge_and_two_goes_along_with_their_chamfer() {
+    for parts in 1..5 {
+        for (normal, above) in [([0.0, 0.0, 1.0], 1), (UP, parts)] {
+            let result = chamfered(&box_with_cut_front(parts, normal), Width::Units(0.05));
+            assert_eq!(result.totals.chamfered as usize, 10 + parts + above, "{parts} {normal:?}");
+            assert_eq!(result.totals.hard_edges, result.totals.chamfered);
+        }
+    }
+}
+
+/// A line whose normal is that of no face beside it belongs to none: the edge above stays and says
+/// so, and all others get the full width.
+#[test]
+fn a_line_that_belongs_to_no_face_says_so() {
+    let result = chamfered(&box_with_cut_front(2, [1.0, 0.0, 0.0]), Width::Units(0.05));
+    let skipped = result.verdicts.iter().filter(|verdict| verdict.outcome == Outcome::Skipped);
+    assert!(skipped.clone().all(|verdict| verdict.reason == Reason::NoArea));
+    assert_eq!((skipped.count(), result.totals.chamfered), (3, 12));
+}
+
+//      c
+//     /|\        a card of no thickness, a-b-c on both sides, stands on the edge a-b of two open faces
+//    / | \       that meet there, and so four sides share it
+//   a--+--b
+//   |  d  |
+#[test]
+fn a_card_on_the_edge_of_open_faces_makes_no_edge_more_crowded() {
+    let [a, b, c] = [[0.0; 3], [3.0, 0.0, 0.0], [1.0, 2.0, 1.0]];
+    let (d, e) = ([1.0, -2.0, 0.0], [2.0, 0.0, -3.0]);
+    let normal = |[p, q, r]: [[f32; 3]; 3]| {
+        let [p, q, r] = [p, q, r].map(glam::Vec3::from);
+        (q - p).cross(r - p).normalize().to_array()
+    };
+    for faces in [&[[a, d, b], [a, b, e]][..], &[[a, d, b]], &[[a, b, e]]] {
+        let all = [[a, b, c], [b, a, c]].into_iter().chain(faces.iter().copied());
+        let all: Vec<_> = all.map(|points| flat(points, normal(points))).collect();
+        for percent in [0.0001, 1.0, 5.0] {
+            chamfered(&triangles(&all), Width::PercentOfExtent(percent));
+        }
+    }
+}
