@@ -28,7 +28,6 @@ use crate::report::Chamfered;
 
 use facts::facts;
 use origins::Origins;
-use pieces::Within;
 use solids::Solids;
 use surface::Surface;
 use widths::Ruler;
@@ -89,18 +88,7 @@ fn likelier_origins(surfaces: &[Surface; 2], findings: Findings) -> (Origins<'st
         check_geometry(surfaces, &origins, Verify::Fast, &mut findings);
         (origins, findings)
     };
-    let in_order = |within: Within| {
-        let origins = Origins::in_order(surfaces, within)?;
-        Some(found_with(origins, Matching::Order))
-    };
-    let is_sound = |found: &(Origins, Findings)| found.1.is_sound();
-    // Pieces are looked for as nearly as can be first.
-    let in_order = match in_order(Within::Corners) {
-        Some(found) if !is_sound(&found) => {
-            in_order(Within::Middle).filter(is_sound).or(Some(found))
-        }
-        found => found,
-    };
+    let in_order = Origins::in_order(surfaces).map(|origins| found_with(origins, Matching::Order));
     match in_order {
         Some(in_order) if in_order.1.is_sound() => in_order,
         in_order => {

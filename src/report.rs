@@ -14,8 +14,8 @@ pub use vertex_sources::VertexSources;
 pub struct Chamfered {
     /// The mesh. Source vertices keep their indices and source triangles their order; what is new
     /// stands behind them, per submesh. Where a hard edge got vertices, the triangles beside it are
-    /// in pieces: the first stands in the place of the source triangle, the others behind all
-    /// source triangles of the submesh. Vertices that come out equal in every stream are joined:
+    /// in pieces: the first stands in the place of the source triangle, the others right behind all
+    /// source triangles of the submesh, in the order of these. Vertices that come out equal in every stream are joined:
     /// a corner of a source triangle may then use the index of its equal, and its own vertex is
     /// left unused.
     pub mesh: MeshBuffers,

@@ -59,18 +59,17 @@ pub(super) fn check_flatness(
     let least_height = LEAST_HEIGHT * before.rounding();
     for (triangle, source) in (0u32..).zip(&origins.triangles) {
         let Some(source) = source else { continue };
-        // A line or a point has no plane and shows no normal; of a piece the corners are guessed.
-        if origins.is_guess(triangle) || normal_with_area(before.triangle(source[0] / 3)).is_none()
-        {
+        // A line or a point has no plane and shows no normal.
+        if normal_with_area(before.triangle(source[0] / 3)).is_none() {
             continue;
         }
         let alone = || Fan::of_triangle(before, source[0] / 3, least_height);
         let fan_at = |corner: u32| match origins.own_corner(corner) {
-            Some(own) => Some((fans[fan_of[own as usize] as usize], corner)),
+            Some(own) => (fans[fan_of[own as usize] as usize], corner),
             // A corner that a cut has added on a hard edge belongs to nothing but its triangle.
-            None => origins.are_told().then(|| (alone(), corner)),
+            None => (alone(), corner),
         };
-        let corners = || [0, 1, 2].into_iter().filter_map(|side| fan_at(3 * triangle + side));
+        let corners = || (0..3).map(|side| fan_at(3 * triangle + side));
         if corners().any(|(fan, corner)| {
             fan.off_plane <= FLAT_TOLERANCE * extent
                 && !fan.leans

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::matching::match_triangles;
-use super::pieces::{Cut, Within, is_covered, pieces_in_order};
+use super::pieces::{Cut, is_covered, pieces_in_order};
 use super::rules::{Element, Facts, Findings, Rule};
 use super::surface::Surface;
 use crate::mesh::Mesh;
@@ -57,9 +57,8 @@ impl<'a> Origins<'a> {
     }
 
     /// By the order of the triangles: those of the source stand first in each submesh, or their
-    /// first pieces in their place. None where there are too few.
-    pub fn in_order(surfaces: &[Surface; 2], within: Within) -> Option<Self> {
-        let [before, after] = surfaces;
+    /// first pieces in their place, and then the other pieces. None where there are too few.
+    pub fn in_order([before, after]: &[Surface; 2]) -> Option<Self> {
         let mut triangles = Vec::with_capacity(after.triangle_count() as usize);
         let mut first = 0;
         for (submesh, &indices) in after.mesh.submesh_index_counts.iter().enumerate() {
@@ -73,7 +72,7 @@ impl<'a> Origins<'a> {
         (first == before.triangle_count()).then(|| {
             let mut triangles: Vec<_> =
                 triangles.into_iter().map(|first| first.map(corners)).collect();
-            let cuts = pieces_in_order(surfaces, within, &mut triangles);
+            let cuts = pieces_in_order([before, after], &mut triangles);
             Origins { triangles, cuts, vertices: None }
         })
     }
@@ -183,16 +182,6 @@ impl<'a> Origins<'a> {
         let corners = self.triangles[triangle as usize]?;
         let is_own = self.cuts.get(&triangle).is_none_or(|cut| cut.is_own[side]);
         is_own.then_some(corners[side])
-    }
-
-    /// Whether a triangle is a piece for all that is known, but nothing tells of which triangle.
-    pub fn is_guess(&self, triangle: u32) -> bool {
-        !self.are_told() && self.cuts.contains_key(&triangle)
-    }
-
-    /// Whether it is known for sure what is what, as where the result tells.
-    pub fn are_told(&self) -> bool {
-        self.vertices.is_some()
     }
 }
 

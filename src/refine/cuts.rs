@@ -28,6 +28,20 @@ pub fn pieces(
         None => cut(whole, points, &mut pieces),
         Some(middle) => cut_around(whole, &points, middle, &mut pieces),
     }
+    side_by_side(pieces)
+}
+
+/// The first one, and then such as lie beside an earlier one.
+fn side_by_side(mut pieces: Vec<[CutCorner; 3]>) -> Vec<[CutCorner; 3]> {
+    let shared = |one: &[CutCorner; 3], other: &[CutCorner; 3]| {
+        one.iter().filter(|(vertex, _)| other.iter().any(|(own, _)| own == vertex)).count()
+    };
+    for done in 1..pieces.len() {
+        let (before, rest) = pieces.split_at(done);
+        let is_beside = |piece: &[CutCorner; 3]| before.iter().any(|one| shared(one, piece) == 2);
+        let next = rest.iter().position(is_beside).unwrap_or(0);
+        pieces[done..=done + next].rotate_right(1);
+    }
     pieces
 }
 

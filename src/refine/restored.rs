@@ -127,32 +127,32 @@ pub fn restored(origins: &Origins, fine: Chamfered) -> Chamfered {
     told
 }
 
-/// Puts the submeshes that hold pieces behind those that they belong to.
+/// Puts the pieces behind the source triangles of their submesh, and behind them what is new.
 fn join_submeshes(origins: &Origins, told: &mut Chamfered) {
     let counts = std::mem::take(&mut told.mesh.submesh_index_counts);
+    let refined = origins.refined;
     let own = origins.source.submesh_index_counts.len();
+    let extra = own..own + refined.belong_to.len();
     let mut starts = vec![0];
     for count in &counts {
-        starts.push(starts[starts.len() - 1] + count / 3);
+        starts.push(starts[starts.len() - 1] + *count as usize / 3);
     }
-    let extra = own..own + origins.refined.belong_to.len();
-    let mut order: Vec<usize> = Vec::new();
+    let kept = |k: usize| refined.mesh.submesh_index_counts.get(k).map_or(0, |count| count / 3);
+    let mut all = Vec::new();
     for submesh in (0..counts.len()).filter(|submesh| !extra.contains(submesh)) {
-        order.push(submesh);
-        let belongs = |k: &usize| origins.refined.belong_to[k - own] as usize == submesh;
-        let mut count = counts[submesh];
-        for piece in extra.clone().filter(belongs) {
-            order.push(piece);
-            count += counts[piece];
-        }
-        told.mesh.submesh_index_counts.push(count);
+        let belongs = |k: &usize| refined.belong_to[k - own] as usize == submesh;
+        let parts = || std::iter::once(submesh).chain(extra.clone().filter(belongs));
+        let middle = |k: usize| starts[k] + kept(k) as usize;
+        all.extend(parts().map(|k| starts[k]..middle(k)));
+        all.extend(parts().map(|k| middle(k)..starts[k + 1]));
+        told.mesh.submesh_index_counts.push(parts().map(|k| counts[k]).sum());
     }
-    let spans = || order.iter().map(|&k| starts[k] as usize..starts[k + 1] as usize);
+    let spans = || all.iter().cloned();
     let sources = spans().flat_map(|span| told.triangle_sources[span].iter().copied()).collect();
     let corners = |span: std::ops::Range<usize>| 3 * span.start..3 * span.end;
     let indices = spans().flat_map(|span| told.mesh.indices[corners(span)].iter().copied());
     let indices = indices.collect();
-    let mut place_of = vec![0; starts[starts.len() - 1] as usize];
+    let mut place_of = vec![0; starts[starts.len() - 1]];
     for (place, old) in (0u32..).zip(spans().flatten()) {
         place_of[old] = place;
     }

@@ -57,7 +57,7 @@ fn a_vertex_on_one_side_halves_the_triangle() {
 /// ```
 #[test]
 fn vertices_on_two_sides_leave_none_in_the_middle_of_a_side() {
-    assert_eq!(cut_at([&[0.5], &[0.5], &[]]), [[0, 3, 2], [3, 1, 4], [3, 4, 2]]);
+    assert_eq!(cut_at([&[0.5], &[0.5], &[]]), [[0, 3, 2], [3, 4, 2], [3, 1, 4]]);
 }
 
 #[test]
