@@ -21,7 +21,7 @@ use drawing::Drawing;
 type Draw = fn() -> Drawing;
 
 /// The stages, in the order of the pipeline.
-const FIGURES: [(&str, Draw); 15] = [
+const FIGURES: [(&str, Draw); 16] = [
     ("view", source::view),
     ("weld", source::weld),
     ("topology", source::topology),
@@ -37,6 +37,7 @@ const FIGURES: [(&str, Draw); 15] = [
     ("fills", result::fills),
     ("verdicts", result::verdicts),
     ("output", result::output),
+    ("refine", contacts::refine),
 ];
 
 #[test]

@@ -120,11 +120,11 @@ const MIDDLE_DEPTH: f64 = 0.5;
 /// what is between it and the edge hardly narrows a chamfer.
 const LEAST_DEPTH: f64 = 1.3;
 
-/// What a call may take is told from the counts of the source. So the finer mesh has no more corners
-/// than it, but for this share,
+/// Where so many edges are like that, the mesh is not worth what they would cost: the finer one has
+/// no more corners than it, but for this share,
 const MOST_GROWTH: f64 = 0.25;
 
-/// and for these of small ones, which take less than what any call may.
+/// and for these of small ones, where a few edges are much.
 const FEW_CORNERS: f64 = 1024.0;
 
 /// The mesh with vertices where only a part of an edge can have a chamfer; mostly none.

@@ -17,7 +17,7 @@ use crate::view::wide;
 const ABOVE: [f64; 3] = [0.6, 3.0, 2.0];
 
 /// The result's triangles, painted by what they are.
-fn draw_result(drawing: &mut Drawing, result: &Chamfered, camera: Camera) -> Scene {
+pub fn draw_result(drawing: &mut Drawing, result: &Chamfered, camera: Camera) -> Scene {
     let paint = |kind| match kind {
         TriangleKind::Source => CLAY,
         TriangleKind::Edge => STRIP,

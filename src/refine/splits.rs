@@ -19,7 +19,8 @@ const TAPER: f64 = 2.0;
 /// may go at most.
 const FROM_BAD_END: f64 = 3.0;
 
-/// Of a strip that is no longer than so many widths a third is near its bad end anyhow.
+/// A strip that is no longer than so many widths is left alone: at a bad end a third of it is near
+/// that anyhow, and one that opens and closes again within so little looks like a wave.
 const LEAST_LENGTH: f64 = 10.0;
 
 /// No vertex is nearer than so many widths to an end: the end itself goes one width along the edge,
@@ -111,7 +112,7 @@ impl EdgeOf<'_> {
     fn beside_held(&self) -> Found {
         let (width, side) = (self.view.width, self.sides()[0]);
         let Shape { topology, faces, contacts, .. } = self.shape;
-        let room = (TAPER + LEAST_GAP) * width;
+        let room = LEAST_LENGTH * width;
         if self.length <= room || topology.is_contact(side) {
             return Found::default();
         }
@@ -121,9 +122,7 @@ impl EdgeOf<'_> {
         for [from, to] in held {
             match joined.last_mut() {
                 // Between two of them there has to be room to open and to close.
-                Some(last) if from < last[1] + (2.0 * TAPER + LEAST_GAP) * width => {
-                    last[1] = last[1].max(to)
-                }
+                Some(last) if from < last[1] + room => last[1] = last[1].max(to),
                 _ => joined.push([from, to]),
             }
         }
