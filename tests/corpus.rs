@@ -74,7 +74,7 @@ fn at_two_percent_all_are_sound() {
 fn all_are_sound_by_what_went_in_and_what_came_out_alone() {
     for path in models(Path::new(FOLDER)) {
         for percent in [0.5, 2.0] {
-            let measured = measure(&path, percent, Verify::Fast, |before, after| {
+            let measured = measure(&path, percent, Verify::Full, |before, after| {
                 let found = compare(before, &after.mesh.as_mesh(), Verify::Full);
                 assert!(found.is_sound(), "{} at {percent} %:\n{found}", path.display());
             });
