@@ -150,7 +150,7 @@ fn obstacle(topology: &Topology, faces: &Faces, side: Corner, other: Corner) -> 
 }
 
 /// The UV channels that differ between two half-edges that are twins, as bits.
-fn seam_channels(view: &View, side: Corner, other: Corner) -> u8 {
+pub fn seam_channels(view: &View, side: Corner, other: Corner) -> u8 {
     let pairs = [(side, other.next()), (side.next(), other)];
     let differs = |channel: &usize| {
         pairs.into_iter().any(|(one, other)| seam_between(view, *channel, one, other))

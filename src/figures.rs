@@ -21,15 +21,17 @@ use drawing::Drawing;
 type Draw = fn() -> Drawing;
 
 /// The stages, in the order of the pipeline.
-const FIGURES: [(&str, Draw); 16] = [
+const FIGURES: [(&str, Draw); 18] = [
     ("view", source::view),
     ("weld", source::weld),
     ("topology", source::topology),
     ("faces", source::faces),
     ("contacts", contacts::contacts),
+    ("selection", result::selection),
     ("edges", source::edges),
     ("sectors", moves::sectors),
     ("offsets", moves::offsets),
+    ("refine", contacts::refine),
     ("limits", moves::limits),
     ("patches", result::patches),
     ("strips", result::strips),

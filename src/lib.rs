@@ -77,6 +77,7 @@ mod output;
 mod patches;
 mod pipeline;
 mod placement;
+mod refine;
 mod report;
 mod resample;
 mod rests;
@@ -84,6 +85,7 @@ mod scale;
 mod scene;
 mod sectors;
 mod selection;
+mod shape;
 mod smoothing;
 #[cfg(test)]
 mod stages;
@@ -102,8 +104,8 @@ pub use mesh::{EdgeFactor, Factors, Held, Mesh, MeshBuffers, UV_CHANNELS, Uv, Uv
 pub use options::{ChamferSubmesh, Convexity, Options, Verify, Width, WidthMode};
 pub use pipeline::{chamfer, chamfer_with_progress};
 pub use report::{
-    Blend, ByReason, Chamfered, EdgeVerdict, Outcome, Reason, Totals, TriangleKind, TriangleSource,
-    VertexSource, VertexSources,
+    Blend, ByReason, Chamfered, EdgeVerdict, Outcome, Piece, Reason, Totals, TriangleKind,
+    TriangleSource, VertexSource, VertexSources,
 };
 pub use scene::{ChamferedScene, Placed, chamfer_scene, scene_triangles};
 pub use smoothing::{Smoothed, split_by_angle};

@@ -80,10 +80,39 @@ impl Offset {
     }
 }
 
-/// `#sectors`.
-pub fn offsets(surface: Surface, chamfers: Chamfers, threads: &Threads) -> IdVec<Sector, Offset> {
+/// What is known of a mesh that was the same but for some triangles.
+pub struct Known<'a> {
+    pub sectors: &'a Sectors,
+    pub offsets: &'a IdVec<Sector, Offset>,
+    /// `#triangles`: whether it is not what it was.
+    pub is_new: &'a [bool],
+}
+
+impl Known<'_> {
+    /// The offset of a sector, where nothing of it has changed.
+    fn of(&self, topology: &Topology, sectors: &Sectors, sector: Sector) -> Option<Offset> {
+        let mut corners = sectors.corners(topology, sector);
+        if corners.any(|corner| self.is_new[corner.triangle().index()]) {
+            return None;
+        }
+        let fan = &sectors.fans[sector];
+        let before = self.sectors.sector_of[fan.first];
+        (before.is_some() && fan.moves_as(&self.sectors.fans[before])).then(|| self.offsets[before])
+    }
+}
+
+/// `#sectors`; those that are known are not found anew.
+pub fn offsets(
+    surface: Surface,
+    chamfers: Chamfers,
+    known: Option<&Known>,
+    threads: &Threads,
+) -> IdVec<Sector, Offset> {
     let (Surface { view, topology, faces }, Chamfers { sectors, .. }) = (surface, chamfers);
     let mut offsets = threads.map_with(sectors.fans.len(), Vec::new, |spread, sector| {
+        if let Some(offset) = known.and_then(|known| known.of(topology, sectors, sector)) {
+            return offset;
+        }
         unfold(view, topology, sectors, sector, spread);
         let fan = &sectors.fans[sector];
         let chosen = course(surface, fan, spread, widths(chamfers, fan))

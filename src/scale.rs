@@ -7,7 +7,7 @@ use glam::{DMat3, DVec3};
 
 use crate::error::Error;
 use crate::math::unit;
-use crate::mesh::{Held, Mesh};
+use crate::mesh::{Factors, Held, Mesh};
 use crate::options::Options;
 use crate::view::{View, wide};
 
@@ -39,6 +39,12 @@ impl Space<'_> {
     /// As [`Space::back`], for unit normals.
     pub fn normal_back(&self, normal: DVec3) -> DVec3 {
         self.scale.map_or(normal, |scale| unit(scale.normal_back * normal))
+    }
+
+    /// Whether the mesh is measured as it is, and all of its edges alike.
+    pub fn is_plain(&self) -> bool {
+        let Factors { submeshes, vertices, edges } = self.source.mesh.factors;
+        self.scale.is_none() && submeshes.is_empty() && vertices.is_empty() && edges.is_empty()
     }
 
     /// How many times as long an axis is measured at most.

@@ -54,7 +54,7 @@ pub fn stages_with<'a>(mesh: &'a MeshBuffers, options: &Options) -> Stages<'a> {
     let sectors = sectors(&view, &topology, &edges, &contacts);
     let surface = Surface { view: &view, topology: &topology, faces: &faces };
     let chamfers = Chamfers { edges: &edges, sectors: &sectors };
-    let offsets = offsets(surface, chamfers, &threads);
+    let offsets = offsets(surface, chamfers, None, &threads);
     let rests = rests(&view, &topology, &faces, &edges, &contacts);
     Stages { view, weld, topology, faces, edges, sectors, offsets, rests, threads }
 }

@@ -6,7 +6,8 @@ use super::drawing::{Anchor, Drawing, GREEN, INK, ORANGE, Pen, RED};
 use super::models::{add_block, add_card, chamfered, nothing};
 use super::scene::{CLAY, Camera, FILL, FRONT, Facet, Paint, STRIP, Scene, triangles};
 use crate::ids::{Id, Patch};
-use crate::mesh::MeshBuffers;
+use crate::mesh::{Factors, Mesh, MeshBuffers};
+use crate::options::{Convexity, Options, Width};
 use crate::report::{Chamfered, Outcome, TriangleKind};
 use crate::shapes;
 use crate::stages::stages_of;
@@ -16,7 +17,7 @@ use crate::view::wide;
 const ABOVE: [f64; 3] = [0.6, 3.0, 2.0];
 
 /// The result's triangles, painted by what they are.
-fn draw_result(drawing: &mut Drawing, result: &Chamfered, camera: Camera) -> Scene {
+pub fn draw_result(drawing: &mut Drawing, result: &Chamfered, camera: Camera) -> Scene {
     let paint = |kind| match kind {
         TriangleKind::Source => CLAY,
         TriangleKind::Edge => STRIP,
@@ -73,6 +74,46 @@ pub fn patches() -> Drawing {
 
 /// How far patches are drawn above where they are.
 const LIFT: f64 = 0.05;
+
+/// Results of asking for some edges only, or for unlike widths.
+pub fn selection() -> Drawing {
+    let mut drawing = Drawing::new(720, 300);
+    let asked = |mesh: &MeshBuffers, factors: Factors, options: Options| {
+        let mesh = Mesh { factors, ..mesh.as_mesh() };
+        crate::chamfer(&mesh, &options).unwrap_or_default()
+    };
+    let options = |width: f32| Options { width: Width::Units(width), ..Options::default() };
+    let corner = shapes::saddle();
+    let convex = Options { convexity: Convexity::Convex, ..options(0.2) };
+    let bolt = shapes::bolt();
+    let submeshes = Factors { submeshes: &[1.0, 0.3], ..Factors::default() };
+    let cube = shapes::plain_cube(2.0);
+    let mask: Vec<f32> = cube.positions.iter().map(|at| 0.55 + 0.45 * at[0]).collect();
+    let mask = Factors { vertices: &mask, ..Factors::default() };
+    let pictures = [
+        (
+            "convex edges only",
+            asked(&corner, Factors::default(), convex),
+            Camera::new(FRONT, [1.0, 0.8, 1.0], 74.0, [125.0, 150.0]),
+        ),
+        (
+            "a factor for each submesh",
+            asked(&bolt, submeshes, options(0.06)),
+            Camera::new(FRONT, [0.0, 0.2, 0.0], 120.0, [360.0, 150.0]),
+        ),
+        (
+            "a mask: 1 on the right, a tenth on the left",
+            asked(&cube, mask, options(0.4)),
+            Camera::new(FRONT, [0.0; 3], 66.0, [585.0, 150.0]),
+        ),
+    ];
+    for (title, result, camera) in pictures {
+        drawing.title(camera.flat(camera.middle()).x, title);
+        draw_result(&mut drawing, &result, camera);
+    }
+    drawing.legend(&[("#7dafdc", "strip"), ("#f0ba5f", "fill")]);
+    drawing
+}
 
 pub fn strips() -> Drawing {
     let mut drawing = Drawing::new(720, 320);
