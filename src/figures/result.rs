@@ -99,10 +99,10 @@ pub fn selection() -> Drawing {
         (
             "a factor for each submesh",
             asked(&bolt, submeshes, options(0.06)),
-            Camera::new(FRONT, [0.0, 0.2, 0.0], 120.0, [360.0, 150.0]),
+            Camera::new(FRONT, [0.0, 0.45, 0.0], 72.0, [360.0, 150.0]),
         ),
         (
-            "a mask: 1 on the right, a tenth on the left",
+            "a mask, from 0.1 to 1",
             asked(&cube, mask, options(0.4)),
             Camera::new(FRONT, [0.0; 3], 66.0, [585.0, 150.0]),
         ),

@@ -118,6 +118,7 @@ mod tests {
         uvs: [chamfer::Uv { components: 0, values: &[] }; chamfer::UV_CHANNELS],
         submesh_index_counts: &[9],
         held: &[],
+        factors: chamfer::Factors { submeshes: &[], vertices: &[], edges: &[] },
     };
 
     fn scene(transform: [[f32; 4]; 4]) -> Scene {
