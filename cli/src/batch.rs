@@ -7,6 +7,7 @@ use std::process::ExitCode;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Sender, channel};
 use std::thread;
+use std::time::{Duration, Instant};
 
 use anyhow::{Error, Result, anyhow};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -42,6 +43,13 @@ pub fn run(args: &Args) -> ExitCode {
     ExitCode::from(u8::from(failed))
 }
 
+/// A file that was tried.
+struct Done {
+    result: Result<Processed>,
+    /// From reading to writing.
+    time: Duration,
+}
+
 /// What is left of a run once all results are written.
 struct Outcome {
     files: Vec<FileReport>,
@@ -71,12 +79,12 @@ fn chamfer_all(args: &Args, jobs: &[Job]) -> Outcome {
         }
         drop(sender);
         let mut waiting = BTreeMap::new();
-        for (number, result) in receiver {
-            waiting.insert(number, result);
-            while let Some(result) = waiting.remove(&outcome.files.len()) {
+        for (number, done) in receiver {
+            waiting.insert(number, done);
+            while let Some(done) = waiting.remove(&outcome.files.len()) {
                 bar.set_message(format!("{} of {}", outcome.files.len() + 1, jobs.len()));
                 let job = &jobs[outcome.files.len()];
-                bar.suspend(|| outcome.add(job, result, args.preview.is_some()));
+                bar.suspend(|| outcome.add(job, done, args.preview.is_some()));
             }
         }
     });
@@ -90,7 +98,7 @@ fn work(
     settings: &Settings,
     next: &AtomicUsize,
     bar: &ProgressBar,
-    results: Sender<(usize, Result<Processed>)>,
+    results: Sender<(usize, Done)>,
 ) {
     loop {
         let number = next.fetch_add(1, Ordering::Relaxed);
@@ -100,11 +108,12 @@ fn work(
             let steps = (share * STEPS as f32) as usize;
             bar.inc(steps.saturating_sub(shown.swap(steps, Ordering::Relaxed)) as u64);
         };
+        let start = Instant::now();
         // No file may take the others down, whatever is wrong with it or with us.
         let result = catch_unwind(AssertUnwindSafe(|| process(job, settings, &progress)));
         progress(1.0);
         let result = result.unwrap_or_else(|_| Err(anyhow!("internal error: please report it")));
-        if results.send((number, result)).is_err() {
+        if results.send((number, Done { result, time: start.elapsed() })).is_err() {
             return;
         }
     }
@@ -112,9 +121,9 @@ fn work(
 
 impl Outcome {
     /// Reports a file that is done.
-    fn add(&mut self, job: &Job, result: Result<Processed>, with_picture: bool) {
-        let mut file = FileReport::new(&job.input, &job.output);
-        match result {
+    fn add(&mut self, job: &Job, done: Done, with_picture: bool) {
+        let mut file = FileReport::new(&job.input, &job.output, done.time);
+        match done.result {
             Ok(Processed { document, chamfered, reports, notes }) => {
                 for note in &notes {
                     warn(format_args!("{}: note: {note}", file.file));

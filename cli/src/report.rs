@@ -30,6 +30,8 @@ pub struct FileReport {
     /// What else there is to know.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
+    /// Time from reading to writing.
+    pub milliseconds: f64,
     /// Its meshes; none where it failed.
     pub meshes: Vec<MeshReport>,
 }
@@ -110,7 +112,7 @@ pub struct ReportTotals {
     pub counts: Counts,
     /// Mean width as a share (0 to 1) of the width asked for, weighted by edge length.
     pub mean_width: f32,
-    /// Time in the core and for looking at scenes.
+    /// Time from reading to writing, of all files together.
     pub milliseconds: f64,
 }
 
@@ -124,7 +126,7 @@ impl Report {
             meshes: meshes().count() as u64,
             counts: Counts::sum(meshes()),
             mean_width: mean_width(meshes()),
-            milliseconds: round(meshes().map(|mesh| mesh.milliseconds).sum()),
+            milliseconds: round(files.iter().fold(0.0, |sum, file| sum + file.milliseconds)),
         };
         Report { files, totals }
     }
@@ -142,12 +144,13 @@ impl Report {
 
 impl FileReport {
     /// A file of which nothing is known yet.
-    pub fn new(input: &Path, output: &Path) -> FileReport {
+    pub fn new(input: &Path, output: &Path, time: Duration) -> FileReport {
         FileReport {
             file: input.display().to_string(),
             output: output.display().to_string(),
             error: None,
             notes: Vec::new(),
+            milliseconds: milliseconds(time),
             meshes: Vec::new(),
         }
     }
@@ -157,11 +160,10 @@ impl FileReport {
 impl fmt::Display for FileReport {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let counts = Counts::sum(self.meshes.iter());
-        let milliseconds: f64 = self.meshes.iter().map(|mesh| mesh.milliseconds).sum();
         write!(
             f,
             "{} -> {}: {} hard edges: {} chamfered, {} narrowed, {} skipped; \
-             {} -> {} triangles; {milliseconds:.1} ms",
+             {} -> {} triangles; {:.1} ms",
             self.file,
             self.output,
             counts.hard_edges,
@@ -170,6 +172,7 @@ impl fmt::Display for FileReport {
             counts.skipped.total(),
             counts.triangles_in,
             counts.triangles_out,
+            self.milliseconds,
         )
     }
 }
@@ -192,7 +195,7 @@ impl MeshReport {
             },
             mean_width: totals.mean_width,
             width: result.width,
-            milliseconds: round(time.as_secs_f64() * 1000.0),
+            milliseconds: milliseconds(time),
             edges: None,
             hard_length: hard_length(source, result),
         }
@@ -270,6 +273,10 @@ fn position(source: &MeshBuffers, vertex: u32) -> [f32; 3] {
     source.positions.get(vertex as usize).copied().unwrap_or_default()
 }
 
+fn milliseconds(time: Duration) -> f64 {
+    round(time.as_secs_f64() * 1000.0)
+}
+
 /// To whole microseconds: more digits of a time say nothing.
 fn round(milliseconds: f64) -> f64 {
     (milliseconds * 1000.0).round() / 1000.0
@@ -294,7 +301,8 @@ mod tests {
     }
 
     fn file(meshes: Vec<MeshReport>) -> FileReport {
-        FileReport { meshes, ..FileReport::new(Path::new("a.obj"), Path::new("b.obj")) }
+        let time = Duration::from_micros(2500);
+        FileReport { meshes, ..FileReport::new(Path::new("a.obj"), Path::new("b.obj"), time) }
     }
 
     #[test]
@@ -303,7 +311,7 @@ mod tests {
             Report::new(vec![file(vec![mesh(1.0, 3.0, 0)]), file(vec![mesh(0.5, 1.0, 1)])]);
         assert_eq!(report.totals.mean_width, 0.875);
         assert_eq!(report.totals.counts.hard_edges, 8);
-        assert_eq!(report.totals.milliseconds, 3.0);
+        assert_eq!(report.totals.milliseconds, 5.0, "with reading and writing");
     }
 
     #[test]
@@ -317,6 +325,13 @@ mod tests {
         assert!(place("\"file\"") < place("\"output\""));
         assert!(place("\"hard_edges\"") < place("\"chamfered\""));
         assert!(place("\"files\"") < place("\"totals\""));
+    }
+
+    #[test]
+    fn no_time_is_never_less_than_none() {
+        let empty = FileReport::new(Path::new("a.obj"), Path::new("b.obj"), Duration::ZERO);
+        assert!(empty.to_string().ends_with("; 0.0 ms"), "{empty}");
+        assert!(Report::new(Vec::new()).totals.milliseconds.is_sign_positive());
     }
 
     #[test]

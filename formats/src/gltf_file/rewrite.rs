@@ -30,7 +30,10 @@ struct Part<'a> {
 pub struct Rewrite<'a> {
     geometry: &'a MeshGeometry,
     chamfered: &'a Chamfered,
+    follower: Follower<'a>,
     parts: Vec<Part<'a>>,
+    /// `#blocks`: the parts of each.
+    parts_of: Vec<Vec<usize>>,
     /// `#blocks`: the source vertices of each.
     own_vertices: Vec<Vec<u32>>,
 }
@@ -50,24 +53,17 @@ impl<'a> Rewrite<'a> {
             && total == indices.len()
             && indices.iter().all(|index| (*index as usize) < positions.len());
         ensure!(fits, "the chamfered mesh does not match the primitives of the file");
-        let mut rest = &indices[..];
-        let mut parts = Vec::new();
-        for (number, count) in submesh_index_counts.iter().enumerate() {
-            let (corners, after) = rest.split_at(*count as usize);
-            rest = after;
-            let is_further = number >= geometry.submeshes.len();
-            let submesh = geometry.submeshes.get(number).or(geometry.submeshes.last());
-            let submesh = submesh.context("the mesh had no triangles, but now it has")?;
-            // A primitive without triangles is more than glTF can say, and nothing to see.
-            if !(is_further && corners.is_empty()) {
-                parts.push(Part { submesh, is_further, corners });
-            }
+        let parts = parts(geometry, &chamfered.mesh)?;
+        let mut parts_of = vec![Vec::new(); geometry.blocks.len()];
+        for (number, part) in parts.iter().enumerate() {
+            parts_of[part.submesh.block].push(number);
         }
         let mut own_vertices = vec![Vec::new(); geometry.blocks.len()];
         for (vertex, origin) in geometry.origins.iter().enumerate() {
             own_vertices[origin.block as usize].push(vertex as u32);
         }
-        Ok(Rewrite { geometry, chamfered, parts, own_vertices })
+        let follower = Follower::new(geometry, &chamfered.vertex_sources);
+        Ok(Rewrite { geometry, chamfered, follower, parts, parts_of, own_vertices })
     }
 
     /// Replaces what the JSON of the mesh says of its triangles.
@@ -94,7 +90,7 @@ impl<'a> Rewrite<'a> {
     }
 
     fn parts_of(&self, block: usize) -> impl Iterator<Item = &Part<'a>> {
-        self.parts.iter().filter(move |part| part.submesh.block == block)
+        self.parts_of[block].iter().map(|part| &self.parts[*part])
     }
 
     /// The source vertices of a block in their order, then all others that its triangles use; each
@@ -151,7 +147,7 @@ impl<'a> Rewrite<'a> {
         vertices: &[u32],
         writer: &mut AccessorWriter,
     ) -> Result<Accessors> {
-        let skin = skin::blend(&self.follower(), block, vertices);
+        let skin = skin::blend(&self.follower, block, vertices);
         let mut accessors = Vec::new();
         for (kind, streams) in [("JOINTS", &skin.joints), ("WEIGHTS", &skin.weights)] {
             for (set, stream) in streams.iter().enumerate() {
@@ -188,11 +184,7 @@ impl<'a> Rewrite<'a> {
     }
 
     fn follow(&self, target: Option<usize>, attribute: &Attribute, vertices: &[u32]) -> Stream {
-        self.follower().follow(target, &attribute.name, attribute.stream.element, vertices)
-    }
-
-    fn follower(&self) -> Follower<'_> {
-        Follower { geometry: self.geometry, sources: &self.chamfered.vertex_sources }
+        self.follower.follow(target, &attribute.name, attribute.stream.element, vertices)
     }
 
     /// A stream that the core chamfered. Colours are rounded to their old type; what is geometry
@@ -218,6 +210,24 @@ impl<'a> Rewrite<'a> {
         ensure!(stream.count() == vertices.len(), "the chamfered mesh has lost its {name}");
         Ok(stream)
     }
+}
+
+/// The submeshes of a chamfered mesh.
+fn parts<'a>(geometry: &'a MeshGeometry, mesh: &'a MeshBuffers) -> Result<Vec<Part<'a>>> {
+    let mut rest = &mesh.indices[..];
+    let mut parts = Vec::new();
+    for (number, count) in mesh.submesh_index_counts.iter().enumerate() {
+        let (corners, after) = rest.split_at(*count as usize);
+        rest = after;
+        let is_further = number >= geometry.submeshes.len();
+        let submesh = geometry.submeshes.get(number).or(geometry.submeshes.last());
+        let submesh = submesh.context("the mesh had no triangles, but now it has")?;
+        // A primitive without triangles is more than glTF can say, and nothing to see.
+        if !(is_further && corners.is_empty()) {
+            parts.push(Part { submesh, is_further, corners });
+        }
+    }
+    Ok(parts)
 }
 
 impl Part<'_> {

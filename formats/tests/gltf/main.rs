@@ -9,6 +9,7 @@ mod features;
 mod files;
 mod followers;
 mod lenient;
+mod many;
 mod morphs;
 mod quantized;
 mod support;
