@@ -13,11 +13,11 @@ use anyhow::{Error, Result, anyhow};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::args::Args;
-use crate::console::{say, warn};
-use crate::jobs::{Job, jobs};
-use crate::pictures::{self, MOST_ROWS, Portrait};
+use crate::console::{one_line as told, say, warn};
+use crate::jobs::{Job, Plan, plan};
+use crate::pictures::{self, MOST_ROWS, Portrait, Studio};
 use crate::process::{Processed, Settings, Taken, process};
-use crate::report::{FileReport, Report};
+use crate::report::{FileReport, MeshReport, Report};
 use crate::write;
 
 /// The exit code where the arguments make no sense; that of the argument parser.
@@ -27,15 +27,16 @@ const STEPS: u64 = 1000;
 
 /// Chamfers the files that the arguments name.
 pub fn run(args: &Args) -> ExitCode {
-    let jobs = match jobs(args) {
-        Ok(jobs) => jobs,
+    let plan = match plan(args) {
+        Ok(plan) => plan,
         Err(error) => {
             warn(format_args!("error: {error:#}"));
             return ExitCode::from(USAGE);
         }
     };
-    let outcome = chamfer_all(args, &jobs);
-    let mut failed = outcome.files.iter().any(|file| file.error.is_some());
+    plan.notes.iter().for_each(warn);
+    let outcome = chamfer_all(args, &plan);
+    let mut failed = plan.is_incomplete || outcome.files.iter().any(|file| file.error.is_some());
     if let Err(error) = write_extras(args, outcome) {
         warn(format_args!("error: {error:#}"));
         failed = true;
@@ -43,22 +44,33 @@ pub fn run(args: &Args) -> ExitCode {
     ExitCode::from(u8::from(failed))
 }
 
-/// A file that was tried.
+/// A file that was tried. A slow one keeps the others waiting, so no model is in it.
 struct Done {
-    result: Result<Processed>,
+    result: Result<Finished>,
     /// From reading to writing.
     time: Duration,
 }
 
+/// What is left of a file once it is written.
+struct Finished {
+    reports: Vec<MeshReport>,
+    notes: Vec<String>,
+    /// A picture, where one was asked for and there is something to see.
+    picture: Option<Portrait>,
+}
+
 /// What is left of a run once all results are written.
+#[derive(Default)]
 struct Outcome {
     files: Vec<FileReport>,
+    notes: Vec<String>,
     portraits: Vec<Portrait>,
     /// Models that would be in the picture if there were room.
     left_out: usize,
 }
 
-fn chamfer_all(args: &Args, jobs: &[Job]) -> Outcome {
+fn chamfer_all(args: &Args, plan: &Plan) -> Outcome {
+    let jobs = &plan.jobs[..];
     let cores = thread::available_parallelism().map_or(1, usize::from);
     let threads = if args.threads == 0 { cores } else { args.threads as usize };
     let workers = threads.min(jobs.len());
@@ -68,14 +80,15 @@ fn chamfer_all(args: &Args, jobs: &[Job]) -> Outcome {
         report_edges: args.report_edges,
         taken: Taken::new(jobs),
     };
+    let studio = args.preview.is_some().then(|| Studio::new(args, jobs.len()));
     let bar = progress_bar(jobs.len());
-    let mut outcome = Outcome { files: Vec::new(), portraits: Vec::new(), left_out: 0 };
+    let mut outcome = Outcome { notes: plan.notes.clone(), ..Outcome::default() };
     let next = AtomicUsize::new(0);
     let (sender, receiver) = channel();
     thread::scope(|scope| {
         for _ in 0..workers {
             let sender = sender.clone();
-            scope.spawn(|| work(jobs, &settings, &next, &bar, sender));
+            scope.spawn(|| work(jobs, &settings, studio.as_ref(), &next, &bar, sender));
         }
         drop(sender);
         let mut waiting = BTreeMap::new();
@@ -84,7 +97,7 @@ fn chamfer_all(args: &Args, jobs: &[Job]) -> Outcome {
             while let Some(done) = waiting.remove(&outcome.files.len()) {
                 bar.set_message(format!("{} of {}", outcome.files.len() + 1, jobs.len()));
                 let job = &jobs[outcome.files.len()];
-                bar.suspend(|| outcome.add(job, done, args.preview.is_some()));
+                bar.suspend(|| outcome.add(job, done));
             }
         }
     });
@@ -96,6 +109,7 @@ fn chamfer_all(args: &Args, jobs: &[Job]) -> Outcome {
 fn work(
     jobs: &[Job],
     settings: &Settings,
+    studio: Option<&Studio>,
     next: &AtomicUsize,
     bar: &ProgressBar,
     results: Sender<(usize, Done)>,
@@ -110,35 +124,46 @@ fn work(
         };
         let start = Instant::now();
         // No file may take the others down, whatever is wrong with it or with us.
-        let result = catch_unwind(AssertUnwindSafe(|| process(job, settings, &progress)));
+        let mut time = Duration::ZERO;
+        let result = catch_unwind(AssertUnwindSafe(|| {
+            let processed = process(job, settings, &progress);
+            time = start.elapsed();
+            finish(job, processed?, studio)
+        }));
         progress(1.0);
         let result = result.unwrap_or_else(|_| Err(anyhow!("internal error: please report it")));
-        if results.send((number, Done { result, time: start.elapsed() })).is_err() {
+        if results.send((number, Done { result, time })).is_err() {
             return;
         }
     }
 }
 
+/// Lets go of the model once its picture is drawn.
+fn finish(job: &Job, processed: Processed, studio: Option<&Studio>) -> Result<Finished> {
+    let Processed { document, chamfered, reports, notes } = processed;
+    let is_seen = chamfered.iter().any(|result| !result.mesh.indices.is_empty());
+    let draw = |studio: &Studio| studio.draw(name_of(&job.input), &*document, &chamfered);
+    let picture = studio.filter(|_| is_seen).map(draw).transpose()?;
+    Ok(Finished { reports, notes, picture })
+}
+
 impl Outcome {
     /// Reports a file that is done.
-    fn add(&mut self, job: &Job, done: Done, with_picture: bool) {
+    fn add(&mut self, job: &Job, done: Done) {
         let mut file = FileReport::new(&job.input, &job.output, done.time);
         match done.result {
-            Ok(Processed { document, chamfered, reports, notes }) => {
+            Ok(Finished { reports, notes, picture }) => {
                 for note in &notes {
-                    warn(format_args!("{}: note: {note}", file.file));
+                    warn(format_args!("{}: note: {note}", told(&file.file)));
                 }
                 file.meshes = reports;
                 file.notes = notes;
                 say(&file);
-                if with_picture && chamfered.iter().any(|result| !result.mesh.indices.is_empty()) {
-                    let caption = name_of(&job.input);
-                    self.keep(Portrait { caption, document, chamfered });
-                }
+                picture.into_iter().for_each(|picture| self.keep(picture));
             }
             Err(error) => {
                 let error = one_line(&error);
-                warn(format_args!("{}: {error}", file.file));
+                warn(format_args!("{}: {error}", told(&file.file)));
                 file.error = Some(error);
             }
         }
@@ -155,18 +180,18 @@ impl Outcome {
 }
 
 fn write_extras(args: &Args, outcome: Outcome) -> Result<()> {
-    let Outcome { files, portraits, left_out } = outcome;
+    let Outcome { files, notes, portraits, left_out } = outcome;
     let report = args.report.as_deref().map(|path| {
-        let json = Report::new(files).to_json()?;
+        let json = Report::new(files, notes).to_json()?;
         write::alone(path, json)
     });
-    let draw = |path| draw(path, &portraits, left_out, args.preview_verdicts);
+    let draw = |path| draw(path, &portraits, left_out);
     let preview = args.preview.as_deref().map(draw);
     // One that fails is no reason to leave out the other.
     report.unwrap_or(Ok(())).and(preview.unwrap_or(Ok(())))
 }
 
-fn draw(path: &Path, portraits: &[Portrait], left_out: usize, verdicts: bool) -> Result<()> {
+fn draw(path: &Path, portraits: &[Portrait], left_out: usize) -> Result<()> {
     if portraits.is_empty() {
         warn(format_args!("{}: note: not drawn, there is no model to show", path.display()));
         return Ok(());
@@ -175,7 +200,7 @@ fn draw(path: &Path, portraits: &[Portrait], left_out: usize, verdicts: bool) ->
         let path = path.display();
         warn(format_args!("{path}: note: {left_out} models left out after the first {MOST_ROWS}"));
     }
-    pictures::draw(path, portraits, verdicts)
+    pictures::write_sheet(path, portraits)
 }
 
 /// Drawn on a terminal only.

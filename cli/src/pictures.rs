@@ -8,71 +8,80 @@ use chamfer::{Chamfered, MeshBuffers};
 use chamfer_formats::Document;
 use image::{ImageFormat, RgbImage};
 
-use crate::preview::{Line, Panel, Placed, before_after, contact_sheet};
+use crate::args::Args;
+use crate::preview::{LARGE_TILE, Line, Panel, SMALL_TILE, before_after, sheet};
+use crate::scene::placed;
 use crate::verdict_lines::{self, Legend};
 use crate::write;
 
-/// How many models a contact sheet shows: more make a picture that viewers refuse to open, and
-/// all of these are held in memory until it is drawn.
+/// How many models a contact sheet shows: more make a picture that viewers refuse to open.
 pub const MOST_ROWS: usize = 24;
 
-/// A model kept for the picture.
-pub struct Portrait {
-    /// What to write under it.
-    pub caption: String,
-    /// As it was read.
-    pub document: Box<dyn Document + Send>,
-    /// `#meshes`.
-    pub chamfered: Vec<Chamfered>,
+/// How the models of a run are drawn.
+pub struct Studio {
+    /// Pixels per side of a tile.
+    tile: u32,
+    verdicts: bool,
 }
 
-impl Portrait {
-    fn panel(&self, verdicts: bool) -> Panel<'_> {
-        let mut panel = Panel { caption: self.caption.clone(), ..Panel::default() };
-        for instance in self.document.instances() {
-            let transform = instance.transform;
-            let before = self.document.meshes().get(instance.mesh);
-            let after = self.chamfered.get(instance.mesh);
-            if let (Some(before), Some(after)) = (before, after) {
-                panel.before.push(Placed { mesh: before.mesh.as_mesh(), transform });
-                panel.after.push(Placed { mesh: after.mesh.as_mesh(), transform });
-            }
-        }
-        if verdicts {
-            self.add_verdicts(&mut panel);
-        }
-        panel
+/// A model before and after, as a PNG: many wait for the sheet.
+pub struct Portrait(Vec<u8>);
+
+impl Studio {
+    /// One model alone is drawn larger than many.
+    pub fn new(args: &Args, models: usize) -> Studio {
+        let tile = if models == 1 { LARGE_TILE } else { SMALL_TILE };
+        Studio { tile, verdicts: args.preview_verdicts }
     }
 
-    fn add_verdicts(&self, panel: &mut Panel) {
-        for instance in self.document.instances() {
-            let before = self.document.meshes().get(instance.mesh);
-            if let (Some(before), Some(after)) = (before, self.chamfered.get(instance.mesh)) {
-                let of = |lines: Lines| lines(&before.mesh, after, instance.transform);
-                panel.before_lines.extend(of(verdict_lines::before));
-                panel.after_lines.extend(of(verdict_lines::after));
-            }
+    /// Draws a model.
+    ///
+    /// # Errors
+    /// Where the picture cannot be encoded.
+    pub fn draw(
+        &self,
+        caption: String,
+        document: &dyn Document,
+        chamfered: &[Chamfered],
+    ) -> Result<Portrait> {
+        let mut panel = Panel {
+            caption,
+            before: placed(document, |mesh| &document.meshes()[mesh].mesh),
+            after: placed(document, |mesh| &chamfered[mesh].mesh),
+            ..Panel::default()
+        };
+        if self.verdicts {
+            add_verdicts(&mut panel, document, chamfered);
         }
-        let mut legend = Legend::default();
-        self.chamfered.iter().for_each(|result| legend.add(result));
-        panel.caption = format!("{}: {}", self.caption, legend.text());
+        Ok(Portrait(png(&before_after(&panel, self.tile))?))
     }
+}
+
+fn add_verdicts(panel: &mut Panel, document: &dyn Document, chamfered: &[Chamfered]) {
+    for instance in document.instances() {
+        let (before, after) = (&document.meshes()[instance.mesh], &chamfered[instance.mesh]);
+        let of = |lines: Lines| lines(&before.mesh, after, instance.transform);
+        panel.before_lines.extend(of(verdict_lines::before));
+        panel.after_lines.extend(of(verdict_lines::after));
+    }
+    let mut legend = Legend::default();
+    chamfered.iter().for_each(|result| legend.add(result));
+    panel.caption = format!("{}: {}", panel.caption, legend.text());
 }
 
 type Lines = fn(&MeshBuffers, &Chamfered, [[f32; 4]; 4]) -> Vec<Line>;
 
-/// Draws the models to a file: one alone, several as a contact sheet. With `verdicts`, the hard
-/// edges are drawn over them.
+/// Writes the models to a file: one alone, several as a contact sheet.
 ///
 /// # Errors
 /// Where the file cannot be written.
-pub fn draw(path: &Path, portraits: &[Portrait], verdicts: bool) -> Result<()> {
-    let panels: Vec<Panel> = portraits.iter().map(|model| model.panel(verdicts)).collect();
-    let picture = match &panels[..] {
-        [panel] => before_after(panel),
-        panels => contact_sheet(panels),
-    };
-    write_png(path, &picture)
+pub fn write_sheet(path: &Path, portraits: &[Portrait]) -> Result<()> {
+    if let [Portrait(alone)] = portraits {
+        return write::alone(path, alone.clone());
+    }
+    let rows =
+        portraits.iter().map(|portrait| Ok(image::load_from_memory(&portrait.0)?.into_rgb8()));
+    write_png(path, &sheet(&rows.collect::<Result<Vec<_>>>()?))
 }
 
 /// Writes a picture.
@@ -80,7 +89,11 @@ pub fn draw(path: &Path, portraits: &[Portrait], verdicts: bool) -> Result<()> {
 /// # Errors
 /// Where the file cannot be written.
 pub fn write_png(path: &Path, picture: &RgbImage) -> Result<()> {
+    write::alone(path, png(picture)?)
+}
+
+fn png(picture: &RgbImage) -> Result<Vec<u8>> {
     let mut bytes = Cursor::new(Vec::new());
     picture.write_to(&mut bytes, ImageFormat::Png).context("cannot encode the picture")?;
-    write::alone(path, bytes.into_inner())
+    Ok(bytes.into_inner())
 }

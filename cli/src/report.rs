@@ -8,11 +8,16 @@ use anyhow::Result;
 use chamfer::{ByReason, Chamfered, EdgeVerdict, MeshBuffers, Reason};
 use serde::{Serialize, Serializer};
 
+use crate::console::one_line;
+
 /// The whole report.
 #[derive(Debug, Serialize)]
 pub struct Report {
     /// In the order of the inputs.
     pub files: Vec<FileReport>,
+    /// What could not be searched for models.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub notes: Vec<String>,
     /// Sums over all files.
     pub totals: ReportTotals,
 }
@@ -118,7 +123,7 @@ pub struct ReportTotals {
 
 impl Report {
     /// Adds up the files.
-    pub fn new(files: Vec<FileReport>) -> Report {
+    pub fn new(files: Vec<FileReport>, notes: Vec<String>) -> Report {
         let meshes = || files.iter().flat_map(|file| &file.meshes);
         let totals = ReportTotals {
             files: files.len() as u64,
@@ -128,7 +133,7 @@ impl Report {
             mean_width: mean_width(meshes()),
             milliseconds: round(files.iter().fold(0.0, |sum, file| sum + file.milliseconds)),
         };
-        Report { files, totals }
+        Report { files, notes, totals }
     }
 
     /// The report as JSON text.
@@ -164,8 +169,8 @@ impl fmt::Display for FileReport {
             f,
             "{} -> {}: {} hard edges: {} chamfered, {} narrowed, {} skipped; \
              {} -> {} triangles; {:.1} ms",
-            self.file,
-            self.output,
+            one_line(&self.file),
+            one_line(&self.output),
             counts.hard_edges,
             counts.chamfered,
             counts.narrowed,
@@ -308,7 +313,7 @@ mod tests {
     #[test]
     fn totals_weigh_the_width_by_edge_length() {
         let report =
-            Report::new(vec![file(vec![mesh(1.0, 3.0, 0)]), file(vec![mesh(0.5, 1.0, 1)])]);
+            Report::new(vec![file(vec![mesh(1.0, 3.0, 0)]), file(vec![mesh(0.5, 1.0, 1)])], vec![]);
         assert_eq!(report.totals.mean_width, 0.875);
         assert_eq!(report.totals.counts.hard_edges, 8);
         assert_eq!(report.totals.milliseconds, 5.0, "with reading and writing");
@@ -316,8 +321,9 @@ mod tests {
 
     #[test]
     fn json_names_the_reasons_and_keeps_its_order() {
-        let text =
-            String::from_utf8(Report::new(vec![file(vec![mesh(0.5, 1.0, 2)])]).to_json().unwrap());
+        let text = String::from_utf8(
+            Report::new(vec![file(vec![mesh(0.5, 1.0, 2)])], vec![]).to_json().unwrap(),
+        );
         let text = text.unwrap();
         assert!(text.contains("\"no_room\": 2"), "{text}");
         assert!(!text.contains("folds") && !text.contains("error"), "{text}");
@@ -331,14 +337,14 @@ mod tests {
     fn no_time_is_never_less_than_none() {
         let empty = FileReport::new(Path::new("a.obj"), Path::new("b.obj"), Duration::ZERO);
         assert!(empty.to_string().ends_with("; 0.0 ms"), "{empty}");
-        assert!(Report::new(Vec::new()).totals.milliseconds.is_sign_positive());
+        assert!(Report::new(vec![], vec![]).totals.milliseconds.is_sign_positive());
     }
 
     #[test]
     fn a_failed_file_is_counted_and_says_why() {
         let mut failed = file(Vec::new());
         failed.error = Some("broken".into());
-        let report = Report::new(vec![failed]);
+        let report = Report::new(vec![failed], vec![]);
         assert_eq!(report.totals.failed, 1);
         assert!(String::from_utf8(report.to_json().unwrap()).unwrap().contains("\"broken\""));
     }

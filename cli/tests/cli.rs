@@ -1,15 +1,16 @@
 //! Runs the built `chamfer` on files that the tests write.
 
+#[path = "support/folder.rs"]
+mod folder;
 #[path = "support/run.rs"]
 mod run;
 
 use std::fs;
-use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use serde_json::Value;
-use tempfile::TempDir;
 
+use folder::Folder;
 use run::Run;
 
 const CUBE_OBJ: &str = "\
@@ -54,62 +55,6 @@ const TRIANGLE_GLTF: &str = r#"{
 "bufferViews": [{"buffer": 0, "byteLength": 36}],
 "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]
 }"#;
-
-/// A folder in which the command runs.
-struct Folder(TempDir);
-
-impl Folder {
-    fn with(files: &[(&str, &str)]) -> Folder {
-        let folder = Folder(tempfile::tempdir().unwrap());
-        for (name, text) in files {
-            fs::create_dir_all(folder.path(name).parent().unwrap()).unwrap();
-            fs::write(folder.path(name), text).unwrap();
-        }
-        folder
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.0.path().join(name)
-    }
-
-    fn text(&self, name: &str) -> String {
-        fs::read_to_string(self.path(name)).unwrap()
-    }
-
-    fn json(&self, name: &str) -> Value {
-        serde_json::from_slice(&fs::read(self.path(name)).unwrap()).unwrap()
-    }
-
-    /// Runs `chamfer` with these arguments.
-    fn run(&self, arguments: &str) -> Run {
-        Run(self.command().args(arguments.split(' ')).output().unwrap())
-    }
-
-    fn command(&self) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_chamfer"));
-        command.current_dir(self.0.path());
-        command
-    }
-
-    /// The files in the folder and below, sorted.
-    fn files(&self) -> Vec<String> {
-        let mut files = Vec::new();
-        list(self.0.path(), self.0.path(), &mut files);
-        files.sort();
-        files
-    }
-}
-
-fn list(root: &Path, folder: &Path, files: &mut Vec<String>) {
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.is_dir() {
-            list(root, &path, files);
-        } else {
-            files.push(path.strip_prefix(root).unwrap().to_str().unwrap().replace('\\', "/"));
-        }
-    }
-}
 
 #[test]
 fn an_obj_stays_an_obj_with_its_materials() {
@@ -399,7 +344,7 @@ mod on_unix {
             env!("CARGO_BIN_EXE_chamfer")
         );
         let mut command = Command::new("sh");
-        let run = Run(command.args(["-c", &script]).current_dir(folder.0.path()).output().unwrap());
+        let run = Run(command.args(["-c", &script]).current_dir(folder.path("")).output().unwrap());
         let run = run.exits(1);
         assert!(run.err().starts_with("a.obj: cannot write b.obj: "), "{}", run.err());
         assert_eq!(folder.text("b.obj"), "old");

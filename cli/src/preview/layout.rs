@@ -8,9 +8,10 @@ use super::caption::{self, TEXT_HEIGHT, TextBox};
 use super::scene::Scene;
 use super::tile::{SAMPLES, Tile};
 
-/// Pixels per side of a tile of a picture of its own, and of one on a sheet.
-const LARGE_TILE: u32 = 600;
-const SMALL_TILE: u32 = 320;
+/// Pixels per side of a tile of a picture of its own.
+pub const LARGE_TILE: u32 = 600;
+/// Pixels per side of a tile on a sheet.
+pub const SMALL_TILE: u32 = 320;
 
 /// A sheet with more panels than this has two columns.
 const LONGEST_COLUMN: usize = 4;
@@ -25,23 +26,31 @@ const PAPER: Rgb<u8> = Rgb([24, 25, 28]);
 const TITLE_INK: Rgb<u8> = Rgb([236, 236, 232]);
 const CAPTION_INK: Rgb<u8> = Rgb([168, 172, 178]);
 
-/// Draws one model before and after, side by side, 1202 by 656 pixels.
-pub fn before_after(panel: &Panel) -> RgbImage {
-    Drawn::new(panel, LARGE_TILE).image()
+/// Draws one model before and after, side by side, each in a tile of so many pixels per side.
+pub fn before_after(panel: &Panel, tile: u32) -> RgbImage {
+    Drawn::new(panel, tile).image()
 }
 
-/// Draws several models, each before and after: a row each, in two columns where there are many.
+/// Draws several models, each before and after.
 pub fn contact_sheet(panels: &[Panel]) -> RgbImage {
-    let columns = if panels.len() > LONGEST_COLUMN { 2 } else { 1 };
-    let rows = panels.len().div_ceil(columns).max(1);
+    let rows: Vec<RgbImage> = panels.iter().map(|panel| before_after(panel, SMALL_TILE)).collect();
+    sheet(&rows)
+}
+
+/// Puts pictures of models together: a row each, in two columns where there are many.
+pub fn sheet(pictures: &[RgbImage]) -> RgbImage {
+    let columns = if pictures.len() > LONGEST_COLUMN { 2 } else { 1 };
+    let rows = pictures.len().div_ceil(columns).max(1);
+    let largest = |side: fn(&RgbImage) -> u32| pictures.iter().map(side).max();
     let [width, height] = panel_size(SMALL_TILE);
+    let width = largest(RgbImage::width).unwrap_or(width);
+    let height = largest(RgbImage::height).unwrap_or(height);
     let spread = |count: usize, size: u32| count as u32 * (size + GAP) - GAP;
     let mut sheet = RgbImage::from_pixel(spread(columns, width), spread(rows, height), PAPER);
-    for (number, panel) in panels.iter().enumerate() {
+    for (number, picture) in pictures.iter().enumerate() {
         let x = (number % columns) as u32 * (width + GAP);
         let y = (number / columns) as u32 * (height + GAP);
-        let image = Drawn::new(panel, SMALL_TILE).image();
-        imageops::replace(&mut sheet, &image, x.into(), y.into());
+        imageops::replace(&mut sheet, picture, x.into(), y.into());
     }
     sheet
 }
@@ -168,12 +177,12 @@ mod tests {
 
     #[test]
     fn the_same_panel_gives_the_same_bytes() {
-        assert_eq!(before_after(&panel()), before_after(&panel()));
+        assert_eq!(before_after(&panel(), 40), before_after(&panel(), 40));
     }
 
     #[test]
     fn an_empty_panel_is_background() {
-        assert_eq!(before_after(&Panel::default()).dimensions(), (1202, 656));
+        assert_eq!(before_after(&Panel::default(), LARGE_TILE).dimensions(), (1202, 656));
         assert_eq!(contact_sheet(&[]).dimensions(), (642, 376));
     }
 

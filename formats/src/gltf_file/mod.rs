@@ -15,6 +15,7 @@
 mod accessor;
 mod accessor_writer;
 mod budget;
+pub mod buffers;
 mod compressed;
 mod container;
 mod core_mesh;
