@@ -97,6 +97,10 @@ pub struct Args {
     #[arg(long, requires = "preview")]
     pub preview_verdicts: bool,
 
+    /// Compress the geometry of results in .glb and .gltf, without loss
+    #[arg(long, value_enum)]
+    pub compress: Option<Compression>,
+
     /// How many threads work [default: one a core]; results do not depend on it
     #[arg(long, value_name = "N", default_value = "0", hide_default_value = true)]
     #[arg(value_parser = clap::value_parser!(u32).range(..=MOST_THREADS))]
@@ -228,6 +232,13 @@ impl From<CheckDepth> for Verify {
             CheckDepth::Fast => Verify::Fast,
         }
     }
+}
+
+/// How results are compressed.
+#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
+pub enum Compression {
+    /// EXT_meshopt_compression, which Unity's glTFast, three.js and Babylon read.
+    Meshopt,
 }
 
 /// [`Verify`] as an argument.

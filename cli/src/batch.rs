@@ -78,6 +78,7 @@ fn chamfer_all(args: &Args, plan: &Plan) -> Outcome {
         read: args.read_options(),
         core: args.options((threads / workers) as u32),
         report_edges: args.report_edges,
+        compresses: args.compress.is_some(),
         taken: Taken::new(jobs),
     };
     let studio = args.preview.is_some().then(|| Studio::new(args, jobs.len()));

@@ -30,6 +30,8 @@ pub struct Settings {
     pub core: Options,
     /// Whether the report lists every hard edge.
     pub report_edges: bool,
+    /// Whether results are compressed.
+    pub compresses: bool,
     /// Files that must not be written, and those that were.
     pub taken: Taken,
 }
@@ -60,7 +62,11 @@ pub fn process(job: &Job, settings: &Settings, progress: &dyn Fn(f32)) -> Result
     notes.extend(document.meshes().iter().zip(&chamfered).filter_map(too_far_out));
     notes.extend(document.meshes().iter().filter_map(nearly_touching));
     notes.extend(meshes_that_touch(&*document, &chamfered));
-    let Encoded { files, notes: lost } = formats::encode(&*document, &job.output, &chamfered)?;
+    let mut encoded = formats::encode(&*document, &job.output, &chamfered)?;
+    if settings.compresses {
+        formats::compress(&mut encoded)?;
+    }
+    let Encoded { files, notes: lost } = encoded;
     notes.extend(lost);
     settings.taken.claim(job, &files)?;
     write::together(&files)?;

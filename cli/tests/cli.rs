@@ -95,6 +95,21 @@ fn chamfers_go_to_the_submesh_that_is_asked_for() {
 }
 
 #[test]
+fn results_are_compressed_where_asked() {
+    let folder = Folder::with(&[("cube.obj", CUBE_OBJ)]);
+    let run = folder.run("cube.obj -o small.glb --compress meshopt").exits(0);
+    let told = "cube.obj: note: written with EXT_meshopt_compression: ";
+    assert!(run.err().starts_with(told), "{}", run.err());
+    let text = fs::read(folder.path("small.glb")).unwrap();
+    assert!(String::from_utf8_lossy(&text).contains(r#""mode":"ATTRIBUTES""#));
+    folder.run("check cube.obj small.glb").exits(0);
+    let run = folder.run("cube.obj -o small.obj --compress meshopt").exits(1);
+    assert!(run.err().contains("only .glb and .gltf can be compressed"), "{}", run.err());
+    let run = folder.run("small.glb -o again.glb --compress meshopt").exits(0);
+    assert_eq!(run.err().lines().count(), 1, "{}", run.err());
+}
+
+#[test]
 fn an_stl_goes_out_as_glb_unless_an_stl_is_asked_for() {
     let folder = Folder::with(&[("a.stl", TRIANGLE_STL)]);
     folder.run("a.stl").exits(0);

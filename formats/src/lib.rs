@@ -22,4 +22,5 @@ pub use document::{
     Document, Encoded, Format, IDENTITY, Instance, NormalsRead, OutputFile, ReadOptions,
     SourceMesh, Weld,
 };
+pub use gltf_file::compress;
 pub use registry::{FORMATS, Row, decode, encode, endings, read, row_of};

@@ -98,9 +98,11 @@ fn blend_of<'a>(source: &'a VertexSource, name: &str) -> &'a Blend {
 }
 
 /// Plain integers that nothing says are quantities: numbers of joints, features, materials.
-fn is_label(name: &str, element: ElementType) -> bool {
+/// Those of features may be written as floats.
+pub fn is_label(name: &str, element: ElementType) -> bool {
     let named = name.starts_with('_') || name.starts_with("JOINTS_");
-    named && element.component.is_integer() && !element.normalized
+    let is_integer = element.component.is_integer() && !element.normalized;
+    named && is_integer || name.starts_with("_FEATURE_ID_")
 }
 
 /// A geometric stream would step where its type is coarser than the chamfer.
@@ -126,7 +128,8 @@ pub fn single(blend: &Blend) -> Option<usize> {
     parts.all(|(other, _)| other == vertex).then_some(vertex)
 }
 
-fn nearest(streams: &SourceStreams, blend: &Blend) -> Vec<f64> {
+/// The value of the heaviest source vertex of a blend that has one.
+pub fn nearest(streams: &SourceStreams, blend: &Blend) -> Vec<f64> {
     let mut best: Option<(f64, &[f64])> = None;
     for (vertex, weight) in parts(blend) {
         let Some(value) = streams.at(vertex) else { continue };

@@ -8,6 +8,7 @@ mod draco;
 mod features;
 mod files;
 mod followers;
+mod labels;
 mod lenient;
 mod many;
 mod morphs;
