@@ -6,6 +6,8 @@ use chamfer::{ChamferSubmesh, Options, Verify, Width};
 use chamfer_formats::{ReadOptions, Weld};
 use clap::{Parser, Subcommand, ValueEnum};
 
+use crate::report::Asked;
+
 const ABOUT: &str = "\
 Chamfers the hard edges of game models.
 
@@ -83,6 +85,14 @@ pub struct Args {
     /// Write what became of every mesh to this file
     #[arg(long, value_name = "FILE.json")]
     pub report: Option<PathBuf>,
+
+    /// Say only what went wrong
+    #[arg(short, long, conflicts_with = "verbose")]
+    pub quiet: bool,
+
+    /// Say what became of every mesh
+    #[arg(short, long)]
+    pub verbose: bool,
 
     /// List every hard edge in the report, and what became of it
     #[arg(long, requires = "report")]
@@ -271,6 +281,37 @@ impl Args {
             .with_verify(self.verify.into())
             .with_chamfer_submesh(self.chamfer_submesh)
             .with_threads(threads)
+    }
+
+    /// The same and more, for the report.
+    pub fn asked(&self) -> Asked {
+        let (width, width_unit) = match self.width {
+            Some(width) => (width, "mesh"),
+            None => (self.width_percent, "percent"),
+        };
+        Asked {
+            width,
+            width_unit,
+            least_breadth: self.least_breadth,
+            verify: match self.verify {
+                VerifyArg::Seen => "seen",
+                VerifyArg::Full => "full",
+                VerifyArg::Fast => "fast",
+            },
+            chamfer_submesh: match self.chamfer_submesh {
+                ChamferSubmesh::Owner => "owner".into(),
+                ChamferSubmesh::Own => "own".into(),
+                ChamferSubmesh::Given(number) => number.to_string(),
+                _ => "other".into(),
+            },
+            smoothing_angle: self.smoothing_angle,
+            weld: self.weld.map(|weld| match weld {
+                Weld::Equal => "0".into(),
+                Weld::Within(distance) => distance.to_string(),
+                Weld::Auto => "auto".into(),
+            }),
+            compress: self.compress.map(|Compression::Meshopt| "meshopt"),
+        }
     }
 
     /// What to ask of the readers.

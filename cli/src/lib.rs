@@ -12,8 +12,11 @@ mod check;
 mod console;
 mod demo;
 mod jobs;
+mod nothing;
+mod outcome;
 mod process;
 mod report;
+mod summary;
 mod verdict_lines;
 mod write;
 
@@ -29,7 +32,9 @@ use args::{Args, Command};
 /// interrupt.
 pub fn run() -> ExitCode {
     let args = Args::parse();
-    write::clean_up_on_interrupt();
+    if args.command.is_some() {
+        write::on_interrupt(|| false);
+    }
     match &args.command {
         Some(Command::Demo(demo)) => demo::run(demo),
         Some(Command::Check(args)) => check::run(args),

@@ -28,10 +28,10 @@ pub struct Studio {
 pub struct Portrait(Vec<u8>);
 
 impl Studio {
-    /// One model alone is drawn larger than many.
-    pub fn new(args: &Args, models: usize) -> Studio {
+    /// One model alone is drawn larger than many; none where nobody asks for pictures.
+    pub fn new(args: &Args, models: usize) -> Option<Studio> {
         let tile = if models == 1 { LARGE_TILE } else { SMALL_TILE };
-        Studio { tile, verdicts: args.preview_verdicts }
+        args.preview.as_ref().map(|_| Studio { tile, verdicts: args.preview_verdicts })
     }
 
     /// Draws a model.

@@ -10,6 +10,7 @@ use std::collections::BTreeSet;
 use std::fs::{self, File, TryLockError};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use anyhow::{Context, Result, bail};
@@ -56,6 +57,57 @@ pub fn together(files: &[OutputFile]) -> Result<()> {
     let done = steps.and_then(|steps| steps.into_iter().try_for_each(Step::run));
     unfinished.retain(|path| path.exists());
     done
+}
+
+/// As [`together`], for the result of a model: none gets its name once the run is stopped.
+///
+/// # Errors
+/// As [`together`].
+pub fn model(files: &[OutputFile]) -> Result<Written> {
+    let mut stage = Stage { is_model: true, ..Stage::default() };
+    let steps = steps(files, &mut stage)?;
+    let mut unfinished = unfinished();
+    if STOPPED.load(Ordering::SeqCst) {
+        drop(unfinished);
+        wait_for_the_end();
+    }
+    let written = Written::new();
+    let done = steps.into_iter().try_for_each(Step::run);
+    unfinished.retain(|path| path.exists());
+    done.map(|()| written)
+}
+
+/// A result that has its name and that nobody has been told of.
+pub struct Written(());
+
+/// How many such results there are.
+static WRITTEN: AtomicUsize = AtomicUsize::new(0);
+
+/// Whether the run was interrupted.
+static STOPPED: AtomicBool = AtomicBool::new(false);
+
+impl Written {
+    fn new() -> Written {
+        WRITTEN.fetch_add(1, Ordering::SeqCst);
+        Written(())
+    }
+
+    /// How many there are.
+    pub fn count() -> usize {
+        WRITTEN.load(Ordering::SeqCst)
+    }
+}
+
+impl Drop for Written {
+    fn drop(&mut self) {
+        WRITTEN.fetch_sub(1, Ordering::SeqCst);
+    }
+}
+
+fn wait_for_the_end() -> ! {
+    loop {
+        std::thread::park();
+    }
 }
 
 /// As [`together`], for a file alone.
@@ -146,17 +198,32 @@ fn free_aside(buffer: &Path) -> PathBuf {
 }
 
 /// From now on an interrupt, a hang-up or a polite kill removes unfinished files and ends the
-/// process.
-pub fn clean_up_on_interrupt() {
+/// process, unless `tell` says that somebody else will end it: the first time alone.
+pub fn on_interrupt(tell: impl Fn() -> bool + Send + 'static) {
+    let mut is_first = true;
     // Fails only where a handler exists already: then that one decides.
-    let _ = ctrlc::set_handler(|| {
+    let _ = ctrlc::set_handler(move || {
+        if std::mem::take(&mut is_first) && tell() {
+            return;
+        }
         // The lock is never given back, so that no other thread starts a file meanwhile.
         let unfinished = unfinished();
-        for path in unfinished.iter() {
-            let _ = fs::remove_file(path);
-        }
+        remove(&unfinished);
         std::process::exit(INTERRUPTED);
     });
+}
+
+/// Removes what models have begun; none begins any more.
+pub fn stop() {
+    let unfinished = unfinished();
+    STOPPED.store(true, Ordering::SeqCst);
+    remove(&unfinished);
+}
+
+fn remove(unfinished: &BTreeSet<PathBuf>) {
+    for path in unfinished {
+        let _ = fs::remove_file(path);
+    }
 }
 
 fn unfinished() -> MutexGuard<'static, BTreeSet<PathBuf>> {
@@ -168,6 +235,8 @@ fn unfinished() -> MutexGuard<'static, BTreeSet<PathBuf>> {
 #[derive(Default)]
 struct Stage {
     held: Vec<(PathBuf, File)>,
+    /// Whether it is for a model: then it ends where the run is stopped.
+    is_model: bool,
 }
 
 impl Stage {
@@ -192,6 +261,10 @@ impl Stage {
         fs::create_dir_all(&folder)
             .with_context(|| format!("cannot create the folder {}", folder.display()))?;
         let mut unfinished = unfinished();
+        if self.is_model && STOPPED.load(Ordering::SeqCst) {
+            drop(unfinished);
+            wait_for_the_end();
+        }
         clear_leftovers(&folder);
         // The error would name the temporary file, which means nothing to the user: its kind is
         // enough.

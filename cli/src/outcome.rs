@@ -1,0 +1,133 @@
+//! What came of the files of a run: told as they are done, and all of it at the end.
+
+use std::path::Path;
+use std::time::Duration;
+
+use anyhow::Result;
+
+use crate::args::Args;
+use crate::batch::one_line;
+use crate::console::{one_line as told, say, warn};
+use crate::jobs::{Job, Plan};
+use crate::pictures::{self, MOST_ROWS, Portrait};
+use crate::report::{FileReport, MeshReport, Report};
+use crate::summary;
+use crate::write::{self, Written};
+
+/// A file that was tried. A slow one keeps the others waiting, so no model is in it.
+pub struct Done {
+    pub result: Result<Finished>,
+    /// From reading to writing.
+    pub time: Duration,
+}
+
+/// What is left of a file once it is written.
+pub struct Finished {
+    pub reports: Vec<MeshReport>,
+    pub notes: Vec<String>,
+    /// A picture, where one was asked for and there is something to see.
+    pub picture: Option<Portrait>,
+    pub written: Written,
+}
+
+/// What is left of a run.
+#[derive(Default)]
+pub struct Outcome {
+    files: Vec<FileReport>,
+    notes: Vec<String>,
+    portraits: Vec<Portrait>,
+    /// Models that would be in the picture if there were room.
+    left_out: usize,
+    /// Whether somebody ended it before all was done.
+    pub is_interrupted: bool,
+    is_quiet: bool,
+    is_verbose: bool,
+}
+
+impl Outcome {
+    /// Of a run that has not begun.
+    pub fn new(args: &Args, plan: &Plan) -> Outcome {
+        let notes = plan.notes.clone();
+        Outcome { notes, is_quiet: args.quiet, is_verbose: args.verbose, ..Outcome::default() }
+    }
+
+    /// How many files are done, or have failed.
+    pub fn done(&self) -> usize {
+        self.files.len()
+    }
+
+    /// Whether one has failed.
+    pub fn has_failed(&self) -> bool {
+        self.files.iter().any(|file| file.error.is_some())
+    }
+
+    /// Tells of a file that is done.
+    pub fn add(&mut self, job: &Job, done: Done) {
+        let mut file = FileReport::new(&job.input, &job.output, done.time);
+        match done.result {
+            Ok(Finished { reports, notes, picture, written }) => {
+                file.meshes = reports;
+                file.notes = notes;
+                picture.into_iter().for_each(|picture| self.keep(picture));
+                self.tell(&file);
+                drop(written);
+            }
+            Err(error) => {
+                let error = one_line(&error);
+                warn(format_args!("{}: {error}", told(&file.file)));
+                file.error = Some(error);
+            }
+        }
+        self.files.push(file);
+    }
+
+    fn tell(&self, file: &FileReport) {
+        if self.is_quiet {
+            return;
+        }
+        for note in &file.notes {
+            warn(format_args!("{}: note: {}", told(&file.file), told(note)));
+        }
+        say(file);
+        if self.is_verbose {
+            summary::meshes(file).for_each(say);
+        }
+    }
+
+    fn keep(&mut self, portrait: Portrait) {
+        if self.portraits.len() < MOST_ROWS {
+            self.portraits.push(portrait);
+        } else {
+            self.left_out += 1;
+        }
+    }
+
+    /// Says what came of all, and writes what was asked for besides the models.
+    ///
+    /// # Errors
+    /// Where a file cannot be written.
+    pub fn finish(self, args: &Args, planned: usize, time: Duration) -> Result<()> {
+        let mut report = Report::new(args.asked(), self.files, self.notes);
+        report.interrupted = self.is_interrupted;
+        if !self.is_quiet && (planned > 1 || report.interrupted) {
+            say(summary::closing(&report, planned, time));
+        }
+        let json = args.report.as_deref().map(|path| write::alone(path, report.to_json()?));
+        let draw = |path| draw(path, &self.portraits, self.left_out);
+        let preview = args.preview.as_deref().map(draw);
+        // One that fails is no reason to leave out the other.
+        json.unwrap_or(Ok(())).and(preview.unwrap_or(Ok(())))
+    }
+}
+
+fn draw(path: &Path, portraits: &[Portrait], left_out: usize) -> Result<()> {
+    if portraits.is_empty() {
+        warn(format_args!("{}: note: not drawn, there is no model to show", path.display()));
+        return Ok(());
+    }
+    if left_out > 0 {
+        let path = path.display();
+        warn(format_args!("{path}: note: {left_out} models left out after the first {MOST_ROWS}"));
+    }
+    pictures::write_sheet(path, portraits)
+}
