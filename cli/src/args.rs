@@ -98,6 +98,10 @@ pub struct Args {
     #[arg(long, requires = "report")]
     pub report_edges: bool,
 
+    /// Write a page with all models to this file: sortable, with pictures, narrowed ones on top
+    #[arg(long, value_name = "FILE.html")]
+    pub html: Option<PathBuf>,
+
     /// Draw before and after to this file; several models make a contact sheet
     #[arg(long, value_name = "FILE.png")]
     pub preview: Option<PathBuf>,

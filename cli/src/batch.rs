@@ -172,8 +172,8 @@ fn finished(job: &Job, processed: Processed, studio: Option<&Studio>) -> Result<
     let Processed { document, chamfered, reports, notes, written } = processed;
     let is_seen = chamfered.iter().any(|result| !result.mesh.indices.is_empty());
     let draw = |studio: &Studio| studio.draw(name_of(&job.input), &*document, &chamfered);
-    let picture = studio.filter(|_| is_seen).map(draw).transpose()?;
-    Ok(Finished { reports, notes, picture, written })
+    let drawn = studio.filter(|_| is_seen).map(draw).transpose()?.unwrap_or_default();
+    Ok(Finished { reports, notes, drawn, written })
 }
 
 /// Drawn on a terminal only.

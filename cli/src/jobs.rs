@@ -53,7 +53,7 @@ pub fn plan(args: &Args) -> Result<Plan> {
     let jobs = &plan.jobs;
     // One file may be replaced by name; a folder after -o does not name the files in it.
     let may_replace = single && args.output.as_ref() == Some(&jobs[0].output);
-    let extras = [args.report.as_deref(), args.preview.as_deref()];
+    let extras = [args.report.as_deref(), args.preview.as_deref(), args.html.as_deref()];
     check_overlaps(jobs, may_replace, extras.into_iter().flatten())?;
     Ok(plan)
 }

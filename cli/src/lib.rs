@@ -11,6 +11,7 @@ mod batch;
 mod check;
 mod console;
 mod demo;
+mod html;
 mod jobs;
 mod nothing;
 mod outcome;

@@ -8,8 +8,9 @@ use anyhow::Result;
 use crate::args::Args;
 use crate::batch::one_line;
 use crate::console::{one_line as told, say, warn};
+use crate::html::{self, Pictures};
 use crate::jobs::{Job, Plan};
-use crate::pictures::{self, MOST_ROWS, Portrait};
+use crate::pictures::{self, Drawn, MOST_ROWS, Portrait};
 use crate::report::{FileReport, MeshReport, Report};
 use crate::summary;
 use crate::write::{self, Written};
@@ -25,8 +26,8 @@ pub struct Done {
 pub struct Finished {
     pub reports: Vec<MeshReport>,
     pub notes: Vec<String>,
-    /// A picture, where one was asked for and there is something to see.
-    pub picture: Option<Portrait>,
+    /// Pictures, where some were asked for and there is something to see.
+    pub drawn: Drawn,
     pub written: Written,
 }
 
@@ -34,6 +35,8 @@ pub struct Finished {
 #[derive(Default)]
 pub struct Outcome {
     files: Vec<FileReport>,
+    /// `#files`: for the page.
+    pictures: Vec<Pictures>,
     notes: Vec<String>,
     portraits: Vec<Portrait>,
     /// Models that would be in the picture if there were room.
@@ -65,10 +68,11 @@ impl Outcome {
     pub fn add(&mut self, job: &Job, done: Done) {
         let mut file = FileReport::new(&job.input, &job.output, done.time);
         match done.result {
-            Ok(Finished { reports, notes, picture, written }) => {
+            Ok(Finished { reports, notes, drawn, written }) => {
                 file.meshes = reports;
                 file.notes = notes;
-                picture.into_iter().for_each(|picture| self.keep(picture));
+                drawn.portrait.into_iter().for_each(|portrait| self.keep(portrait));
+                self.pictures.push(drawn.page);
                 self.tell(&file);
                 drop(written);
             }
@@ -76,6 +80,7 @@ impl Outcome {
                 let error = one_line(&error);
                 warn(format_args!("{}: {error}", told(&file.file)));
                 file.error = Some(error);
+                self.pictures.push(None);
             }
         }
         self.files.push(file);
@@ -113,10 +118,12 @@ impl Outcome {
             say(summary::closing(&report, planned, time));
         }
         let json = args.report.as_deref().map(|path| write::alone(path, report.to_json()?));
+        let page = |path| write::alone(path, html::page(&report, &self.pictures, path).into());
+        let page = args.html.as_deref().map(page);
         let draw = |path| draw(path, &self.portraits, self.left_out);
         let preview = args.preview.as_deref().map(draw);
         // One that fails is no reason to leave out the other.
-        json.unwrap_or(Ok(())).and(preview.unwrap_or(Ok(())))
+        [json, page, preview].into_iter().flatten().fold(Ok(()), Result::and)
     }
 }
 

@@ -3,13 +3,14 @@
 use std::io::Cursor;
 use std::path::Path;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Error, Result};
 use chamfer::{Chamfered, MeshBuffers};
 use chamfer_formats::Document;
 use image::{ImageFormat, RgbImage};
 
 use crate::args::Args;
-use crate::preview::{LARGE_TILE, Line, Panel, SMALL_TILE, before_after, sheet};
+use crate::html::Pictures;
+use crate::preview::{LARGE_TILE, Line, Panel, SMALL_TILE, before_after, sheet, tiles};
 use crate::scene::placed;
 use crate::verdict_lines::{self, Legend};
 use crate::write;
@@ -19,19 +20,36 @@ pub const MOST_ROWS: usize = 24;
 
 /// How the models of a run are drawn.
 pub struct Studio {
-    /// Pixels per side of a tile.
-    tile: u32,
+    /// Pixels per side of a tile of the sheet, if there is one.
+    tile: Option<u32>,
     verdicts: bool,
+    /// Whether there is a page.
+    page: bool,
 }
+
+/// Pixels per side of a picture on a page: twice what is shown, for fine screens.
+const PAGE_TILE: u32 = 400;
 
 /// A model before and after, as a PNG: many wait for the sheet.
 pub struct Portrait(Vec<u8>);
+
+/// What was drawn of a model.
+#[derive(Default)]
+pub struct Drawn {
+    /// For the sheet.
+    pub portrait: Option<Portrait>,
+    /// For the page.
+    pub page: Pictures,
+}
 
 impl Studio {
     /// One model alone is drawn larger than many; none where nobody asks for pictures.
     pub fn new(args: &Args, models: usize) -> Option<Studio> {
         let tile = if models == 1 { LARGE_TILE } else { SMALL_TILE };
-        args.preview.as_ref().map(|_| Studio { tile, verdicts: args.preview_verdicts })
+        let tile = args.preview.as_ref().map(|_| tile);
+        let page = args.html.is_some();
+        let is_used = tile.is_some() || page;
+        is_used.then_some(Studio { tile, verdicts: args.preview_verdicts, page })
     }
 
     /// Draws a model.
@@ -43,17 +61,20 @@ impl Studio {
         caption: String,
         document: &dyn Document,
         chamfered: &[Chamfered],
-    ) -> Result<Portrait> {
+    ) -> Result<Drawn> {
         let mut panel = Panel {
             caption,
             before: placed(document, |mesh| &document.meshes()[mesh].mesh),
             after: placed(document, |mesh| &chamfered[mesh].mesh),
             ..Panel::default()
         };
+        let page = self.page.then(|| tiles(&panel, PAGE_TILE));
+        let page = page.map(|[before, after]| Ok::<_, Error>([png(&before)?, png(&after)?]));
         if self.verdicts {
             add_verdicts(&mut panel, document, chamfered);
         }
-        Ok(Portrait(png(&before_after(&panel, self.tile))?))
+        let portrait = self.tile.map(|tile| png(&before_after(&panel, tile)).map(Portrait));
+        Ok(Drawn { portrait: portrait.transpose()?, page: page.transpose()? })
     }
 }
 

@@ -87,7 +87,13 @@ pub struct MeshReport {
     /// The weights of `mean_width` in sums.
     #[serde(skip)]
     pub lengths: Lengths,
+    /// How many chamfers there are of each tenth of the width asked for.
+    #[serde(skip)]
+    pub widths: [u64; BINS],
 }
+
+/// Classes of widths.
+pub const BINS: usize = 10;
 
 /// Lengths of edges, in the largest sides of their model: millimetres count no more than metres.
 #[derive(Clone, Copy, Debug, Default)]
@@ -231,6 +237,7 @@ impl MeshReport {
             milliseconds: milliseconds(time),
             edges: None,
             lengths: Lengths::new(source, result, extent),
+            widths: widths(result),
         }
     }
 
@@ -311,6 +318,23 @@ fn mean(weighted: impl Iterator<Item = (f64, f64)>) -> f32 {
     if weight > 0.0 { (sum / weight) as f32 } else { 0.0 }
 }
 
+fn widths(result: &Chamfered) -> [u64; BINS] {
+    let mut bins = [0; BINS];
+    for verdict in result.verdicts.iter().filter(|verdict| verdict.outcome != Outcome::Skipped) {
+        let share = verdict.widths.iter().sum::<f32>() / 2.0 / result.width;
+        // A full one is in the last tenth, whatever rounding makes of it.
+        let last = verdict.outcome == Outcome::Full;
+        let bin = if last { BINS - 1 } else { (share * BINS as f32) as usize };
+        bins[bin.min(BINS - 1)] += 1;
+    }
+    bins
+}
+
+/// The widths of all chamfers of meshes.
+pub fn histogram<'a>(meshes: impl Iterator<Item = &'a MeshReport>) -> [u64; BINS] {
+    meshes.fold([0; BINS], |sum, mesh| std::array::from_fn(|bin| sum[bin] + mesh.widths[bin]))
+}
+
 impl Lengths {
     fn new(source: &MeshBuffers, result: &Chamfered, extent: f64) -> Lengths {
         let mut lengths = Lengths::default();
@@ -357,6 +381,7 @@ mod tests {
             milliseconds: 1.5,
             edges: None,
             lengths: Lengths { hard: hard_length, ..Lengths::default() },
+            widths: [0; BINS],
         }
     }
 

@@ -31,6 +31,11 @@ pub fn before_after(panel: &Panel, tile: u32) -> RgbImage {
     Drawn::new(panel, tile).image()
 }
 
+/// The tiles of a model before and after alone, without captions.
+pub fn tiles(panel: &Panel, tile: u32) -> [RgbImage; 2] {
+    Drawn::new(panel, tile).tiles
+}
+
 /// Draws several models, each before and after.
 pub fn contact_sheet(panels: &[Panel]) -> RgbImage {
     let rows: Vec<RgbImage> = panels.iter().map(|panel| before_after(panel, SMALL_TILE)).collect();

@@ -17,7 +17,7 @@ mod tile;
 
 use image::RgbImage;
 
-pub use layout::{LARGE_TILE, SMALL_TILE, before_after, contact_sheet, sheet};
+pub use layout::{LARGE_TILE, SMALL_TILE, before_after, contact_sheet, sheet, tiles};
 
 /// A mesh and where it stands in the scene, whose up is +y.
 pub struct Placed<'a> {
