@@ -115,6 +115,21 @@ pub struct Args {
     #[arg(long, value_enum)]
     pub compress: Option<Compression>,
 
+    /// Pixels per side of each picture in the preview [default: 600 for one model, else 320]
+    #[arg(long, value_name = "PIXELS", requires = "preview")]
+    #[arg(value_parser = clap::value_parser!(u32).range(32..=2048))]
+    pub preview_size: Option<u32>,
+
+    /// Draw these widths beside each other: in percent, or in mesh units with --width. What is
+    /// written has the width of --width or --width-percent all the same
+    #[arg(long, value_name = "W,W,..", requires = "preview", value_delimiter = ',')]
+    #[arg(value_parser = width, num_args = 1, conflicts_with = "preview_verdicts")]
+    pub preview_widths: Vec<f32>,
+
+    /// Draw the corner at which most hard edges meet, too, five times as large
+    #[arg(long, requires = "preview")]
+    pub preview_close_up: bool,
+
     /// How many threads work [default: one a core]; results do not depend on it
     #[arg(long, value_name = "N", default_value = "0", hide_default_value = true)]
     #[arg(value_parser = clap::value_parser!(u32).range(..=MOST_THREADS))]

@@ -8,7 +8,9 @@ pub mod scene;
 
 mod args;
 mod batch;
+mod busiest;
 mod check;
+mod coats;
 mod console;
 mod demo;
 mod html;

@@ -10,7 +10,7 @@ use crate::batch::one_line;
 use crate::console::{one_line as told, say, warn};
 use crate::html::{self, Pictures};
 use crate::jobs::{Job, Plan};
-use crate::pictures::{self, Drawn, MOST_ROWS, Portrait};
+use crate::pictures::{self, Drawn, Portrait};
 use crate::report::{FileReport, MeshReport, Report};
 use crate::summary;
 use crate::write::{self, Written};
@@ -39,8 +39,6 @@ pub struct Outcome {
     pictures: Vec<Pictures>,
     notes: Vec<String>,
     portraits: Vec<Portrait>,
-    /// Models that would be in the picture if there were room.
-    left_out: usize,
     /// Whether somebody ended it before all was done.
     pub is_interrupted: bool,
     is_quiet: bool,
@@ -71,7 +69,7 @@ impl Outcome {
             Ok(Finished { reports, notes, drawn, written }) => {
                 file.meshes = reports;
                 file.notes = notes;
-                drawn.portrait.into_iter().for_each(|portrait| self.keep(portrait));
+                self.portraits.extend(drawn.portrait);
                 self.pictures.push(drawn.page);
                 self.tell(&file);
                 drop(written);
@@ -99,14 +97,6 @@ impl Outcome {
         }
     }
 
-    fn keep(&mut self, portrait: Portrait) {
-        if self.portraits.len() < MOST_ROWS {
-            self.portraits.push(portrait);
-        } else {
-            self.left_out += 1;
-        }
-    }
-
     /// Says what came of all, and writes what was asked for besides the models.
     ///
     /// # Errors
@@ -120,21 +110,17 @@ impl Outcome {
         let json = args.report.as_deref().map(|path| write::alone(path, report.to_json()?));
         let page = |path| write::alone(path, html::page(&report, &self.pictures, path).into());
         let page = args.html.as_deref().map(page);
-        let draw = |path| draw(path, &self.portraits, self.left_out);
+        let draw = |path| draw(path, &self.portraits);
         let preview = args.preview.as_deref().map(draw);
         // One that fails is no reason to leave out the other.
         [json, page, preview].into_iter().flatten().fold(Ok(()), Result::and)
     }
 }
 
-fn draw(path: &Path, portraits: &[Portrait], left_out: usize) -> Result<()> {
+fn draw(path: &Path, portraits: &[Portrait]) -> Result<()> {
     if portraits.is_empty() {
         warn(format_args!("{}: note: not drawn, there is no model to show", path.display()));
         return Ok(());
     }
-    if left_out > 0 {
-        let path = path.display();
-        warn(format_args!("{path}: note: {left_out} models left out after the first {MOST_ROWS}"));
-    }
-    pictures::write_sheet(path, portraits)
+    pictures::write_sheets(path, portraits)
 }

@@ -1,28 +1,36 @@
 //! The pictures of a run.
 
 use std::io::Cursor;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Error, Result};
-use chamfer::{Chamfered, MeshBuffers};
+use chamfer::{Chamfered, MeshBuffers, Options, Width};
 use chamfer_formats::Document;
 use image::{ImageFormat, RgbImage};
 
 use crate::args::Args;
+use crate::busiest::busiest_corner;
+use crate::coats::Decoded;
 use crate::html::Pictures;
-use crate::preview::{LARGE_TILE, Line, Panel, SMALL_TILE, before_after, sheet, tiles};
+use crate::preview::{
+    LARGE_TILE, Line, Panel, SMALL_TILE, Surface, before_after, sheet, stacked, tiles,
+};
+use crate::process::chamfer_document;
 use crate::scene::placed;
 use crate::verdict_lines::{self, Legend};
 use crate::write;
 
-/// How many models a contact sheet shows: more make a picture that viewers refuse to open.
-pub const MOST_ROWS: usize = 24;
+/// How many models a page of a contact sheet shows: more make a picture that viewers refuse to open.
+const MOST_ROWS: usize = 24;
 
 /// How the models of a run are drawn.
 pub struct Studio {
     /// Pixels per side of a tile of the sheet, if there is one.
     tile: Option<u32>,
     verdicts: bool,
+    close_up: bool,
+    /// Options for each of several widths, and what they are called.
+    widths: Vec<(String, Options)>,
     /// Whether there is a page.
     page: bool,
 }
@@ -46,35 +54,79 @@ impl Studio {
     /// One model alone is drawn larger than many; none where nobody asks for pictures.
     pub fn new(args: &Args, models: usize) -> Option<Studio> {
         let tile = if models == 1 { LARGE_TILE } else { SMALL_TILE };
-        let tile = args.preview.as_ref().map(|_| tile);
+        let tile = args.preview.as_ref().map(|_| args.preview_size.unwrap_or(tile));
         let page = args.html.is_some();
+        let options = |width: &f32| match args.width {
+            Some(_) => (format!("{width}"), args.options(1).with_width(Width::Units(*width))),
+            None => {
+                let options = args.options(1).with_width(Width::PercentOfExtent(*width));
+                (format!("{width} %"), options)
+            }
+        };
         let is_used = tile.is_some() || page;
-        is_used.then_some(Studio { tile, verdicts: args.preview_verdicts, page })
+        is_used.then(|| Studio {
+            tile,
+            verdicts: args.preview_verdicts,
+            close_up: args.preview_close_up,
+            widths: args.preview_widths.iter().map(options).collect(),
+            page,
+        })
     }
 
     /// Draws a model.
     ///
     /// # Errors
-    /// Where the picture cannot be encoded.
+    /// Where the picture cannot be encoded, or one of several widths cannot be made.
     pub fn draw(
         &self,
         caption: String,
         document: &dyn Document,
         chamfered: &[Chamfered],
     ) -> Result<Drawn> {
-        let mut panel = Panel {
+        let decoded = Decoded::new(document);
+        let wardrobe = decoded.wardrobe(document);
+        let panel = Panel {
             caption,
             before: placed(document, |mesh| &document.meshes()[mesh].mesh),
             after: placed(document, |mesh| &chamfered[mesh].mesh),
+            surface: Surface::Own(&wardrobe),
             ..Panel::default()
         };
         let page = self.page.then(|| tiles(&panel, PAGE_TILE));
         let page = page.map(|[before, after]| Ok::<_, Error>([png(&before)?, png(&after)?]));
+        let portrait = self.tile.map(|tile| self.portrait(tile, panel, document, chamfered));
+        Ok(Drawn { portrait: portrait.transpose()?, page: page.transpose()? })
+    }
+
+    fn portrait(
+        &self,
+        tile: u32,
+        panel: Panel,
+        document: &dyn Document,
+        chamfered: &[Chamfered],
+    ) -> Result<Portrait> {
+        let run = |options: &Options| chamfer_document(document, options, &|_| ());
+        let several = self.widths.iter().map(|(_, options)| Ok(run(options)?.meshes));
+        let several: Vec<Vec<Chamfered>> = several.collect::<Result<_>>()?;
+        let several = self.widths.iter().zip(&several);
+        let mut named = several
+            .map(|((name, _), meshes)| (name.clone(), placed(document, |m| &meshes[m].mesh)));
+        // The panel lives no longer than the meshes just made.
+        let mut panel: Panel = panel;
+        if let Some((name, first)) = named.next() {
+            (panel.after_name, panel.after) = (Some(name), first);
+        }
+        panel.further = named.collect();
         if self.verdicts {
             add_verdicts(&mut panel, document, chamfered);
         }
-        let portrait = self.tile.map(|tile| png(&before_after(&panel, tile)).map(Portrait));
-        Ok(Drawn { portrait: portrait.transpose()?, page: page.transpose()? })
+        let mut rows = vec![before_after(&panel, tile)];
+        if let Some(zoom) = self.close_up.then(|| busiest_corner(document, chamfered)).flatten() {
+            panel.zoom = Some(zoom);
+            panel.caption = "the busiest corner".into();
+            rows.push(before_after(&panel, tile));
+        }
+        png(&stacked(&rows)).map(Portrait)
     }
 }
 
@@ -92,17 +144,29 @@ fn add_verdicts(panel: &mut Panel, document: &dyn Document, chamfered: &[Chamfer
 
 type Lines = fn(&MeshBuffers, &Chamfered, [[f32; 4]; 4]) -> Vec<Line>;
 
-/// Writes the models to a file: one alone, several as a contact sheet.
+/// Writes the models to a file: one alone, several as a contact sheet, and where there are many as
+/// pages of it: `sheet.png`, `sheet-2.png` and so on.
 ///
 /// # Errors
-/// Where the file cannot be written.
-pub fn write_sheet(path: &Path, portraits: &[Portrait]) -> Result<()> {
+/// Where a file cannot be written.
+pub fn write_sheets(path: &Path, portraits: &[Portrait]) -> Result<()> {
     if let [Portrait(alone)] = portraits {
         return write::alone(path, alone.clone());
     }
-    let rows =
-        portraits.iter().map(|portrait| Ok(image::load_from_memory(&portrait.0)?.into_rgb8()));
-    write_png(path, &sheet(&rows.collect::<Result<Vec<_>>>()?))
+    for (number, page) in portraits.chunks(MOST_ROWS).enumerate() {
+        let rows = page.iter().map(|row| Ok(image::load_from_memory(&row.0)?.into_rgb8()));
+        write_png(&page_path(path, number), &sheet(&rows.collect::<Result<Vec<_>>>()?))?;
+    }
+    Ok(())
+}
+
+fn page_path(path: &Path, number: usize) -> PathBuf {
+    if number == 0 {
+        return path.to_path_buf();
+    }
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let end = path.extension().unwrap_or_default().to_string_lossy();
+    path.with_file_name(format!("{stem}-{}.{end}", number + 1))
 }
 
 /// Writes a picture.

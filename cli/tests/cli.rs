@@ -305,6 +305,89 @@ fn previews_are_pictures() {
     assert!(two.height() > one.height());
 }
 
+fn size_of(folder: &Folder, name: &str) -> (u32, u32) {
+    let picture = image::open(folder.path(name)).unwrap();
+    (picture.width(), picture.height())
+}
+
+/// A tile is 100 pixels wide, a line of text 28 high, and there are two pixels between tiles.
+#[test]
+fn previews_have_widths_and_a_close_up_in_the_size_asked_for() {
+    let folder = Folder::with(&[("a.obj", CUBE_OBJ)]);
+    let run = |more: &str| {
+        folder
+            .run(&format!("a.obj -o x.obj --preview p.png --preview-size 100 {more}").trim_end())
+            .exits(0);
+        size_of(&folder, "p.png")
+    };
+    assert_eq!(run(""), (202, 156));
+    assert_eq!(run("--preview-close-up"), (202, 312));
+    assert_eq!(run("--preview-widths 0.5,2,8,20"), (508, 156));
+    let picture = image::open(folder.path("p.png")).unwrap().into_rgb8();
+    let tiles: Vec<Vec<u8>> = (0..5)
+        .map(|tile| {
+            let tile = image::imageops::crop_imm(&picture, 102 * tile, 28, 100, 100);
+            tile.to_image().into_raw()
+        })
+        .collect();
+    let differ =
+        |a: usize, b: usize| tiles[a].iter().zip(&tiles[b]).filter(|(a, b)| a != b).count();
+    assert!(
+        differ(0, 1) < differ(0, 2) && differ(0, 2) < differ(0, 3) && differ(0, 3) < differ(0, 4)
+    );
+    folder.run("a.obj -o x.obj --preview-size 100").exits(2);
+    folder.run("a.obj -o x.obj --preview p.png --preview-widths 1,-1").exits(2);
+}
+
+#[test]
+fn many_models_go_to_pages() {
+    let folder = Folder::with(&[]);
+    fs::create_dir(folder.path("in")).unwrap();
+    for number in 0..26 {
+        fs::write(folder.path(&format!("in/{number}.obj")), CUBE_OBJ).unwrap();
+    }
+    folder.run("in -o out --preview sheet.png --preview-size 40 --verify fast").exits(0);
+    let row = 40 + 56 + 2;
+    assert_eq!(size_of(&folder, "sheet.png"), (2 * 82 + 2, 12 * row - 2));
+    assert_eq!(size_of(&folder, "sheet-2.png"), (82, 2 * row - 2));
+    assert!(!folder.path("sheet-3.png").exists());
+}
+
+/// The colours of its materials: the top is blue.
+#[test]
+fn previews_show_materials() {
+    let folder = Folder::with(&[("a.obj", CUBE_OBJ), ("cube.mtl", "newmtl top\nKd 0.1 0.2 1\n")]);
+    folder.run("a.obj -o x.obj --preview p.png").exits(0);
+    folder.run("a.obj -o x.glb --preview q.png").exits(0);
+    folder.run("x.glb -o y.glb --preview r.png").exits(0);
+    for name in ["p.png", "q.png", "r.png"] {
+        let picture = image::open(folder.path(name)).unwrap().into_rgb8();
+        let is_blue = |p: &&image::Rgb<u8>| p.0[2] > 100 && p.0[2] / 2 > p.0[0];
+        let count = picture.pixels().filter(is_blue).count();
+        assert!(count > 10_000, "{name}: {count}");
+    }
+}
+
+/// A wall that faces the eye's side, red below and green above, in an .obj, a .glb and a .gltf.
+#[test]
+fn previews_show_textures() {
+    let wall = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n\
+                vn 0 0 1\nusemtl m\nf 1/1/1 2/2/1 3/3/1 4/4/1\n";
+    let folder = Folder::with(&[("a.obj", wall), ("a.mtl", "newmtl m\nmap_Kd halves.png\n")]);
+    let halves = image::RgbImage::from_fn(8, 8, |_, y| {
+        image::Rgb(if y < 4 { [0, 255, 0] } else { [255, 0, 0] })
+    });
+    halves.save(folder.path("halves.png")).unwrap();
+    for (from, to) in [("a.obj", "b.glb"), ("b.glb", "c.gltf"), ("c.gltf", "d.gltf")] {
+        folder.run(&format!("{from} -o {to} --preview p.png --preview-size 100")).exits(0);
+        let picture = image::open(folder.path("p.png")).unwrap().into_rgb8();
+        let pixel = |y: u32| picture.get_pixel(50, 28 + y).0;
+        let (above, below) = (pixel(30), pixel(70));
+        assert!(above[1] / 2 > above[0], "{from}: {above:?}");
+        assert!(below[0] / 2 > below[1], "{from}: {below:?}");
+    }
+}
+
 #[test]
 fn the_demo_needs_no_file() {
     let folder = Folder::with(&[]);

@@ -33,13 +33,27 @@ pub fn before_after(panel: &Panel, tile: u32) -> RgbImage {
 
 /// The tiles of a model before and after alone, without captions.
 pub fn tiles(panel: &Panel, tile: u32) -> [RgbImage; 2] {
-    Drawn::new(panel, tile).tiles
+    let mut tiles = Drawn::new(panel, tile).tiles.into_iter();
+    [(); 2].map(|()| tiles.next().unwrap_or_default())
 }
 
 /// Draws several models, each before and after.
 pub fn contact_sheet(panels: &[Panel]) -> RgbImage {
     let rows: Vec<RgbImage> = panels.iter().map(|panel| before_after(panel, SMALL_TILE)).collect();
     sheet(&rows)
+}
+
+/// Puts pictures one below the other.
+pub fn stacked(pictures: &[RgbImage]) -> RgbImage {
+    let width = pictures.iter().map(RgbImage::width).max().unwrap_or(0);
+    let height = pictures.iter().map(RgbImage::height).sum();
+    let mut image = RgbImage::from_pixel(width, height, PAPER);
+    let mut top = 0;
+    for picture in pictures {
+        imageops::replace(&mut image, picture, 0, top);
+        top += i64::from(picture.height());
+    }
+    image
 }
 
 /// Puts pictures of models together: a row each, in two columns where there are many.
@@ -67,15 +81,20 @@ fn panel_size(tile: u32) -> [u32; 2] {
 /// A panel whose tiles are drawn.
 struct Drawn<'a> {
     title: &'a str,
-    tiles: [RgbImage; 2],
-    captions: [String; 2],
+    tiles: Vec<RgbImage>,
+    captions: Vec<String>,
 }
 
 impl<'a> Drawn<'a> {
     fn new(panel: &'a Panel, tile: u32) -> Self {
-        let scenes = [Scene::gather(&panel.before), Scene::gather(&panel.after)];
+        let further = panel.further.iter().map(|(_, placed)| placed);
+        let placed = [&panel.before, &panel.after].into_iter().chain(further);
+        let scenes: Vec<Scene> = placed.map(|placed| Scene::gather(placed)).collect();
         let camera = camera(&scenes, panel, tile as usize * SAMPLES);
-        let [before, after] = &scenes;
+        let after = panel.after_name.as_deref().unwrap_or("after");
+        let names = ["before", after].into_iter();
+        let names = names.chain(panel.further.iter().map(|(name, _)| &**name));
+        let lines = [&panel.before_lines[..], &panel.after_lines];
         let render = |scene, lines| {
             let camera = camera.as_ref();
             let culls_backs = panel.toward_eye.is_some();
@@ -84,19 +103,26 @@ impl<'a> Drawn<'a> {
         };
         Drawn {
             title: &panel.caption,
-            tiles: [render(before, &panel.before_lines), render(after, &panel.after_lines)],
-            captions: [count("before", before), count("after", after)],
+            tiles: (0..)
+                .zip(&scenes)
+                .map(|(number, scene)| {
+                    render(scene, lines.get(number).copied().unwrap_or_default())
+                })
+                .collect(),
+            captions: names.zip(&scenes).map(|(name, scene)| count(name, scene)).collect(),
         }
     }
 
     /// The title above, the tiles, a caption below each.
     fn image(&self) -> RgbImage {
         let tile = self.tiles[0].width();
-        let [width, height] = panel_size(tile);
+        let [_, height] = panel_size(tile);
+        let width = self.tiles.len() as u32 * (tile + GAP) - GAP;
         let mut image = RgbImage::from_pixel(width, height, PAPER);
         let title = TextBox { left: 0, top: (BAR - TEXT_HEIGHT) / 2, width };
         caption::write(&mut image, self.title, &title, TITLE_INK);
-        for (left, (drawn, text)) in [0, tile + GAP].into_iter().zip(self.parts()) {
+        for (number, (drawn, text)) in (0..).zip(self.parts()) {
+            let left = number * (tile + GAP);
             imageops::replace(&mut image, drawn, left.into(), BAR.into());
             let below = TextBox { left, top: BAR + tile + title.top, width: tile };
             caption::write(&mut image, text, &below, CAPTION_INK);
@@ -129,12 +155,11 @@ fn grouped(number: usize) -> String {
 }
 
 /// One view of both scenes; `None` where neither has an extent.
-fn camera(scenes: &[Scene; 2], panel: &Panel, samples: usize) -> Option<Camera> {
-    let [before, after] = scenes;
+fn camera(scenes: &[Scene], panel: &Panel, samples: usize) -> Option<Camera> {
     let toward_eye = panel.toward_eye.map(|direction| glam::Vec3::from(direction).as_dvec3());
     let camera = Camera::frame(
         toward_eye.unwrap_or(TOWARD_EYE),
-        before.corners().chain(after.corners()),
+        scenes.iter().flat_map(Scene::corners),
         samples,
     )?;
     let Some(zoom) = panel.zoom.filter(|zoom| zoom.factor > 0.0 && zoom.factor.is_finite()) else {
@@ -143,8 +168,7 @@ fn camera(scenes: &[Scene; 2], panel: &Panel, samples: usize) -> Option<Camera> 
     let given = zoom.focus.map(|focus| glam::Vec3::from(focus).as_dvec3());
     let focus = given
         .filter(|&focus| camera.depth(focus) > 0.0 && focus.is_finite())
-        .or_else(|| nearest(&camera, before))
-        .or_else(|| nearest(&camera, after));
+        .or_else(|| scenes.iter().find_map(|scene| nearest(&camera, scene)));
     Some(match focus {
         // Away from the middle of the model the direction would be another one.
         Some(focus) if toward_eye.is_some() => {

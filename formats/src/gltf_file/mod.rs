@@ -27,6 +27,7 @@ mod follow;
 mod geometry;
 mod json;
 mod labels;
+mod looks;
 mod meshopt_pack;
 mod meshopt_views;
 mod names;
@@ -49,7 +50,7 @@ use chamfer::Chamfered;
 use serde_json::Value;
 
 use crate::document::{
-    Document, Encoded, Format, Instance, NormalsRead, OutputFile, ReadOptions, SourceMesh,
+    Document, Encoded, Format, Instance, Looks, NormalsRead, OutputFile, ReadOptions, SourceMesh,
 };
 use crate::weld;
 use accessor_writer::AccessorWriter;
@@ -312,6 +313,11 @@ impl Document for GltfDocument {
 
     fn notes(&self) -> Vec<String> {
         self.notes.clone()
+    }
+
+    fn looks(&self) -> Looks {
+        let folder = resources::folder(&self.path);
+        looks::looks(&self.json, &self.buffers, &folder, &self.geometries)
     }
 
     fn encode(&self, format: Format, output: &Path, chamfered: &[Chamfered]) -> Result<Encoded> {
