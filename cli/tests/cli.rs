@@ -316,7 +316,7 @@ fn previews_have_widths_and_a_close_up_in_the_size_asked_for() {
     let folder = Folder::with(&[("a.obj", CUBE_OBJ)]);
     let run = |more: &str| {
         folder
-            .run(&format!("a.obj -o x.obj --preview p.png --preview-size 100 {more}").trim_end())
+            .run(format!("a.obj -o x.obj --preview p.png --preview-size 100 {more}").trim_end())
             .exits(0);
         size_of(&folder, "p.png")
     };
