@@ -19,6 +19,8 @@ pub enum Format {
     Stl,
     /// Autodesk's FBX, binary or ASCII.
     Fbx,
+    /// Stanford's polygons, ASCII or binary.
+    Ply,
 }
 
 /// One mesh of a file, in the layout of the core.

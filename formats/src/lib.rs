@@ -13,6 +13,7 @@ pub mod obj_file;
 mod parts;
 pub mod paths;
 pub mod pictures;
+pub mod ply_file;
 mod polygon;
 mod registry;
 pub mod stl_file;
