@@ -35,7 +35,7 @@ pub fn decode(path: &Path, bytes: &[u8], options: &ReadOptions) -> Result<PlyDoc
     let header = parser.read_header(&mut reader).context("its header cannot be read")?;
     for (name, element) in &header.elements {
         // Each takes a byte at least, or a few words could ask for any number.
-        let fits = element.count as usize <= bytes.len() && !element.properties.is_empty();
+        let fits = element.count <= bytes.len() && !element.properties.is_empty();
         ensure!(
             element.count == 0 || fits,
             "the header announces {} of {name:?}, more than the file can hold",
