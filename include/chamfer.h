@@ -106,6 +106,12 @@ extern "C" {
 /** An index points past the last vertex. Element: its place among the indices. */
 #define CHAMFER_STATUS_INDEX_RANGE 206
 
+/** A factor is negative, infinite or not a number. Element: its place. */
+#define CHAMFER_STATUS_BAD_FACTOR 207
+
+/** A listed edge is of a vertex that does not exist. Element: its place in the list. */
+#define CHAMFER_STATUS_EDGE_RANGE 208
+
 /** The result would not fit 32-bit indices. */
 #define CHAMFER_STATUS_TOO_LARGE 300
 
@@ -129,6 +135,27 @@ extern "C" {
 
 /** `width_unit`: the width is in percent of the largest side of the mesh's box. */
 #define CHAMFER_WIDTH_PERCENT 1
+
+/** `width_mode`: from the old edge to the pulled one, within the face. */
+#define CHAMFER_WIDTH_OFFSET 0
+
+/** `width_mode`: across the chamfer, from one pulled edge to the other. */
+#define CHAMFER_WIDTH_CHORD 1
+
+/** `width_mode`: from the old edge straight down to the chamfer. */
+#define CHAMFER_WIDTH_DEPTH 2
+
+/** `width_mode`: of the circle that touches both faces at the pulled edges. */
+#define CHAMFER_WIDTH_RADIUS 3
+
+/** `convexity`: edges of both kinds are chamfered. */
+#define CHAMFER_CONVEXITY_BOTH 0
+
+/** `convexity`: only those whose faces meet as those of a cube. */
+#define CHAMFER_CONVEXITY_CONVEX 1
+
+/** `convexity`: only those whose faces meet as a wall and the floor of a room. */
+#define CHAMFER_CONVEXITY_CONCAVE 2
 
 /** `verify`: nothing opens, flips or degenerates. */
 #define CHAMFER_VERIFY_FAST 0
@@ -187,6 +214,9 @@ extern "C" {
 /** `reason`: something rests on the edge, or right beside it; light would show behind a chamfer. */
 #define CHAMFER_REASON_CONTACT 9
 
+/** `reason`: the edge is not among those that were asked for, by angle, convexity, factor or list. */
+#define CHAMFER_REASON_NOT_SELECTED 10
+
 /**
  * How many reasons `skipped_by_reason` has room for: more than there are, so that reasons can be
  * added.
@@ -235,6 +265,25 @@ typedef struct chamfer_options {
      * 0 for the default, a fifth; a tiny share for nothing.
      */
     float least_breadth;
+    /** One of `CHAMFER_WIDTH_OFFSET` (default), `_CHORD`, `_DEPTH`, `_RADIUS`. */
+    uint32_t width_mode;
+    /**
+     * Edges are chamfered whose faces meet at this angle at least, in degrees: 0 (default) for a
+     * flat surface, 180 for one folded back on itself.
+     */
+    float min_angle;
+    /** The same at most. 0 for the default, 180. */
+    float max_angle;
+    /** One of `CHAMFER_CONVEXITY_BOTH` (default), `_CONVEX`, `_CONCAVE`. */
+    uint32_t convexity;
+    /** Normals are one that differ by less than this, in degrees up to 90. 0 for the default, 1. */
+    float hard_angle;
+    /**
+     * Where the three axes of the mesh go in the space in which widths, angles and planes are
+     * measured, such as that of the scene. It may mirror and shear, but not flatten. All 0 for the
+     * default, the mesh as it is.
+     */
+    float scale[9];
 } chamfer_options;
 
 /** One UV channel of a mesh. */
@@ -260,6 +309,14 @@ typedef struct chamfer_held {
     /** In mesh units. */
     float radius;
 } chamfer_held;
+
+/** How wide the chamfer of one edge is. */
+typedef struct chamfer_edge_factor {
+    /** Vertices at its ends, on either side of the edge and in either order. */
+    uint32_t vertices[2];
+    /** How many times the width asked for; 0 leaves the edge as it is. */
+    float factor;
+} chamfer_edge_factor;
 
 /**
  * A triangle mesh, vertex streams first, as the engines hold it. An absent stream is NULL. The
@@ -292,6 +349,24 @@ typedef struct chamfer_mesh {
     uint32_t held_count;
     /** `#held`, or NULL: where something outside of the mesh rests on it. Results hold none. */
     const struct chamfer_held *held;
+    /**
+     * `#submeshes` or NULL: how many times the width the chamfers of each get; 0 leaves its edges
+     * as they are. An edge between two submeshes has the smaller of their factors. Results have no
+     * factors.
+     */
+    const float *submesh_factors;
+    /**
+     * `#vertices` or NULL: a mask. An end of an edge has the mean over its two sides, and at least a
+     * sixteenth of the other end.
+     */
+    const float *vertex_factors;
+    /** How many edges are listed. */
+    uint32_t edge_factor_count;
+    /**
+     * `#listed`, or NULL. Where some are, only these are chamfered. All factors that concern one
+     * end of an edge multiply.
+     */
+    const struct chamfer_edge_factor *edge_factors;
 } chamfer_mesh;
 
 /**

@@ -14,6 +14,7 @@ use crate::ids::{Corner, Few, IdVec, Sector, Vertex};
 use crate::placement::Placement;
 use crate::report::Blend;
 use crate::resample::blended_normal;
+use crate::scale::Space;
 use crate::sectors::Sectors;
 use crate::surface::Surface;
 use crate::view::View;
@@ -31,6 +32,7 @@ pub struct Attributes {
 }
 
 pub fn attributes(
+    space: Space,
     surface: Surface,
     weld: &Weld,
     chamfers: Chamfers,
@@ -40,14 +42,14 @@ pub fn attributes(
     // At a seam both far vertices of a strip are copied.
     let copies = 2 * chamfers.edges.hard.iter().filter(|edge| edge.seams != 0).count();
     let mut attributes = Attributes {
-        streams: Streams::of_source(surface.view, chamfers.sectors.fans.len(), copies),
+        streams: Streams::of_source(space.source, chamfers.sectors.fans.len(), copies),
         vertex_at: IdVec::from_vec(vertex_at),
     };
     let (mut taken, mut parted) = (staying(surface, chamfers.sectors, placement), Vec::new());
     let moved = || chamfers.sectors.fans.ids().filter(|&sector| placement.has_moved(sector));
     for sector in moved() {
         move_sector(
-            surface,
+            (space, surface),
             chamfers.sectors,
             placement,
             sector,
@@ -56,7 +58,7 @@ pub fn attributes(
         );
     }
     attributes.streams.look_up(weld);
-    add_parted(surface, placement, &parted, &mut attributes);
+    add_parted((space, surface), placement, &parted, &mut attributes);
     if moved().next().is_some() {
         collapsed::close(surface.view, surface.topology, &mut attributes.vertex_at);
     }
@@ -83,7 +85,7 @@ type Parted = (Sector, Corner);
 /// Gives each vertex of a sector its new place: in its own index if that is free; else it is noted,
 /// and past the source vertices its number among those noted stands for it.
 fn move_sector(
-    surface: Surface,
+    (space, surface): (Space, Surface),
     sectors: &Sectors,
     placement: &Placement,
     sector: Sector,
@@ -98,8 +100,8 @@ fn move_sector(
         attributes.vertex_at[corner] = known.unwrap_or_else(|| {
             let streams = &mut attributes.streams;
             let blends = blends(surface.view, placement, sector, corner);
-            let row = row(surface.view, placement, streams, sector, blends);
-            let output = twin_of(surface.view, streams, &seen, vertex, &row).unwrap_or_else(|| {
+            let row = row(space, placement, streams, sector, blends);
+            let output = twin_of(space.source, streams, &seen, vertex, &row).unwrap_or_else(|| {
                 if taken[vertex] {
                     parted.push((sector, corner));
                     return sources + parted.len() as u32 - 1;
@@ -140,7 +142,7 @@ fn twin_of(
 
 /// Appends the vertices that were noted, and puts them in the place of their numbers.
 fn add_parted(
-    surface: Surface,
+    (space, surface): (Space, Surface),
     placement: &Placement,
     parted: &[Parted],
     attributes: &mut Attributes,
@@ -148,7 +150,7 @@ fn add_parted(
     let streams = &mut attributes.streams;
     let add = |&(sector, corner): &Parted| {
         let blends = blends(surface.view, placement, sector, corner);
-        let row = row(surface.view, placement, streams, sector, blends);
+        let row = row(space, placement, streams, sector, blends);
         streams.add_moved(surface.topology.cluster_at[corner], &row, blends)
     };
     let added: Vec<u32> = parted.iter().map(add).collect();
@@ -161,14 +163,14 @@ fn add_parted(
 /// The values of a corner's vertex where its sector stands: the normal of the surface there, and all
 /// else of its chart.
 fn row(
-    view: &View,
+    space: Space,
     placement: &Placement,
     streams: &Streams,
     sector: Sector,
     [surface, chart]: [Blend; 2],
 ) -> Row {
-    let normal = blended_normal(view, &surface);
-    streams.blended(view, (placement.point[sector], normal), &chart)
+    let normal = blended_normal(space.source, &surface);
+    streams.blended(space.source, (space.back(placement.point[sector]), normal), &chart)
 }
 
 /// Where a corner's vertex comes from when its sector takes a share of the offset: on the surface,

@@ -2,7 +2,7 @@
 
 use crate::ids::{Corner, Id, Vertex};
 use crate::mesh::Uv;
-use crate::tolerance::{EQUAL_UV, HARD_COSINE};
+use crate::tolerance::EQUAL_UV;
 use crate::view::View;
 
 /// Whether the stored normals differ between two half-edges that are twins.
@@ -11,7 +11,8 @@ pub fn is_hard(view: &View, side: Corner, other: Corner) -> bool {
         let (one, other) = (view.vertex_at(one), view.vertex_at(other));
         one != other && {
             let (one, other) = (view.normal(one), view.normal(other));
-            one.dot(other) < HARD_COSINE * (one.length_squared() * other.length_squared()).sqrt()
+            one.dot(other)
+                < view.hard_cosine * (one.length_squared() * other.length_squared()).sqrt()
         }
     };
     differ(side, other.next()) || differ(side.next(), other)

@@ -12,6 +12,7 @@ mod intersections;
 mod matching;
 mod nearest;
 mod origins;
+mod pieces;
 mod rules;
 mod solids;
 mod stored;
@@ -55,10 +56,11 @@ pub fn check(before: &Mesh, after: &Chamfered, depth: Verify) -> Findings {
 
 /// Checks a mesh against its source where only the two are known, as from files.
 ///
-/// The first triangles of each submesh are taken to be those of the source, in their order. Other
-/// tools may have changed that: if rules are broken, each triangle is also looked for where it was,
-/// and what breaks less is what counts ([`Findings::matching`]). The result may have more streams
-/// than the source, and its triangles in other submeshes.
+/// The first triangles of each submesh are taken to be those of the source, in their order, or
+/// their first pieces; the other pieces are looked for from there. Other tools may have changed
+/// that: if rules are broken, each triangle is also looked for where it was, and what breaks less
+/// is what counts ([`Findings::matching`]). The result may have more streams than the source, and
+/// its triangles in other submeshes.
 pub fn compare(before: &Mesh, after: &Mesh, depth: Verify) -> Findings {
     let mut findings = Findings::default();
     values::check_lost_streams(before, after, &mut findings);

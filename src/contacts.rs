@@ -5,7 +5,10 @@
 //! lies on another, the wedge may be all that hid what is behind. So a stretch of border that lies
 //! in the wedge of an edge keeps that wedge from being cut off.
 
+mod stretches;
 mod wedge;
+
+use std::sync::Arc;
 
 use glam::DVec3;
 
@@ -31,7 +34,14 @@ const TOUCHING: f64 = 1e-5;
 /// As many times the resolution, if that is more: both parts are rounded.
 const TOUCHING_STEPS: f64 = 2.0;
 
+/// What lies within so many tolerances of an edge, across it, rests on it.
+const HOLD_REACH: f64 = 2.0;
+
+/// What rests on an edge within so many tolerances of an end alone rests on that end.
+const HOLD_SLACK: f64 = 4.0;
+
 /// A line that may rest on the mesh.
+#[derive(Clone)]
 struct Rim {
     ends: [DVec3; 2],
     /// So far around it nothing is cut away; 0 where it only rests.
@@ -45,7 +55,7 @@ struct Rim {
 pub struct Contacts {
     /// `#rims`.
     rims: Vec<Rim>,
-    tree: Tree,
+    tree: Arc<Tree>,
     /// Within this distance, in mesh units, something touches.
     tolerance: f64,
 }
@@ -71,7 +81,7 @@ pub fn contacts(view: &View, topology: &Topology, faces: &Faces) -> Result<Conta
     let tolerance = if rims.is_empty() { 0.0 } else { tolerance(view) };
     let boxes: Vec<Aabb> =
         rims.iter().map(|rim| around(rim.ends, rim.radius.max(tolerance))).collect();
-    let tree = Tree::new(&boxes, &[]);
+    let tree = Tree::new(&boxes, &[]).into();
     Ok(Contacts { rims, tree, tolerance })
 }
 
@@ -139,6 +149,19 @@ fn around(points: [DVec3; 2], reach: f64) -> Aabb {
 }
 
 impl Contacts {
+    /// The same with other names for the half-edges of the mesh, where these have not moved.
+    pub fn renamed(&self, name: impl Fn(Corner) -> Corner) -> Contacts {
+        let mut rims = self.rims.clone();
+        let borders = rims.iter_mut().map(|rim| &mut rim.border).filter(|border| border.is_some());
+        borders.for_each(|border| *border = name(*border));
+        Contacts { rims, tree: self.tree.clone(), ..*self }
+    }
+
+    /// How many lines may rest on the mesh.
+    pub fn len(&self) -> usize {
+        self.rims.len()
+    }
+
     pub fn is_empty(&self) -> bool {
         self.rims.is_empty()
     }
@@ -154,14 +177,14 @@ impl Contacts {
         view: &View,
         topology: &Topology,
         faces: &Faces,
-        sides: [Corner; 2],
+        (sides, width): ([Corner; 2], f64),
     ) -> Few<Stretch> {
         let ends = [sides[0], sides[0].next()].map(|corner| view.position_at(corner));
-        if self.near(ends, view.width + self.tolerance).next().is_none() {
+        if self.near(ends, width + self.tolerance).next().is_none() {
             return Few::new();
         }
         let wedge = Wedge::new(view, faces, sides);
-        let stretches = wedge.map(|wedge| self.in_wedge(topology, sides[0], &wedge, view.width));
+        let stretches = wedge.map(|wedge| self.in_wedge(topology, sides[0], &wedge, width));
         stretches.unwrap_or_default()
     }
 
@@ -183,9 +206,9 @@ impl Contacts {
         let Some(wedge) = Wedge::new(view, faces, [side, topology.twin[side]]) else {
             return false;
         };
-        let reach = self.tolerance * 2.0;
+        let reach = self.tolerance * HOLD_REACH;
         let stretches = self.in_wedge(topology, side, &wedge, reach);
-        stretches.iter().any(|stretch| wedge.is_inside_ends(stretch, self.tolerance * 4.0))
+        stretches.iter().any(|stretch| wedge.is_inside_ends(stretch, self.tolerance * HOLD_SLACK))
     }
 
     /// Whether something other than the borders of a corner's own position runs through it.

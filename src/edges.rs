@@ -8,7 +8,8 @@ use crate::faces::Faces;
 use crate::ids::{Corner, Edge, IdVec, Vertex};
 use crate::mesh::UV_CHANNELS;
 use crate::report::Reason;
-use crate::tolerance::{ALIKE_COSINE, BACK_TO_BACK_COSINE};
+use crate::selection::Selection;
+use crate::tolerance::BACK_TO_BACK_COSINE;
 use crate::topology::Topology;
 use crate::view::View;
 use crate::weld::Weld;
@@ -23,6 +24,25 @@ pub struct HardEdge {
     pub skipped: Option<Reason>,
     /// The UV channels that differ across it, as bits.
     pub seams: u8,
+    /// The width asked for at the start and at the end of its first side, in mesh units.
+    pub widths: [f64; 2],
+}
+
+impl HardEdge {
+    /// The width asked for where one of its sides starts.
+    pub fn width_at_start(&self, side: Corner) -> f64 {
+        self.widths[usize::from(side != self.sides[0])]
+    }
+
+    /// The width asked for where one of its sides ends.
+    pub fn width_at_end(&self, side: Corner) -> f64 {
+        self.widths[usize::from(side == self.sides[0])]
+    }
+
+    /// The largest width asked for.
+    pub fn widest(&self) -> f64 {
+        self.widths[0].max(self.widths[1])
+    }
 }
 
 pub struct Edges {
@@ -35,6 +55,13 @@ pub struct Edges {
     pub spanned: Vec<Corner>,
 }
 
+impl Edges {
+    /// The largest width asked for of any edge, and at least a given one.
+    pub fn widest(&self, least: f64) -> f64 {
+        self.hard.iter().map(HardEdge::widest).fold(least, f64::max)
+    }
+}
+
 /// Whether any edge can be hard: at one position at least, normals differ.
 pub fn may_be_hard(view: &View, weld: &Weld) -> bool {
     let differs = |vertex: Vertex| {
@@ -42,12 +69,18 @@ pub fn may_be_hard(view: &View, weld: &Weld) -> bool {
         let [one, other] = [vertex, first].map(|vertex| view.normal(vertex));
         let lengths = (one.length_squared() * other.length_squared()).sqrt();
         // A normal without length is like none.
-        first != vertex && one.dot(other) <= ALIKE_COSINE * lengths
+        first != vertex && one.dot(other) <= view.alike_cosine * lengths
     };
     weld.cluster_of.ids().any(differs)
 }
 
-pub fn edges(view: &View, topology: &Topology, faces: &Faces, contacts: &Contacts) -> Edges {
+pub fn edges(
+    view: &View,
+    topology: &Topology,
+    faces: &Faces,
+    contacts: &Contacts,
+    selection: &Selection,
+) -> Edges {
     let mut hard = IdVec::default();
     let mut chamfered_at = IdVec::filled(Edge::NONE, view.corner_count());
     for corner in topology.twin.ids() {
@@ -55,12 +88,15 @@ pub fn edges(view: &View, topology: &Topology, faces: &Faces, contacts: &Contact
         if twin.is_none() || twin < corner || !is_hard(view, corner, twin) {
             continue;
         }
+        let widths = selection.widths(topology, faces, [corner, twin]);
         let skipped = obstacle(topology, faces, corner, twin)
+            .or(widths.is_none().then_some(Reason::NotSelected))
             .or_else(|| contacts.holds(view, topology, faces, corner).then_some(Reason::Contact));
         let edge = hard.push(HardEdge {
             sides: [corner, twin],
             skipped,
             seams: seam_channels(view, corner, twin),
+            widths: widths.unwrap_or_default(),
         });
         if skipped.is_none() {
             chamfered_at[corner] = edge;
@@ -114,7 +150,7 @@ fn obstacle(topology: &Topology, faces: &Faces, side: Corner, other: Corner) -> 
 }
 
 /// The UV channels that differ between two half-edges that are twins, as bits.
-fn seam_channels(view: &View, side: Corner, other: Corner) -> u8 {
+pub fn seam_channels(view: &View, side: Corner, other: Corner) -> u8 {
     let pairs = [(side, other.next()), (side.next(), other)];
     let differs = |channel: &usize| {
         pairs.into_iter().any(|(one, other)| seam_between(view, *channel, one, other))
@@ -130,6 +166,7 @@ mod tests {
     use crate::faces::faces;
     use crate::mesh::Mesh;
     use crate::options::Options;
+    use crate::selection::selection;
     use crate::shapes;
     use crate::stages::stages_of;
     use crate::threads::Threads;
@@ -162,10 +199,12 @@ mod tests {
             ..Mesh::default()
         };
         let view = view(&mesh, &Options::default()).unwrap();
-        let topology = topology(&view, &weld(&mesh));
+        let weld = weld(&mesh);
+        let topology = topology(&view, &weld);
         let faces = faces(&view, &topology, &Threads::default());
         let contacts = contacts(&view, &topology, &faces).unwrap();
-        let edges = edges(&view, &topology, &faces, &contacts);
+        let selection = selection(&view, &weld, &Options::default());
+        let edges = edges(&view, &topology, &faces, &contacts, &selection);
         edges.hard.iter().map(|edge| edge.skipped).collect()
     }
 

@@ -18,6 +18,12 @@ pub enum Stream {
     Uv(u32),
     /// The held places: not by vertex, but by their own number.
     Held,
+    /// The factors of submeshes, by submesh.
+    SubmeshFactors,
+    /// The factors of vertices.
+    VertexFactors,
+    /// The factors of listed edges, by their own number.
+    EdgeFactors,
 }
 
 impl fmt::Display for Stream {
@@ -29,6 +35,9 @@ impl fmt::Display for Stream {
             Stream::Colors => f.write_str("colors"),
             Stream::Uv(channel) => write!(f, "uv channel {channel}"),
             Stream::Held => f.write_str("held places"),
+            Stream::SubmeshFactors => f.write_str("submesh factors"),
+            Stream::VertexFactors => f.write_str("vertex factors"),
+            Stream::EdgeFactors => f.write_str("edge factors"),
         }
     }
 }
@@ -89,8 +98,42 @@ pub enum Error {
     BadWidth(f32),
     /// The breadth that has to stay is no share between 0 and 1.
     BadBreadth(f32),
-    /// The smoothing angle is not within 0 to 180 degrees.
-    BadAngle(f32),
+    /// An angle is out of its range.
+    BadAngle {
+        /// The option's name.
+        option: &'static str,
+        /// What it was given.
+        degrees: f32,
+        /// The largest that it may be; the least is 0.
+        most: f32,
+    },
+    /// `min_angle` is larger than `max_angle`.
+    AngleOrder {
+        /// The first.
+        min_angle: f32,
+        /// The second.
+        max_angle: f32,
+    },
+    /// The scale is not finite, or flattens the mesh.
+    BadScale,
+    /// A factor is negative, infinite or not a number.
+    BadFactor {
+        /// What it belongs to.
+        stream: Stream,
+        /// Its place among these.
+        place: u32,
+        /// What was given.
+        factor: f32,
+    },
+    /// A listed edge is of a vertex that does not exist.
+    EdgeRange {
+        /// Its place in the list.
+        edge: u32,
+        /// The vertex.
+        vertex: u32,
+        /// How many there are.
+        vertices: u32,
+    },
     /// `ChamferSubmesh::Given` names a submesh that the mesh does not have.
     SubmeshRange {
         /// The submesh asked for.
@@ -144,9 +187,25 @@ impl fmt::Display for Error {
             Error::BadBreadth(share) => {
                 write!(f, "the least breadth is {share}: give a share between 0 and 1")
             }
-            Error::BadAngle(degrees) => {
-                write!(f, "the smoothing angle is {degrees}: give 0 to 180 degrees")
+            Error::BadAngle { option, degrees, most } => {
+                write!(f, "{option} is {degrees}: give degrees from 0 to {most}")
             }
+            Error::AngleOrder { min_angle, max_angle } => write!(
+                f,
+                "min_angle {min_angle} is larger than max_angle {max_angle}: \
+                 no edge could be chamfered"
+            ),
+            Error::BadScale => f.write_str(
+                "the scale flattens the mesh or is not finite: give a matrix that can be inverted",
+            ),
+            Error::BadFactor { stream, place, factor } => write!(
+                f,
+                "{stream}: number {place} is {factor}: give a finite number of at least 0"
+            ),
+            Error::EdgeRange { edge, vertex, vertices } => write!(
+                f,
+                "listed edge {edge} is of vertex {vertex}, but the mesh has {vertices} vertices"
+            ),
             Error::SubmeshRange { submesh, submeshes } => {
                 write!(f, "chamfers are to go to submesh {submesh}, but the mesh has {submeshes}")
             }

@@ -58,7 +58,7 @@ pub fn faces(view: &View, topology: &Topology, threads: &Threads) -> Faces {
 }
 
 /// Zero for a line.
-fn own_normal(view: &View, triangle: Triangle) -> DVec3 {
+pub fn own_normal(view: &View, triangle: Triangle) -> DVec3 {
     let points = view.triangle(triangle);
     let area = area_vector(points);
     let longest = (0..3).map(|k| points[k].distance(points[(k + 1) % 3])).fold(0.0, f64::max);

@@ -21,21 +21,24 @@ use drawing::Drawing;
 type Draw = fn() -> Drawing;
 
 /// The stages, in the order of the pipeline.
-const FIGURES: [(&str, Draw); 15] = [
+const FIGURES: [(&str, Draw); 18] = [
     ("view", source::view),
     ("weld", source::weld),
     ("topology", source::topology),
     ("faces", source::faces),
     ("contacts", contacts::contacts),
+    ("selection", result::selection),
     ("edges", source::edges),
     ("sectors", moves::sectors),
     ("offsets", moves::offsets),
+    ("refine", contacts::refine),
     ("limits", moves::limits),
-    ("attributes", texture::attributes),
-    ("seams", texture::seams),
+    ("patches", result::patches),
     ("strips", result::strips),
     ("fills", result::fills),
     ("verdicts", result::verdicts),
+    ("attributes", texture::attributes),
+    ("charts", texture::charts),
     ("output", result::output),
 ];
 

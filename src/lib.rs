@@ -24,7 +24,7 @@
 //! # What may grow
 //! A later version may add to what is `#[non_exhaustive]`:
 //! - [`Options`] and [`see_through::Eyes`], made from their defaults by `with_..`, or by setting fields;
-//! - choices, reasons and errors ([`Width`], [`Verify`], [`ChamferSubmesh`], [`Reason`], [`Stream`],
+//! - choices, reasons and errors ([`Width`], [`WidthMode`], [`Convexity`], [`Verify`], [`ChamferSubmesh`], [`Reason`], [`Stream`],
 //!   [`Error`]): a `match` has an arm for those to come;
 //! - reports ([`Chamfered`], [`ChamferedScene`], [`Smoothed`], [`Totals`] with its [`ByReason`],
 //!   [`see_through::Leak`], and those of the checker), which callers read; who makes a [`Chamfered`] of
@@ -32,7 +32,7 @@
 //!
 //! [`Mesh`] and [`MeshBuffers`] may get further streams too, but are written down as literals by every
 //! caller: end those with `..Mesh::default()`, and a new stream is absent. All else is what it is:
-//! [`Held`], [`Placed`], [`Uv`] and [`UvBuffer`], and the elements of results ([`EdgeVerdict`],
+//! [`Held`], [`Factors`], [`EdgeFactor`], [`Placed`], [`Uv`] and [`UvBuffer`], and the elements of results ([`EdgeVerdict`],
 //! [`Blend`], [`VertexSource`], [`TriangleSource`], with [`Outcome`] and [`TriangleKind`]), which lie in
 //! memory as in the C interface.
 //!
@@ -78,11 +78,15 @@ mod output;
 mod patches;
 mod pipeline;
 mod placement;
+mod refine;
 mod report;
 mod resample;
 mod rests;
+mod scale;
 mod scene;
 mod sectors;
+mod selection;
+mod shape;
 mod smoothing;
 #[cfg(test)]
 mod stages;
@@ -97,12 +101,12 @@ mod view;
 mod weld;
 
 pub use error::{Error, Stream};
-pub use mesh::{Held, Mesh, MeshBuffers, UV_CHANNELS, Uv, UvBuffer};
-pub use options::{ChamferSubmesh, Options, Verify, Width};
+pub use mesh::{EdgeFactor, Factors, Held, Mesh, MeshBuffers, UV_CHANNELS, Uv, UvBuffer};
+pub use options::{ChamferSubmesh, Convexity, Options, Verify, Width, WidthMode};
 pub use pipeline::{chamfer, chamfer_with_progress};
 pub use report::{
-    Blend, ByReason, Chamfered, EdgeVerdict, Outcome, Reason, Totals, TriangleKind, TriangleSource,
-    VertexSource, VertexSources,
+    Blend, ByReason, Chamfered, EdgeVerdict, Outcome, Piece, Reason, Totals, TriangleKind,
+    TriangleSource, VertexSource, VertexSources,
 };
 pub use scene::{ChamferedScene, Placed, chamfer_scene, scene_triangles};
 pub use smoothing::{Smoothed, split_by_angle};

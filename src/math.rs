@@ -26,6 +26,12 @@ impl Turn {
         if length > 0.0 { Turn::ZERO.rotated(cos / length, sin / length) } else { Turn::ZERO }
     }
 
+    /// The angle (0 to pi) by which a direction in the upper half of a plane turns from ahead.
+    pub fn toward(ahead: f64, aside: f64) -> Turn {
+        let length = ahead.hypot(aside);
+        if length > 0.0 { Turn::ZERO.rotated(ahead / length, aside / length) } else { Turn::ZERO }
+    }
+
     /// The sum of two angles.
     pub fn plus(self, other: Turn) -> Turn {
         let mut sum = self.rotated(other.cos, other.sin);

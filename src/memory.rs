@@ -58,6 +58,13 @@ const BYTES_OF_PICTURES: u64 = (16 << 20) * Eyes::MOST_THREADS as u64;
 /// For each submesh, its count in the source, in the making and in the result.
 const BYTES_PER_SUBMESH: u64 = 64;
 
+/// For each corner of a mesh that gets vertices: its index in the finer mesh and in the result, twice
+/// while they are put in order.
+const BYTES_PER_REFINED_CORNER: u64 = 48;
+
+/// For each piece of a triangle: itself, its sides, and its new vertices.
+const BYTES_PER_PIECE: u64 = 320;
+
 /// What even an empty mesh may take, error messages included.
 const BYTES_PER_CALL: u64 = 1 << 20;
 
@@ -103,6 +110,20 @@ pub fn of_chamfers(mesh: &Mesh, work: Work) -> u64 {
         + sectors * BYTES_PER_SECTOR
         + hard_edges * BYTES_PER_STRIP
         + mesh.submesh_index_counts.len() as u64 * BYTES_PER_SUBMESH
+}
+
+/// A mesh that gets so many vertices on so many of its edges, and its shape anew.
+pub fn of_refined(mesh: &Mesh, work: Work, rims: usize, [edges, vertices]: [usize; 2]) -> u64 {
+    // Both sides of an edge get vertices, and both triangles one inside.
+    let (vertices, cut) = (2 * vertices as u64, 2 * edges as u64);
+    let pieces = vertices + 3 * cut;
+    let most_corners = mesh.indices.len() as u64 + 3 * pieces;
+    let most_vertices = mesh.positions.len() as u64 + vertices + cut;
+    most_vertices * (GROWTH * bytes_per_vertex(mesh) + BYTES_PER_WELDED)
+        + most_corners * (BYTES_PER_CORNER + BYTES_PER_REFINED_CORNER)
+        + pieces * BYTES_PER_PIECE
+        + of_rims(rims)
+        + (work.hard_edges as u64 + vertices) * BYTES_PER_HARD_EDGE
 }
 
 /// A mesh as it is.

@@ -28,6 +28,31 @@ pub struct Mesh<'a> {
     pub submesh_index_counts: &'a [u32],
     /// Where something outside of the mesh rests on it, such as another object of the scene.
     pub held: &'a [Held],
+    /// How wide the chamfers of some edges are, in terms of the width asked for.
+    pub factors: Factors<'a>,
+}
+
+/// How wide the chamfers of some edges are: how many times the width asked for. All that concern
+/// one end of an edge multiply. An edge with factor 0 stays as it is.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Factors<'a> {
+    /// `#submeshes` or empty. An edge between two submeshes has the smaller of their factors.
+    pub submeshes: &'a [f32],
+    /// `#vertices` or empty: a mask. An end of an edge has the mean over its two sides, and at least
+    /// a sixteenth of the other end: a chamfer that tapered to a point could not be closed.
+    pub vertices: &'a [f32],
+    /// If not empty, the only edges that are chamfered.
+    pub edges: &'a [EdgeFactor],
+}
+
+/// How wide the chamfer of one edge is.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C)]
+pub struct EdgeFactor {
+    /// Vertices at its ends, on either side of the edge and in either order.
+    pub vertices: [u32; 2],
+    /// How many times the width asked for.
+    pub factor: f32,
 }
 
 /// A place where the surface of a mesh is not to be cut away: all that is within a radius of a
@@ -96,6 +121,7 @@ impl MeshBuffers {
             indices: &self.indices,
             submesh_index_counts: &self.submesh_index_counts,
             held: &[],
+            factors: Factors::default(),
         }
     }
 }

@@ -13,12 +13,15 @@ mod follow;
 use glam::DVec3;
 
 use crate::breaks::{is_hard, seam_between, uv_at};
+use crate::chamfers::Chamfers;
+use crate::edges::Edges;
 use crate::faces::Faces;
 use crate::foot::{Foot, locate};
 use crate::ids::{Corner, Id, IdVec, Sector};
 use crate::math::{Turn, area_vector, unit};
 use crate::mesh::UV_CHANNELS;
 use crate::sectors::{Fan, Sectors};
+use crate::surface::Surface;
 use crate::threads::Threads;
 use crate::topology::Topology;
 use crate::view::View;
@@ -77,18 +80,42 @@ impl Offset {
     }
 }
 
-/// `#sectors`.
+/// What is known of a mesh that was the same but for some triangles.
+pub struct Known<'a> {
+    pub sectors: &'a Sectors,
+    pub offsets: &'a IdVec<Sector, Offset>,
+    /// `#triangles`: whether it is not what it was.
+    pub is_new: &'a [bool],
+}
+
+impl Known<'_> {
+    /// The offset of a sector, where nothing of it has changed.
+    fn of(&self, topology: &Topology, sectors: &Sectors, sector: Sector) -> Option<Offset> {
+        let mut corners = sectors.corners(topology, sector);
+        if corners.any(|corner| self.is_new[corner.triangle().index()]) {
+            return None;
+        }
+        let fan = &sectors.fans[sector];
+        let before = self.sectors.sector_of[fan.first];
+        (before.is_some() && fan.moves_as(&self.sectors.fans[before])).then(|| self.offsets[before])
+    }
+}
+
+/// `#sectors`; those that are known are not found anew.
 pub fn offsets(
-    view: &View,
-    topology: &Topology,
-    faces: &Faces,
-    sectors: &Sectors,
+    surface: Surface,
+    chamfers: Chamfers,
+    known: Option<&Known>,
     threads: &Threads,
 ) -> IdVec<Sector, Offset> {
+    let (Surface { view, topology, faces }, Chamfers { sectors, .. }) = (surface, chamfers);
     let mut offsets = threads.map_with(sectors.fans.len(), Vec::new, |spread, sector| {
+        if let Some(offset) = known.and_then(|known| known.of(topology, sectors, sector)) {
+            return offset;
+        }
         unfold(view, topology, sectors, sector, spread);
         let fan = &sectors.fans[sector];
-        let chosen = course(view, topology, faces, fan, spread)
+        let chosen = course(surface, fan, spread, widths(chamfers, fan))
             .and_then(|course| place(view, faces, spread, &course));
         chosen.unwrap_or(Offset {
             vector: DVec3::ZERO,
@@ -186,13 +213,20 @@ struct Course {
     is_capped: bool,
 }
 
-fn course(
-    view: &View,
-    topology: &Topology,
-    faces: &Faces,
-    fan: &Fan,
-    spread: &[Blade],
-) -> Option<Course> {
+/// The widths asked for at a fan's first and at its last edge; at a border, that of the other.
+fn widths(chamfers: Chamfers, fan: &Fan) -> [f64; 2] {
+    let Edges { hard, chamfered_at, .. } = chamfers.edges;
+    let sides = [fan.first, fan.last.prev()];
+    let [first, last] = sides.map(|side| chamfered_at[side]);
+    // The last half-edge ends here: the other side of its edge starts here.
+    let first = first.is_some().then(|| hard[first].width_at_start(sides[0]));
+    let last = last.is_some().then(|| hard[last].width_at_end(sides[1]));
+    let any = first.or(last).unwrap_or_default();
+    [first.unwrap_or(any), last.unwrap_or(any)]
+}
+
+fn course(surface: Surface, fan: &Fan, spread: &[Blade], widths: [f64; 2]) -> Option<Course> {
+    let Surface { view, topology, faces } = surface;
     let (first, last) = (spread.first()?, spread.last()?);
     let total = last.start.plus(last.angle);
     match (fan.starts_at_border, fan.ends_at_border()) {
@@ -203,18 +237,18 @@ fn course(
         (true, false) | (false, true) if fan.borders_meet => None,
         // At a border the vertex has to stay on it, which no hard edge inside the fan allows.
         (true, false) | (false, true) if crease(view, faces, spread).is_hard() => None,
-        (true, false) => slide(view, first.corner, Turn::ZERO, &[total]),
-        (false, true) => slide(view, last.corner, last.angle, &[total]),
+        (true, false) => slide(first.corner, Turn::ZERO, &[(total, widths[1])]),
+        (false, true) => slide(last.corner, last.angle, &[(total, widths[0])]),
         // One edge on both sides: it ends here, and its chamfer tapers to a point.
         (false, false) if topology.twin[fan.first] == fan.last.prev() => None,
         (false, false) => match crease(view, faces, spread) {
             Crease::None => {
-                slide_on_seam(view, total, spread).or_else(|| bisect(view, total, spread))
+                slide_on_seam(view, total, spread, widths).or_else(|| meet(total, spread, widths))
             }
             Crease::Soft(blade) => {
-                slide_inside(view, total, blade).or_else(|| bisect(view, total, spread))
+                slide_inside(total, blade, widths).or_else(|| meet(total, spread, widths))
             }
-            Crease::Hard(blade) => slide_inside(view, total, blade),
+            Crease::Hard(blade) => slide_inside(total, blade, widths),
             Crease::Several => None,
         },
     }
@@ -226,12 +260,35 @@ fn holds_contact(topology: &Topology, spread: &[Blade]) -> bool {
         && spread.iter().skip(1).any(|blade| topology.is_contact(blade.corner))
 }
 
+/// To the place that is as far from both edges as asked; half way between them where that is too
+/// far away, as where edges of unlike widths run straight on.
+fn meet(total: Turn, spread: &[Blade], [first, last]: [f64; 2]) -> Option<Course> {
+    if first == last {
+        return bisect(total, spread, first);
+    }
+    // From the first edge: so far ahead along it, where it is `first` away.
+    let ahead = (last + first * total.cos()) / total.sin();
+    let (distance, angle) = (ahead.hypot(first), Turn::toward(ahead, first));
+    let is_near = distance <= MITER_LIMIT * first.max(last) && angle < total;
+    let blade = spread.iter().find(|blade| angle <= blade.start.plus(blade.angle));
+    match blade.filter(|_| is_near) {
+        Some(blade) => {
+            let angle = angle.minus(blade.start);
+            Some(Course { corner: blade.corner, angle, distance, is_capped: false })
+        }
+        None => {
+            let between = bisect(total, spread, (first + last) / 2.0)?;
+            Some(Course { is_capped: true, ..between })
+        }
+    }
+}
+
 /// Along the direction at half the fan's angle.
-fn bisect(view: &View, total: Turn, spread: &[Blade]) -> Option<Course> {
+fn bisect(total: Turn, spread: &[Blade], width: f64) -> Option<Course> {
     let half = total.half();
     let blade = spread.iter().find(|blade| half <= blade.start.plus(blade.angle))?;
     let sine = half.sin();
-    let distance = (view.width / sine).min(view.width * MITER_LIMIT);
+    let distance = (width / sine).min(width * MITER_LIMIT);
     (sine > 0.0).then(|| Course {
         corner: blade.corner,
         angle: half.minus(blade.start),
@@ -241,28 +298,34 @@ fn bisect(view: &View, total: Turn, spread: &[Blade]) -> Option<Course> {
 }
 
 /// Along an edge of the fan, by the distance that fits the angles to the chamfered edges best.
-fn slide(view: &View, corner: Corner, angle: Turn, to_chamfered: &[Turn]) -> Option<Course> {
-    let sines = || to_chamfered.iter().map(|turn| turn.sin());
-    let may_slide = to_chamfered.iter().all(|turn| turn.is_convex())
+fn slide(corner: Corner, angle: Turn, to_chamfered: &[(Turn, f64)]) -> Option<Course> {
+    let sines = || to_chamfered.iter().map(|(turn, _)| turn.sin());
+    let may_slide = to_chamfered.iter().all(|(turn, _)| turn.is_convex())
         && sines().any(|sine| sine >= LEAST_SLIDE_SINE);
+    let widest = to_chamfered.iter().map(|(_, width)| *width).fold(0.0, f64::max);
+    if widest == 0.0 {
+        return None;
+    }
     // Least squares over the distances that the pulled edges get.
-    let best = sines().sum::<f64>() / sines().map(|sine| sine * sine).sum::<f64>();
+    let asked = to_chamfered.iter().map(|(turn, width)| width / widest * turn.sin());
+    let best = asked.sum::<f64>() / sines().map(|sine| sine * sine).sum::<f64>();
     may_slide.then(|| Course {
         corner,
         angle,
-        distance: view.width * best.min(MITER_LIMIT),
+        distance: widest * best.min(MITER_LIMIT),
         is_capped: best > MITER_LIMIT,
     })
 }
 
 /// Along an edge in the middle of the fan.
-fn slide_inside(view: &View, total: Turn, blade: &Blade) -> Option<Course> {
-    slide(view, blade.corner, Turn::ZERO, &[blade.start, total.minus(blade.start)])
+fn slide_inside(total: Turn, blade: &Blade, [first, last]: [f64; 2]) -> Option<Course> {
+    let to_chamfered = [(blade.start, first), (total.minus(blade.start), last)];
+    slide(blade.corner, Turn::ZERO, &to_chamfered)
 }
 
 /// Along the texture seam inside a fan that leads most nearly to the middle, so that the vertices
 /// of both charts stay in their own; none where that would narrow the chamfer.
-fn slide_on_seam(view: &View, total: Turn, spread: &[Blade]) -> Option<Course> {
+fn slide_on_seam(view: &View, total: Turn, spread: &[Blade], widths: [f64; 2]) -> Option<Course> {
     let sines = |blade: &Blade| [blade.start.sin(), total.minus(blade.start).sin()];
     let balance = |blade: &Blade| {
         let [one, other] = sines(blade);
@@ -273,7 +336,7 @@ fn slide_on_seam(view: &View, total: Turn, spread: &[Blade]) -> Option<Course> {
         .filter(is_seam)
         .map(|place| &spread[place])
         .max_by(|one, other| balance(one).total_cmp(&balance(other)))?;
-    (balance(blade) >= LEAST_BALANCE).then(|| slide_inside(view, total, blade)).flatten()
+    (balance(blade) >= LEAST_BALANCE).then(|| slide_inside(total, blade, widths)).flatten()
 }
 
 /// Whether two corners at one position lie in different charts of some UV channel.

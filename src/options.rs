@@ -28,6 +28,22 @@ pub struct Options {
     pub chamfer_submesh: ChamferSubmesh,
     /// How many threads may work; 0 for as many as there are cores. The result is the same.
     pub threads: u32,
+    /// What the width measures.
+    pub width_mode: WidthMode,
+    /// Edges are chamfered whose faces meet at this angle at least, in degrees: 0 for a flat
+    /// surface, 180 for one folded back on itself. The default is 0.
+    pub min_angle: f32,
+    /// The same at most. The default is 180.
+    pub max_angle: f32,
+    /// Which way the faces of chamfered edges meet.
+    pub convexity: Convexity,
+    /// Normals are one that differ by less than this, in degrees (above 0, up to 90). The default is
+    /// 1: importers quantize them.
+    pub hard_angle: f32,
+    /// Where the three axes of the mesh go in the space in which widths, angles and planes are
+    /// measured, such as that of the scene: a box that is stretched to a wall gets chamfers of one
+    /// width there. It may mirror and shear, but not flatten. The default is the mesh as it is.
+    pub scale: [[f32; 3]; 3],
 }
 
 impl Default for Options {
@@ -38,6 +54,12 @@ impl Default for Options {
             verify: Verify::Full,
             chamfer_submesh: ChamferSubmesh::Owner,
             threads: 1,
+            width_mode: WidthMode::Offset,
+            min_angle: 0.0,
+            max_angle: 180.0,
+            convexity: Convexity::Both,
+            hard_angle: 1.0,
+            scale: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         }
     }
 }
@@ -72,6 +94,37 @@ impl Options {
     pub const fn with_threads(self, threads: u32) -> Options {
         Options { threads, ..self }
     }
+
+    /// The same with another [`width_mode`](Options::width_mode).
+    #[must_use]
+    pub const fn with_width_mode(self, width_mode: WidthMode) -> Options {
+        Options { width_mode, ..self }
+    }
+
+    /// The same with another range of angles: [`min_angle`](Options::min_angle) and
+    /// [`max_angle`](Options::max_angle).
+    #[must_use]
+    pub const fn with_angles(self, min_angle: f32, max_angle: f32) -> Options {
+        Options { min_angle, max_angle, ..self }
+    }
+
+    /// The same with another [`convexity`](Options::convexity).
+    #[must_use]
+    pub const fn with_convexity(self, convexity: Convexity) -> Options {
+        Options { convexity, ..self }
+    }
+
+    /// The same with another [`hard_angle`](Options::hard_angle).
+    #[must_use]
+    pub const fn with_hard_angle(self, hard_angle: f32) -> Options {
+        Options { hard_angle, ..self }
+    }
+
+    /// The same with another [`scale`](Options::scale).
+    #[must_use]
+    pub const fn with_scale(self, scale: [[f32; 3]; 3]) -> Options {
+        Options { scale, ..self }
+    }
 }
 
 /// A chamfer width: the shortest distance between an old edge and the pulled one (the thesis'
@@ -83,6 +136,32 @@ pub enum Width {
     Units(f32),
     /// In percent of the largest side of the mesh's box: 1.0 is a hundredth of it.
     PercentOfExtent(f32),
+}
+
+/// What the width of a chamfer measures, across an edge whose faces open by the angle `a`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum WidthMode {
+    /// From the old edge to the pulled one, within the face: the same at each edge.
+    Offset,
+    /// Across the chamfer, from one pulled edge to the other: `2 sin(a / 2)` times the offset.
+    Chord,
+    /// From the old edge straight down to the chamfer: `cos(a / 2)` times the offset.
+    Depth,
+    /// Of the circle that touches both faces at the pulled edges: `tan(a / 2)` times the offset.
+    Radius,
+}
+
+/// Which way the faces of an edge meet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Convexity {
+    /// Either.
+    Both,
+    /// As those of a cube.
+    Convex,
+    /// As a wall and the floor of a room.
+    Concave,
 }
 
 /// How thoroughly the result is checked.
@@ -118,12 +197,22 @@ mod tests {
     fn each_setter_sets_its_option_and_no_other() {
         let default = Options::default();
         let (width, chamfer_submesh) = (Width::Units(2.0), ChamferSubmesh::Given(3));
+        let (chord, convexity) = (WidthMode::Chord, Convexity::Concave);
+        let scale = [[2.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 1.0]];
         let set = [
             (default.with_width(width), Options { width, ..default }),
             (default.with_least_breadth(0.5), Options { least_breadth: 0.5, ..default }),
             (default.with_verify(Verify::Fast), Options { verify: Verify::Fast, ..default }),
             (default.with_chamfer_submesh(chamfer_submesh), Options { chamfer_submesh, ..default }),
             (default.with_threads(7), Options { threads: 7, ..default }),
+            (default.with_width_mode(chord), Options { width_mode: chord, ..default }),
+            (
+                default.with_angles(5.0, 90.0),
+                Options { min_angle: 5.0, max_angle: 90.0, ..default },
+            ),
+            (default.with_convexity(convexity), Options { convexity, ..default }),
+            (default.with_hard_angle(2.0), Options { hard_angle: 2.0, ..default }),
+            (default.with_scale(scale), Options { scale, ..default }),
         ];
         for (options, expected) in set {
             assert_eq!(options, expected);

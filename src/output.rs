@@ -13,6 +13,7 @@ use crate::mesh::MeshBuffers;
 use crate::options::ChamferSubmesh;
 use crate::patches::Patches;
 use crate::report::{Chamfered, TriangleKind, TriangleSource, VertexSources};
+use crate::scale::Space;
 use crate::view::View;
 use crate::weld::Weld;
 
@@ -30,21 +31,23 @@ pub fn unchanged(view: &View, target: ChamferSubmesh) -> Chamfered {
         triangle_sources: view.triangles().map(|t| TriangleSource { kind, index: t.0 }).collect(),
         mesh,
         width: view.width as f32,
+        largest_width: view.width as f32,
         ..Chamfered::default()
     }
 }
 
 /// The source with its moved vertices, and all patches; without verdicts.
 pub fn output(
-    view: &View,
+    space: Space,
     weld: &Weld,
     patches: &Patches,
     charts: &Charts,
     attributes: Attributes,
     target: ChamferSubmesh,
 ) -> Chamfered {
-    let submeshes = Submeshes::of_source(view, target, &attributes, patches.triangle_count());
-    let mut result = Result { view, weld, attributes, submeshes, vertices: Vec::new() };
+    let submeshes =
+        Submeshes::of_source(space.source, target, &attributes, patches.triangle_count());
+    let mut result = Result { space, weld, attributes, submeshes, vertices: Vec::new() };
     for patch in (0..patches.len()).map(Patch::new) {
         if !patches.parts(patch).triangles.is_empty() {
             result.add(patches, charts, patch);
@@ -55,7 +58,7 @@ pub fn output(
 
 /// The result in the making.
 struct Result<'a> {
-    view: &'a View<'a>,
+    space: Space<'a>,
     weld: &'a Weld,
     attributes: Attributes,
     submeshes: Submeshes,
@@ -69,7 +72,7 @@ impl Result<'_> {
         let parts = patches.parts(patch);
         let (kind, index) = match patches.edge_or_ring(patch) {
             Ok(edge) => (TriangleKind::Edge, edge.0),
-            Err(_) => (TriangleKind::Corner, self.view.vertex_at(parts.joints[0]).0),
+            Err(_) => (TriangleKind::Corner, self.space.source.vertex_at(parts.joints[0]).0),
         };
         let face = charts.of(patch).face;
         for triangle in parts.triangles {
@@ -82,25 +85,31 @@ impl Result<'_> {
     /// chart; middles have vertices of their own.
     fn find_vertices(&mut self, patches: &Patches, charts: &Charts, patch: Patch) {
         let (parts, chart) = (patches.parts(patch), charts.of(patch));
-        let (view, joints) = (self.view, parts.joints);
+        let (space, joints) = (self.space, parts.joints);
         self.vertices.clear();
         self.vertices.extend(joints.iter().map(|&joint| self.attributes.vertex_at[joint]));
         for point in (chart.begin..joints.len()).chain(0..chart.begin) {
             if let Some(taken) = chart.taken_at(point) {
                 let (cluster, own) = (self.cluster_at(joints[point]), self.vertices[point]);
                 let streams = &mut self.attributes.streams;
-                self.vertices[point] = streams.add_copy(view, cluster, own, taken);
+                self.vertices[point] = streams.add_copy(space.source, cluster, own, taken);
             }
         }
         for (middle, point) in parts.middles.iter().zip(joints.len()..) {
             let (cluster, taken) = (self.cluster_at(joints[0]), chart.taken_at(point));
-            let (at, streams) = ((middle.position, middle.normal), &mut self.attributes.streams);
-            self.vertices.push(streams.add_between(view, cluster, at, (middle.near, taken)));
+            let at = (space.back(middle.position), space.normal_back(middle.normal));
+            let streams = &mut self.attributes.streams;
+            self.vertices.push(streams.add_between(
+                space.source,
+                cluster,
+                at,
+                (middle.near, taken),
+            ));
         }
     }
 
     fn cluster_at(&self, corner: Corner) -> Cluster {
-        self.weld.cluster_of[self.view.vertex_at(corner)]
+        self.weld.cluster_of[self.space.source.vertex_at(corner)]
     }
 
     fn finish(self) -> Chamfered {
@@ -110,7 +119,7 @@ impl Result<'_> {
             mesh: MeshBuffers { indices, submesh_index_counts: index_counts, ..streams.vertices },
             vertex_sources: streams.sources,
             triangle_sources: sources,
-            width: self.view.width as f32,
+            width: self.space.measured.width as f32,
             ..Chamfered::default()
         }
     }

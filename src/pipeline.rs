@@ -3,29 +3,32 @@
 use std::ops::ControlFlow;
 
 use crate::attributes::{Attributes, attributes};
-use crate::chamfers::Chamfers;
 use crate::charts::{Charts, charts};
 use crate::contacts::contacts;
 use crate::edges::{edges, may_be_hard};
 use crate::error::Error;
 use crate::faces::faces;
+use crate::ids::{IdVec, Sector};
 use crate::limits::limits;
 use crate::memory;
 use crate::mesh::Mesh;
-use crate::offsets::offsets;
+use crate::offsets::{Known, Offset, offsets as find_offsets};
 use crate::options::{Options, Verify};
 use crate::output::{output, unchanged};
 use crate::patches::{Patches, patches};
+use crate::refine::{Origins, Refined, refine, restored, shape as finer_shape};
 use crate::report::{Chamfered, EdgeVerdict, Totals};
 use crate::rests::rests;
+use crate::scale::{Scale, Space};
 use crate::scene::{Placed, chamfer_scene};
 use crate::sectors::sectors;
 use crate::see_through::Eyes;
-use crate::surface::Surface;
+use crate::selection::selection;
+use crate::shape::Shape;
 use crate::threads::Threads;
 use crate::topology::topology;
 use crate::verdicts::verdicts;
-use crate::view::{View, view};
+use crate::view::{View, measured, view};
 use crate::weld::{Weld, weld};
 
 /// Chamfers all hard edges of a mesh: the method of the thesis (Algma 2018, chapter 6), as
@@ -132,12 +135,13 @@ pub fn chamfer_by_stages(
     done(Stage::View)?;
     let weld = weld(&view.mesh);
     done(Stage::Weld)?;
-    let chamfered = if may_be_hard(&view, &weld) {
-        let Made { patches, charts, attributes, verdicts } = make(&view, &weld, options, done)?;
-        let target = options.chamfer_submesh;
-        let output = output(&view, &weld, &patches, &charts, attributes, target);
-        let (verdicts, totals) = verdicts;
-        Chamfered { verdicts, totals, ..output }
+    let scale = Scale::new(options)?;
+    let scaled = scale.map(|scale| scale.measured(&view.mesh));
+    let scaled = scaled.as_ref().map(|scaled| measured(scaled.mesh(&view.mesh), options));
+    let scaled = scaled.transpose()?;
+    let space = Space { source: &view, measured: scaled.as_ref().unwrap_or(&view), scale };
+    let chamfered = if may_be_hard(space.measured, &weld) {
+        chamfer_hard(space, weld, options, done)?
     } else {
         memory::ask(memory::of_copy(&view.mesh))?;
         unchanged(&view, options.chamfer_submesh)
@@ -146,7 +150,100 @@ pub fn chamfer_by_stages(
     Ok(chamfered)
 }
 
-/// All that the output is put together from. What was known on the way is given back by then.
+/// The stages from the weld on. Where only a part of an edge can have a chamfer, the mesh gets
+/// vertices, and the finer one goes on.
+fn chamfer_hard(
+    space: Space,
+    weld: Weld,
+    options: &Options,
+    done: &mut Done,
+) -> Result<Chamfered, Error> {
+    let view = space.measured;
+    let threads = &Threads::new(options.threads, view.corner_count());
+    let shape = shape(view, weld, options, threads, done)?;
+    memory::ask(memory::of_chamfers(&view.mesh, shape.chamfers().work()))?;
+    let offsets = find_offsets(shape.surface(view), shape.chamfers(), None, threads);
+    let refined = if space.is_plain() { refine(view, &shape, &offsets)? } else { None };
+    match refined {
+        Some(refined) => chamfer_refined(space, (shape, offsets), &refined, options, done),
+        None => {
+            done(Stage::Offsets)?;
+            chamfer_shape(space, (shape, offsets), options, (threads, done))
+        }
+    }
+}
+
+/// The stages that find out what a mesh is.
+pub(crate) fn shape(
+    view: &View,
+    weld: Weld,
+    options: &Options,
+    threads: &Threads,
+    done: &mut Done,
+) -> Result<Shape, Error> {
+    memory::ask(memory::up_to_edges(&view.mesh))?;
+    let topology = topology(view, &weld);
+    done(Stage::Topology)?;
+    let faces = faces(view, &topology, threads);
+    done(Stage::Faces)?;
+    let contacts = contacts(view, &topology, &faces)?;
+    done(Stage::Contacts)?;
+    let selection = selection(view, &weld, options);
+    let edges = edges(view, &topology, &faces, &contacts, &selection);
+    done(Stage::Edges)?;
+    memory::ask(memory::of_sectors(edges.hard.len()))?;
+    let sectors = sectors(view, &topology, &edges, &contacts);
+    done(Stage::Sectors)?;
+    Ok(Shape { weld, topology, faces, contacts, edges, sectors })
+}
+
+/// A mesh, and where its sectors go at full width.
+type Asked = (Shape, IdVec<Sector, Offset>);
+
+/// The stages from the limits on, on a finer mesh; told in terms of the source.
+fn chamfer_refined(
+    space: Space,
+    (shape, offsets): Asked,
+    refined: &Refined,
+    options: &Options,
+    done: &mut Done,
+) -> Result<Chamfered, Error> {
+    let view = space.measured;
+    let fine = &View { mesh: refined.as_mesh(&view.mesh), ..*view };
+    let threads = &Threads::new(options.threads, fine.corner_count());
+    let Some(finer) = finer_shape(fine, refined, &shape) else {
+        done(Stage::Offsets)?;
+        return chamfer_shape(space, (shape, offsets), options, (threads, done));
+    };
+    let known = Known { sectors: &shape.sectors, offsets: &offsets, is_new: &refined.is_new() };
+    memory::ask(memory::of_chamfers(&fine.mesh, finer.chamfers().work()))?;
+    let offsets = find_offsets(finer.surface(fine), finer.chamfers(), Some(&known), threads);
+    done(Stage::Offsets)?;
+    let hard = finer.edges.hard.clone();
+    let origins = Origins::new(&view.mesh, refined, &shape.edges.hard, &hard);
+    let fine_space = Space { source: fine, measured: fine, scale: None };
+    let chamfered = chamfer_shape(fine_space, (finer, offsets), options, (threads, done))?;
+    Ok(restored(&origins, chamfered))
+}
+
+/// The stages from the limits to the output.
+fn chamfer_shape(
+    space: Space,
+    (shape, offsets): Asked,
+    options: &Options,
+    (threads, done): (&Threads, &mut Done),
+) -> Result<Chamfered, Error> {
+    let made = make(space, (&shape, &offsets), options, (threads, done))?;
+    let Made { patches, charts, attributes, verdicts: (verdicts, totals) } = made;
+    let largest_width = (shape.edges.widest(space.measured.width) / space.largest()) as f32;
+    // What the output does not read is given back: it is where a call needs the most memory.
+    drop(offsets);
+    let Shape { weld, .. } = shape;
+    let output = output(space, &weld, &patches, &charts, attributes, options.chamfer_submesh);
+    Ok(Chamfered { verdicts, totals, largest_width, ..output })
+}
+
+/// All that the output is put together from.
 struct Made {
     patches: Patches,
     charts: Charts,
@@ -154,34 +251,24 @@ struct Made {
     verdicts: (Vec<EdgeVerdict>, Totals),
 }
 
-/// The stages between the weld and the output.
-fn make(view: &View, weld: &Weld, options: &Options, done: &mut Done) -> Result<Made, Error> {
-    let threads = &Threads::new(options.threads, view.corner_count());
-    memory::ask(memory::up_to_edges(&view.mesh))?;
-    let topology = topology(view, weld);
-    done(Stage::Topology)?;
-    let faces = faces(view, &topology, threads);
-    done(Stage::Faces)?;
-    let contacts = contacts(view, &topology, &faces)?;
-    done(Stage::Contacts)?;
-    let edges = edges(view, &topology, &faces, &contacts);
-    done(Stage::Edges)?;
-    memory::ask(memory::of_sectors(edges.hard.len()))?;
-    let sectors = sectors(view, &topology, &edges, &contacts);
-    done(Stage::Sectors)?;
-    let surface = Surface { view, topology: &topology, faces: &faces };
-    let chamfers = Chamfers { edges: &edges, sectors: &sectors };
-    memory::ask(memory::of_chamfers(&view.mesh, chamfers.work()))?;
-    let offsets = offsets(view, &topology, &faces, &sectors, threads);
-    let rests = rests(view, &topology, &faces, &edges, &contacts);
-    done(Stage::Offsets)?;
-    let limits = limits(surface, chamfers, &offsets, &rests, options.verify, threads)?;
+/// The stages from the limits to the charts.
+fn make(
+    space: Space,
+    (shape, offsets): (&Shape, &IdVec<Sector, Offset>),
+    options: &Options,
+    (threads, done): (&Threads, &mut Done),
+) -> Result<Made, Error> {
+    let view = space.measured;
+    let (surface, chamfers) = (shape.surface(view), shape.chamfers());
+    let Shape { weld, topology, faces, contacts, edges, .. } = shape;
+    let rests = rests(view, topology, faces, edges, contacts);
+    let limits = limits(surface, chamfers, offsets, &rests, options.verify, threads)?;
     let placement = &limits.placement;
     done(Stage::Limits)?;
     let patches = patches(view, chamfers, placement, threads);
     let verdicts = verdicts(view, chamfers, &limits, &patches);
     done(Stage::Patches)?;
-    let attributes = attributes(surface, weld, chamfers, placement);
+    let attributes = attributes(space, surface, weld, chamfers, placement);
     done(Stage::Attributes)?;
     let charts = charts(surface, chamfers, placement, &patches, &attributes, threads);
     done(Stage::Charts)?;

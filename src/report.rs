@@ -13,7 +13,9 @@ pub use vertex_sources::VertexSources;
 #[non_exhaustive]
 pub struct Chamfered {
     /// The mesh. Source vertices keep their indices and source triangles their order; what is new
-    /// stands behind them, per submesh. Vertices that come out equal in every stream are joined:
+    /// stands behind them, per submesh. Where a hard edge got vertices, the triangles beside it are
+    /// in pieces: the first stands in the place of the source triangle, the others right behind all
+    /// source triangles of the submesh, in the order of these. Vertices that come out equal in every stream are joined:
     /// a corner of a source triangle may then use the index of its equal, and its own vertex is
     /// left unused.
     pub mesh: MeshBuffers,
@@ -21,10 +23,15 @@ pub struct Chamfered {
     pub vertex_sources: VertexSources,
     /// `#triangles`: what each triangle came from.
     pub triangle_sources: Vec<TriangleSource>,
+    /// The triangles that are pieces of source triangles, in their order; mostly none.
+    pub pieces: Vec<Piece>,
     /// `#hard edges` with two sides: what became of each.
     pub verdicts: Vec<EdgeVerdict>,
-    /// The width asked for, in mesh units.
+    /// The width asked for, in mesh units, or in those of [`Options::scale`](crate::Options::scale).
     pub width: f32,
+    /// The largest width asked for of any edge, with all factors, in mesh units: no vertex goes
+    /// farther than three of these.
+    pub largest_width: f32,
     /// Sums over the verdicts.
     pub totals: Totals,
 }
@@ -104,12 +111,24 @@ pub struct TriangleSource {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u32)]
 pub enum TriangleKind {
-    /// The triangle is the source triangle of that index.
+    /// The triangle is the source triangle of that index, or one of several pieces of it.
     Source = 0,
     /// The triangle chamfers the hard edge whose verdict has that index.
     Edge = 1,
     /// The triangle fills the corner at the source vertex of that index.
     Corner = 2,
+}
+
+/// A triangle of the result that is a piece of a source triangle: a hard edge beside it got
+/// vertices, because only a part of it has room for its chamfer.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Piece {
+    /// The triangle of the result.
+    pub triangle: u32,
+    /// Where its corners lay in the source triangle before anything moved, as weights of its
+    /// corners. The pieces of a triangle cover it. A corner that is one of the source triangle's
+    /// has the place that it had there, and so has a side that lies on one.
+    pub corners: [[f32; 3]; 3],
 }
 
 /// What became of one hard edge.
@@ -123,7 +142,7 @@ pub struct EdgeVerdict {
     /// Why it is not at full width.
     pub reason: Reason,
     /// At each end, the mean of the distances from the old edge to its two pulled sides, in mesh
-    /// units.
+    /// units. In between, a chamfer may be wider where the edge got vertices.
     pub widths: [f32; 2],
 }
 
@@ -133,7 +152,7 @@ pub struct EdgeVerdict {
 pub enum Outcome {
     /// Chamfered at the width asked for (an end inside a smooth area tapers to a point).
     Full = 0,
-    /// Chamfered, but narrower somewhere.
+    /// Chamfered, but narrower somewhere, or not along all of its length.
     Narrowed = 1,
     /// Left as it was.
     Skipped = 2,

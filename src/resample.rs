@@ -13,7 +13,6 @@ use crate::offsets::Offset;
 use crate::report::Blend;
 use crate::sectors::Sectors;
 use crate::surface::Surface;
-use crate::tolerance::HARD_COSINE;
 use crate::view::View;
 
 /// Where a sector's full offset takes one of its corners on the surface: the triangle that the
@@ -22,7 +21,8 @@ use crate::view::View;
 pub fn surface_foot(surface: Surface, sectors: &Sectors, offset: &Offset, corner: Corner) -> Foot {
     let agree = |one: Vertex, other: Vertex| {
         let (one, other) = (surface.view.normal(one), surface.view.normal(other));
-        one.dot(other) >= HARD_COSINE * (one.length_squared() * other.length_squared()).sqrt()
+        one.dot(other)
+            >= surface.view.hard_cosine * (one.length_squared() * other.length_squared()).sqrt()
     };
     let usual = foot(surface, sectors, offset, corner, agree).unwrap_or(offset.foot);
     let normal = surface.view.normal_at(corner);

@@ -34,7 +34,12 @@ pub fn rests(
     }
     for edge in edges.hard.iter() {
         if edge.skipped.is_none() {
-            rests.stretches.extend(contacts.beside(view, topology, faces, edge.sides));
+            rests.stretches.extend(contacts.beside(
+                view,
+                topology,
+                faces,
+                (edge.sides, edge.widest()),
+            ));
         }
         rests.ends.push(rests.stretches.len() as u32);
     }

@@ -139,7 +139,8 @@ fn triangles<'a>(objects: &[Object], mesh: impl Fn(usize) -> &'a Mesh<'a>) -> Ve
 
 /// The largest width in the scene.
 fn width(objects: &[Object], meshes: &[Chamfered]) -> f64 {
-    let widths = objects.iter().map(|object| f64::from(meshes[object.mesh].width) * object.scale);
+    let widths =
+        objects.iter().map(|object| f64::from(meshes[object.mesh].largest_width) * object.scale);
     widths.fold(0.0, f64::max)
 }
 

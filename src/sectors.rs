@@ -33,6 +33,12 @@ impl Fan {
         self.next.is_none()
     }
 
+    /// Whether it lies between the same edges as another one, and these are such as they were.
+    pub fn moves_as(&self, other: &Fan) -> bool {
+        let kind = |fan: &Fan| (fan.starts_at_border, fan.ends_at_border(), fan.borders_meet);
+        [self.first, self.last] == [other.first, other.last] && kind(self) == kind(other)
+    }
+
     /// Whether it could slide along its border, but another rim that it lies on would gape.
     pub fn stays_with_rim(&self) -> bool {
         self.borders_meet && self.starts_at_border != self.ends_at_border()

@@ -12,9 +12,9 @@ use crate::mesh::MeshBuffers;
 
 pub use cases::{
     Touch, aligned_strip, extruding_cubes, l_shape, open_box, plate, saddle, two_cubes_touching,
-    wedge_end,
+    wedge, wedge_end,
 };
-pub use solids::{bolt, cube, cube_field, cylinder, plain_cube, pyramid, sphere, table};
+pub use solids::{bolt, cube, cube_field, cylinder, plain_cube, prism, pyramid, sphere, table};
 
 /// The demonstration models and their names.
 pub fn demo_models() -> Vec<(&'static str, MeshBuffers)> {

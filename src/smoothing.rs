@@ -12,10 +12,14 @@ use crate::ids::{Corner, Id, IdVec, Vertex};
 use crate::math::unit;
 use crate::memory;
 use crate::mesh::Mesh;
+use crate::options::Options;
 use crate::threads::Threads;
 use crate::topology::{Topology, topology};
-use crate::view::{View, check_finite, check_indices, resolution, wide};
+use crate::view::{View, check_finite, check_indices, wide};
 use crate::weld::weld;
+
+/// What errors call the angle.
+pub const SMOOTHING_ANGLE: &str = "the smoothing angle";
 
 /// A mesh with normals, its vertices split where normals differ.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -46,7 +50,8 @@ pub fn split_by_angle(
     angle_degrees: f32,
 ) -> Result<Smoothed, Error> {
     if !(0.0..=180.0).contains(&angle_degrees) {
-        return Err(Error::BadAngle(angle_degrees));
+        let option = SMOOTHING_ANGLE;
+        return Err(Error::BadAngle { option, degrees: angle_degrees, most: 180.0 });
     }
     let counts = [u32::try_from(indices.len()).map_err(|_| Error::TooLarge)?];
     let mesh = Mesh { positions, indices, submesh_index_counts: &counts, ..Mesh::default() };
@@ -72,7 +77,7 @@ fn split(positions: &[[f32; 3]], indices: &[u32], counts: &[u32], angle_degrees:
         submesh_index_counts: counts,
         ..Mesh::default()
     };
-    let view = View { mesh, width: 0.0, least_breadth: 0.0, resolution: resolution(&mesh) };
+    let view = View::new(mesh, Options::default().hard_angle);
     let topology = topology(&view, &weld(&mesh));
     let faces = faces(&view, &topology, &Threads::default()).normal;
     let cosine = libm::cos(f64::from(angle_degrees).to_radians());
@@ -235,7 +240,8 @@ mod tests {
         assert_eq!(split_by_angle(&points, &[0, 1, 3], 30.0), Err(range));
         let count = Error::IndexCount { submesh: 0, count: 4 };
         assert_eq!(split_by_angle(&points, &[0, 1, 2, 0], 30.0), Err(count));
-        assert_eq!(split_by_angle(&points, &[0, 1, 2], 181.0), Err(Error::BadAngle(181.0)));
+        let told = split_by_angle(&points, &[0, 1, 2], 181.0).unwrap_err().to_string();
+        assert_eq!(told, "the smoothing angle is 181: give degrees from 0 to 180");
         assert!(split_by_angle(&points, &[0, 1, 2], f32::NAN).is_err());
         points[1][2] = f32::INFINITY;
         let not_finite = Error::NotFinite { stream: Stream::Positions, vertex: 1 };

@@ -1,4 +1,4 @@
-//! Stages: the values of all stages before the limits, for tests of what comes after.
+//! The values of all stages before the limits, for tests of what comes after.
 
 use crate::attributes::{Attributes, attributes};
 use crate::chamfers::Chamfers;
@@ -14,7 +14,9 @@ use crate::options::{Options, Verify, Width};
 use crate::patches::{Patches, patches};
 use crate::placement::Placement;
 use crate::rests::{Rests, rests};
+use crate::scale::Space;
 use crate::sectors::{Sectors, sectors};
+use crate::selection::selection;
 use crate::surface::Surface;
 use crate::threads::Threads;
 use crate::topology::{Topology, topology};
@@ -47,9 +49,12 @@ pub fn stages_with<'a>(mesh: &'a MeshBuffers, options: &Options) -> Stages<'a> {
     let topology = topology(&view, &weld);
     let faces = faces(&view, &topology, &threads);
     let contacts = contacts(&view, &topology, &faces).unwrap();
-    let edges = edges(&view, &topology, &faces, &contacts);
+    let selection = selection(&view, &weld, options);
+    let edges = edges(&view, &topology, &faces, &contacts, &selection);
     let sectors = sectors(&view, &topology, &edges, &contacts);
-    let offsets = offsets(&view, &topology, &faces, &sectors, &threads);
+    let surface = Surface { view: &view, topology: &topology, faces: &faces };
+    let chamfers = Chamfers { edges: &edges, sectors: &sectors };
+    let offsets = offsets(surface, chamfers, None, &threads);
     let rests = rests(&view, &topology, &faces, &edges, &contacts);
     Stages { view, weld, topology, faces, edges, sectors, offsets, rests, threads }
 }
@@ -74,12 +79,16 @@ impl Stages<'_> {
         limits(surface, chamfers, &self.offsets, &self.rests, verify, &self.threads).unwrap()
     }
 
+    fn space(&self) -> Space<'_> {
+        Space { source: &self.view, measured: &self.view, scale: None }
+    }
+
     pub fn patches(&self, placement: &Placement) -> Patches {
         patches(&self.view, self.chamfers(), placement, &self.threads)
     }
 
     pub fn attributes(&self, placement: &Placement) -> Attributes {
-        attributes(self.surface(), &self.weld, self.chamfers(), placement)
+        attributes(self.space(), self.surface(), &self.weld, self.chamfers(), placement)
     }
 
     pub fn charts(&self, placement: &Placement) -> Charts {

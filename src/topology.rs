@@ -54,6 +54,32 @@ impl Topology {
         self.hidden.binary_search_by_key(&half_edge, |hidden| hidden.half_edge).is_ok()
     }
 
+    /// The same with other half-edges in the place of those that lie together with more than one
+    /// other; clusters and twins stay.
+    pub fn renamed(&self, name: &impl Fn(Corner) -> Corner) -> Topology {
+        let mut all = Topology {
+            clusters: self.clusters,
+            cluster_at: self.cluster_at.clone(),
+            twin: self.twin.clone(),
+            doubled: self.doubled.iter().map(|&side| name(side)).collect(),
+            hidden: self.hidden.clone(),
+            contacts: self.contacts.iter().map(|&side| name(side)).collect(),
+            touching: self.touching.iter().map(|pair| pair.map(name)).collect(),
+        };
+        for hidden in &mut all.hidden {
+            hidden.half_edge = name(hidden.half_edge);
+            hidden.behind = name(hidden.behind);
+        }
+        all.sort();
+        all
+    }
+
+    fn sort(&mut self) {
+        self.doubled.sort_unstable();
+        self.hidden.sort_unstable();
+        self.contacts.sort_unstable();
+    }
+
     fn marry(&mut self, [one, other]: [Corner; 2]) {
         self.twin[one] = other;
         self.twin[other] = one;
@@ -75,9 +101,7 @@ pub fn topology(view: &View, weld: &Weld) -> Topology {
         touching: Vec::new(),
     };
     join_all(view, &mut joined);
-    joined.doubled.sort_unstable();
-    joined.hidden.sort_unstable();
-    joined.contacts.sort_unstable();
+    joined.sort();
     solids::keep_sheets(view, &mut joined);
     joined
 }

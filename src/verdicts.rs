@@ -40,7 +40,7 @@ fn verdict(
             let at = strips::corners(edge).map(|corner| sectors.sector_of[corner]);
             let reason = worst_reason(limits, at);
             if !is_open {
-                left(reason.unwrap_or(unopened(view, sectors, at)))
+                left(reason.unwrap_or(unopened(view, sectors, (edge, at))))
             } else {
                 let outcome = if reason.is_some() { Outcome::Narrowed } else { Outcome::Full };
                 (outcome, reason.unwrap_or(Reason::None), widths(view, limits, edge))
@@ -51,8 +51,8 @@ fn verdict(
 }
 
 /// Why an edge did not open though nothing limited it.
-fn unopened(view: &View, sectors: &Sectors, at: [Sector; 4]) -> Reason {
-    if view.width <= view.resolution {
+fn unopened(view: &View, sectors: &Sectors, (edge, at): (&HardEdge, [Sector; 4])) -> Reason {
+    if edge.widest() <= view.resolution {
         Reason::TooFine
     } else if at.into_iter().any(|sector| sectors.fans[sector].stays_with_rim()) {
         Reason::Contact
@@ -93,13 +93,10 @@ fn totals(view: &View, chamfers: Chamfers, limits: &Limits, verdicts: &[EdgeVerd
         }
         let [from, to] = [edge.sides[0], edge.sides[0].next()].map(|c| view.position_at(c));
         let length = from.distance(to);
-        for (width, counts) in
-            verdict.widths.into_iter().zip(counting_ends(chamfers.sectors, limits, (verdict, edge)))
-        {
-            if counts {
-                whole += length;
-                got += length * (f64::from(width) / view.width).min(1.0);
-            }
+        let counting = counting_ends(chamfers.sectors, limits, (verdict, edge));
+        for end in (0..2).filter(|&end| counting[end]) {
+            whole += length;
+            got += length * (f64::from(verdict.widths[end]) / edge.widths[end]).min(1.0);
         }
     }
     totals.mean_width = if whole > 0.0 { (got / whole) as f32 } else { 0.0 };
@@ -117,6 +114,9 @@ fn counting_ends(
         let sector = sectors.sector_of[corner];
         sector.is_some() && limits.placement.offset(sector).moves()
     });
+    if verdict.reason == Reason::NotSelected {
+        return [false; 2];
+    }
     let is_skipped = verdict.outcome == Outcome::Skipped;
     [moves[1] || moves[2], moves[0] || moves[3]].map(|moves| moves || is_skipped)
 }

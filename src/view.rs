@@ -7,8 +7,9 @@ use glam::DVec3;
 use crate::error::{Error, Stream};
 use crate::ids::{Corner, Id, Triangle, Vertex};
 use crate::memory;
-use crate::mesh::{Held, Mesh, UV_CHANNELS, Uv};
+use crate::mesh::{Factors, Held, Mesh, UV_CHANNELS, Uv};
 use crate::options::{ChamferSubmesh, Options, Width};
+use crate::tolerance::{ALIKE_COSINE, ALIKE_SHARE, HARD_COSINE};
 
 /// New elements are fewer than eight for each source corner, so ids stay within 32 bits.
 pub const MAX_CORNERS: usize = u32::MAX as usize / 8;
@@ -29,6 +30,10 @@ pub struct View<'a> {
     pub least_breadth: f64,
     /// The shortest length that single precision can tell from zero on this mesh.
     pub resolution: f64,
+    /// Of the angle from which on normals differ.
+    pub hard_cosine: f64,
+    /// Two normals that both differ from a third one by less than this do not differ.
+    pub alike_cosine: f64,
 }
 
 /// Validates a mesh and the options that go with it.
@@ -43,12 +48,35 @@ pub fn view<'a>(mesh: &Mesh<'a>, options: &Options) -> Result<View<'a>, Error> {
             return Err(Error::SubmeshRange { submesh, submeshes });
         }
     }
+    check_angles(options)?;
+    check_factors(mesh)?;
     let width = width_in_units(mesh, options.width)?;
     let least_breadth = checked_share(options.least_breadth)?;
-    Ok(View { mesh: *mesh, width, least_breadth, resolution: resolution(mesh) })
+    Ok(View { width, least_breadth, ..View::new(*mesh, options.hard_angle) })
 }
 
-impl View<'_> {
+/// A mesh that keeps all rules, where it is measured: see [`crate::scale`].
+pub fn measured<'a>(mesh: Mesh<'a>, options: &Options) -> Result<View<'a>, Error> {
+    check_finite(&mesh).map_err(|_| Error::BadScale)?;
+    let width = width_in_units(&mesh, options.width)?;
+    let least_breadth = options.least_breadth.into();
+    Ok(View { width, least_breadth, ..View::new(mesh, options.hard_angle) })
+}
+
+impl<'a> View<'a> {
+    /// A mesh for which no width is asked.
+    pub fn new(mesh: Mesh<'a>, hard_angle: f32) -> View<'a> {
+        let cosine = |degrees: f64| libm::cos(degrees.to_radians());
+        let is_usual = hard_angle == Options::default().hard_angle;
+        let (hard_cosine, alike_cosine) = if is_usual {
+            (HARD_COSINE, ALIKE_COSINE)
+        } else {
+            (cosine(hard_angle.into()), cosine(f64::from(hard_angle) * ALIKE_SHARE))
+        };
+        let resolution = resolution(&mesh);
+        View { mesh, width: 0.0, least_breadth: 0.0, resolution, hard_cosine, alike_cosine }
+    }
+
     #[inline]
     pub fn vertex_at(&self, corner: Corner) -> Vertex {
         Vertex(self.mesh.indices[corner.index()])
@@ -114,6 +142,46 @@ pub fn resolution(mesh: &Mesh) -> f64 {
     let largest = mesh.positions.as_flattened().iter().fold(0.0_f32, |m, x| m.max(x.abs()));
     let step = f64::from(largest) * f64::from(f32::EPSILON);
     step.max(SMALLEST_STEP) * RESOLUTION_STEPS
+}
+
+fn check_angles(options: &Options) -> Result<(), Error> {
+    let Options { min_angle, max_angle, hard_angle, .. } = *options;
+    let ranges = [
+        ("min_angle", min_angle, 180.0),
+        ("max_angle", max_angle, 180.0),
+        ("hard_angle", hard_angle, 90.0),
+    ];
+    if let Some(&(option, degrees, most)) =
+        ranges.iter().find(|(_, degrees, most)| !(0.0..=*most).contains(degrees))
+    {
+        return Err(Error::BadAngle { option, degrees, most });
+    }
+    if min_angle > max_angle { Err(Error::AngleOrder { min_angle, max_angle }) } else { Ok(()) }
+}
+
+fn check_factors(mesh: &Mesh) -> Result<(), Error> {
+    let Factors { submeshes, vertices, edges } = mesh.factors;
+    if !submeshes.is_empty() {
+        check_length(Stream::SubmeshFactors, mesh.submesh_index_counts.len(), submeshes.len())?;
+    }
+    if !vertices.is_empty() {
+        check_length(Stream::VertexFactors, mesh.positions.len(), vertices.len())?;
+    }
+    let count = mesh.positions.len() as u32;
+    for (edge, listed) in (0..).zip(edges) {
+        if let Some(&vertex) = listed.vertices.iter().find(|&&vertex| vertex >= count) {
+            return Err(Error::EdgeRange { edge, vertex, vertices: count });
+        }
+    }
+    let bad = |factor: &f32| !(factor.is_finite() && *factor >= 0.0);
+    let check = |stream: Stream, place: Option<usize>, factor: &dyn Fn(usize) -> f32| match place {
+        Some(place) => Err(Error::BadFactor { stream, place: place as u32, factor: factor(place) }),
+        None => Ok(()),
+    };
+    check(Stream::SubmeshFactors, submeshes.iter().position(bad), &|k| submeshes[k])?;
+    check(Stream::VertexFactors, vertices.iter().position(bad), &|k| vertices[k])?;
+    let bad_edge = edges.iter().position(|edge| bad(&edge.factor));
+    check(Stream::EdgeFactors, bad_edge, &|k| edges[k].factor)
 }
 
 fn check_lengths(mesh: &Mesh) -> Result<(), Error> {

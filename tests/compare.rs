@@ -4,7 +4,8 @@
 use chamfer::check::{Findings, Matching, MeasuredEdge, Rule, check, compare};
 use chamfer::shapes;
 use chamfer::{
-    Chamfered, MeshBuffers, Options, Outcome, Reason, TriangleKind, Verify, Width, chamfer,
+    Chamfered, Held, Mesh, MeshBuffers, Options, Outcome, Piece, Reason, TriangleKind,
+    TriangleSource, Verify, Width, chamfer,
 };
 
 const WIDTH: f32 = 0.05;
@@ -201,4 +202,81 @@ fn a_strip_with_a_normal_of_its_own() {
         }
     });
     assert_eq!(rules, [Rule::HardEdges]);
+}
+
+/// An open box on one of whose lower edges something rests in the middle: the triangles beside it
+/// come in pieces.
+///
+/// ```text
+///       a-----m--+===+--n-----b      chamfers from a to m and from n to b
+/// ```
+fn cut_box() -> (MeshBuffers, Chamfered) {
+    let before = shapes::open_box();
+    let rests = Held { from: [-0.1, 0.0, -1.0], to: [0.1, 0.0, -1.0], radius: 0.0 };
+    let mesh = Mesh { held: &[rests], ..before.as_mesh() };
+    let after = chamfer(&mesh, &Options::default().with_width(Width::Units(WIDTH))).unwrap();
+    assert!(after.pieces.len() > 8, "{:?}", after.pieces);
+    (before, after)
+}
+
+/// A vertex of pieces alone, inside a triangle that was cut, and the corners at it.
+fn inside_a_cut_triangle(after: &Chamfered) -> (usize, Vec<usize>) {
+    let corners_of = |piece: &Piece| 3 * piece.triangle as usize..3 * piece.triangle as usize + 3;
+    let is_inside = |piece: &Piece, k: usize| piece.corners[k].iter().all(|weight| *weight > 0.0);
+    let inner = after.pieces.iter().flat_map(|piece| {
+        corners_of(piece).enumerate().filter(|&(k, _)| is_inside(piece, k)).map(|(_, c)| c)
+    });
+    let all: Vec<usize> = inner.collect();
+    let vertex = after.mesh.indices[all[0]];
+    let here = all.into_iter().filter(|&corner| after.mesh.indices[corner] == vertex).collect();
+    (vertex as usize, here)
+}
+
+#[test]
+fn pieces_of_cut_triangles_are_found_where_nothing_tells_of_them() {
+    let (before, after) = cut_box();
+    let [told, found] =
+        [check(&before.as_mesh(), &after, Verify::Full), compared(&before, &after.mesh)];
+    assert!(told.is_sound() && found.is_sound(), "{told}{found}");
+    assert_eq!((found.matching, &found.edges), (Matching::Order, &told.edges));
+}
+
+#[test]
+fn a_bent_piece_is_found() {
+    let (before, mut after) = cut_box();
+    let (vertex, _) = inside_a_cut_triangle(&after);
+    let normal = after.mesh.normals[vertex];
+    (0..3).for_each(|k| after.mesh.positions[vertex][k] += 0.01 * normal[k]);
+    let found = compared(&before, &after.mesh);
+    assert!(found.count(Rule::FlatFace) > 0, "{found}");
+}
+
+#[test]
+fn pieces_that_gape_are_found() {
+    let (before, mut after) = cut_box();
+    let (vertex, corners) = inside_a_cut_triangle(&after);
+    let mesh = &mut after.mesh;
+    let [a, b] = [1, 2].map(|k| mesh.indices[corners[0] / 3 * 3 + (corners[0] + k) % 3] as usize);
+    // Nearer to the other side of its piece, within the plane.
+    let middle = [0, 1, 2].map(|k| (mesh.positions[a][k] + mesh.positions[b][k]) / 2.0);
+    let nearer = [0, 1, 2].map(|k| 0.9 * mesh.positions[vertex][k] + 0.1 * middle[k]);
+    mesh.indices[corners[0]] = mesh.positions.len() as u32;
+    mesh.positions.push(nearer);
+    mesh.normals.push(mesh.normals[vertex]);
+    mesh.uvs[0].values.extend([0.0; 2]);
+    mesh.tangents.extend(mesh.tangents.get(vertex).copied());
+    let found = compared(&before, mesh);
+    assert!(found.count(Rule::Gapes) >= 3, "{found}");
+}
+
+#[test]
+fn a_strip_that_is_missing_beside_pieces_is_found() {
+    let (before, mut after) = cut_box();
+    let held = after.verdicts.iter().position(|v| v.reason == Reason::Contact).unwrap() as u32;
+    let is_of_held = |s: &TriangleSource| s.kind == TriangleKind::Edge && s.index == held;
+    let strip = after.triangle_sources.iter().position(is_of_held).unwrap();
+    after.mesh.indices.drain(3 * strip..3 * strip + 3);
+    after.mesh.submesh_index_counts[0] -= 3;
+    let found = compared(&before, &after.mesh);
+    assert!(found.count(Rule::Gapes) > 0, "{found}");
 }

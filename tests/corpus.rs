@@ -7,6 +7,7 @@ use std::io::Write;
 use std::path::Path;
 
 use chamfer::Verify;
+use chamfer::check::compare;
 use measure::{FOLDER, Measured, Sum, measure, models};
 
 /// Models, as the folder's own list has it.
@@ -65,5 +66,19 @@ fn at_half_a_percent_all_are_sound() {
 fn at_two_percent_all_are_sound() {
     if let Some(meshes) = measured(2.0) {
         assert_all_sound(&meshes, 2.0);
+    }
+}
+
+/// What `chamfer check` sees of two files, where nothing tells what came from what.
+#[test]
+fn all_are_sound_by_what_went_in_and_what_came_out_alone() {
+    for path in models(Path::new(FOLDER)) {
+        for percent in [0.5, 2.0] {
+            let measured = measure(&path, percent, Verify::Full, |before, after| {
+                let found = compare(before, &after.mesh.as_mesh(), Verify::Full);
+                assert!(found.is_sound(), "{} at {percent} %:\n{found}", path.display());
+            });
+            assert!(measured.is_ok(), "{}", path.display());
+        }
     }
 }

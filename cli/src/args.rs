@@ -6,10 +6,12 @@ use chamfer::{ChamferSubmesh, Options, Verify, Width};
 use chamfer_formats::{ReadOptions, Weld};
 use clap::{Parser, Subcommand, ValueEnum};
 
+use crate::report::Asked;
+
 const ABOUT: &str = "\
 Chamfers the hard edges of game models.
 
-Reads .glb, .gltf, .obj, .stl and .fbx files, pulls the split vertices at every hard edge apart inside \
+Reads .glb, .gltf, .obj, .stl, .fbx and .ply files, pulls the split vertices at every hard edge apart inside \
 their own faces and closes the gap with a strip that shades smoothly. All else in a file stays \
 as it is.";
 
@@ -21,7 +23,8 @@ Where results go:
   several, or a folder    DIR/..., in the same subfolders as below the folder given
 
 Folders that are missing are created. A result has the format of its input; an .stl goes out as
-.glb, because .stl has no normals, unless -o names an .stl, and an .fbx too, as there is no writer.
+.glb, because .stl has no normals, unless -o names an .stl, and an .fbx or .ply too, as there is no
+writer.
 With -o an .obj can go out as .glb too, and .glb and .gltf as each other.
 
 Examples:
@@ -84,9 +87,21 @@ pub struct Args {
     #[arg(long, value_name = "FILE.json")]
     pub report: Option<PathBuf>,
 
+    /// Say only what went wrong
+    #[arg(short, long, conflicts_with = "verbose")]
+    pub quiet: bool,
+
+    /// Say what became of every mesh
+    #[arg(short, long)]
+    pub verbose: bool,
+
     /// List every hard edge in the report, and what became of it
     #[arg(long, requires = "report")]
     pub report_edges: bool,
+
+    /// Write a page with all models to this file: sortable, with pictures, narrowed ones on top
+    #[arg(long, value_name = "FILE.html")]
+    pub html: Option<PathBuf>,
 
     /// Draw before and after to this file; several models make a contact sheet
     #[arg(long, value_name = "FILE.png")]
@@ -96,6 +111,25 @@ pub struct Args {
     /// narrowed, red where left as they were
     #[arg(long, requires = "preview")]
     pub preview_verdicts: bool,
+
+    /// Compress the geometry of results in .glb and .gltf, without loss
+    #[arg(long, value_enum)]
+    pub compress: Option<Compression>,
+
+    /// Pixels per side of each picture in the preview [default: 600 for one model, else 320]
+    #[arg(long, value_name = "PIXELS", requires = "preview")]
+    #[arg(value_parser = clap::value_parser!(u32).range(32..=2048))]
+    pub preview_size: Option<u32>,
+
+    /// Draw these widths beside each other: in percent, or in mesh units with --width. What is
+    /// written has the width of --width or --width-percent all the same
+    #[arg(long, value_name = "W,W,..", requires = "preview", value_delimiter = ',')]
+    #[arg(value_parser = width, num_args = 1, conflicts_with = "preview_verdicts")]
+    pub preview_widths: Vec<f32>,
+
+    /// Draw the corner at which most hard edges meet, too, five times as large
+    #[arg(long, requires = "preview")]
+    pub preview_close_up: bool,
 
     /// How many threads work [default: one a core]; results do not depend on it
     #[arg(long, value_name = "N", default_value = "0", hide_default_value = true)]
@@ -230,6 +264,13 @@ impl From<CheckDepth> for Verify {
     }
 }
 
+/// How results are compressed.
+#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
+pub enum Compression {
+    /// EXT_meshopt_compression, which Unity's glTFast, three.js and Babylon read.
+    Meshopt,
+}
+
 /// [`Verify`] as an argument.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub enum VerifyArg {
@@ -260,6 +301,37 @@ impl Args {
             .with_verify(self.verify.into())
             .with_chamfer_submesh(self.chamfer_submesh)
             .with_threads(threads)
+    }
+
+    /// The same and more, for the report.
+    pub fn asked(&self) -> Asked {
+        let (width, width_unit) = match self.width {
+            Some(width) => (width, "mesh"),
+            None => (self.width_percent, "percent"),
+        };
+        Asked {
+            width,
+            width_unit,
+            least_breadth: self.least_breadth,
+            verify: match self.verify {
+                VerifyArg::Seen => "seen",
+                VerifyArg::Full => "full",
+                VerifyArg::Fast => "fast",
+            },
+            chamfer_submesh: match self.chamfer_submesh {
+                ChamferSubmesh::Owner => "owner".into(),
+                ChamferSubmesh::Own => "own".into(),
+                ChamferSubmesh::Given(number) => number.to_string(),
+                _ => "other".into(),
+            },
+            smoothing_angle: self.smoothing_angle,
+            weld: self.weld.map(|weld| match weld {
+                Weld::Equal => "0".into(),
+                Weld::Within(distance) => distance.to_string(),
+                Weld::Auto => "auto".into(),
+            }),
+            compress: self.compress.map(|Compression::Meshopt| "meshopt"),
+        }
     }
 
     /// What to ask of the readers.

@@ -5,52 +5,79 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::mpsc::{Sender, channel};
+use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
+use std::time::{Duration, Instant};
 
 use anyhow::{Error, Result, anyhow};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::args::Args;
-use crate::console::{say, warn};
-use crate::jobs::{Job, jobs};
-use crate::pictures::{self, MOST_ROWS, Portrait};
+use crate::console::warn;
+use crate::jobs::{Job, Plan, plan};
+use crate::outcome::{Done, Finished, Outcome};
+use crate::pictures::Studio;
 use crate::process::{Processed, Settings, Taken, process};
-use crate::report::{FileReport, Report};
-use crate::write;
+use crate::write::{self, Written};
 
 /// The exit code where the arguments make no sense; that of the argument parser.
 pub const USAGE: u8 = 2;
 /// Parts of a file that the progress bar tells apart.
 const STEPS: u64 = 1000;
+/// How long an interrupted run waits for results that have their names to be told of.
+const PATIENCE: Duration = Duration::from_secs(2);
+
+/// What workers and the user tell the run.
+enum Message {
+    Done(usize, Box<Done>),
+    Interrupted,
+}
+
+/// What the workers of a run share.
+struct Shared<'a> {
+    jobs: &'a [Job],
+    settings: Settings,
+    studio: Option<Studio>,
+    /// The job that nobody has taken.
+    next: AtomicUsize,
+    bar: ProgressBar,
+}
 
 /// Chamfers the files that the arguments name.
 pub fn run(args: &Args) -> ExitCode {
-    let jobs = match jobs(args) {
-        Ok(jobs) => jobs,
+    let plan = match plan(args) {
+        Ok(plan) => plan,
         Err(error) => {
             warn(format_args!("error: {error:#}"));
             return ExitCode::from(USAGE);
         }
     };
-    let outcome = chamfer_all(args, &jobs);
-    let mut failed = outcome.files.iter().any(|file| file.error.is_some());
-    if let Err(error) = write_extras(args, outcome) {
-        warn(format_args!("error: {error:#}"));
-        failed = true;
-    }
-    ExitCode::from(u8::from(failed))
+    plan.notes.iter().for_each(warn);
+    let start = Instant::now();
+    let (sender, receiver) = channel();
+    let interrupt = sender.clone();
+    write::on_interrupt(move || interrupt.send(Message::Interrupted).is_ok());
+    let (shared, workers) = share(args, &plan);
+    let mut outcome = Outcome::new(args, &plan);
+    thread::scope(|scope| {
+        for _ in 0..workers {
+            let sender = sender.clone();
+            scope.spawn(|| work(&shared, sender));
+        }
+        outcome.is_interrupted = !collect(&shared, &receiver, &mut outcome);
+        shared.bar.finish_and_clear();
+        if outcome.is_interrupted {
+            // The workers are not waited for: one may be at a file that takes for ever.
+            finish(args, std::mem::take(&mut outcome), &plan, start);
+            std::process::exit(write::INTERRUPTED);
+        }
+    });
+    drop(receiver);
+    finish(args, outcome, &plan, start)
 }
 
-/// What is left of a run once all results are written.
-struct Outcome {
-    files: Vec<FileReport>,
-    portraits: Vec<Portrait>,
-    /// Models that would be in the picture if there were room.
-    left_out: usize,
-}
-
-fn chamfer_all(args: &Args, jobs: &[Job]) -> Outcome {
+fn share<'a>(args: &Args, plan: &'a Plan) -> (Shared<'a>, usize) {
+    let jobs = &plan.jobs[..];
     let cores = thread::available_parallelism().map_or(1, usize::from);
     let threads = if args.threads == 0 { cores } else { args.threads as usize };
     let workers = threads.min(jobs.len());
@@ -58,115 +85,95 @@ fn chamfer_all(args: &Args, jobs: &[Job]) -> Outcome {
         read: args.read_options(),
         core: args.options((threads / workers) as u32),
         report_edges: args.report_edges,
+        compresses: args.compress.is_some(),
         taken: Taken::new(jobs),
     };
+    let studio = Studio::new(args, jobs.len());
     let bar = progress_bar(jobs.len());
-    let mut outcome = Outcome { files: Vec::new(), portraits: Vec::new(), left_out: 0 };
-    let next = AtomicUsize::new(0);
-    let (sender, receiver) = channel();
-    thread::scope(|scope| {
-        for _ in 0..workers {
-            let sender = sender.clone();
-            scope.spawn(|| work(jobs, &settings, &next, &bar, sender));
-        }
-        drop(sender);
-        let mut waiting = BTreeMap::new();
-        for (number, result) in receiver {
-            waiting.insert(number, result);
-            while let Some(result) = waiting.remove(&outcome.files.len()) {
-                bar.set_message(format!("{} of {}", outcome.files.len() + 1, jobs.len()));
-                let job = &jobs[outcome.files.len()];
-                bar.suspend(|| outcome.add(job, result, args.preview.is_some()));
+    (Shared { jobs, settings, studio, next: AtomicUsize::new(0), bar }, workers)
+}
+
+/// Reports files in their order until all are done; whether they are.
+fn collect(shared: &Shared, receiver: &Receiver<Message>, outcome: &mut Outcome) -> bool {
+    let mut waiting = BTreeMap::new();
+    let (jobs, bar) = (shared.jobs, &shared.bar);
+    while outcome.done() < jobs.len() {
+        match receiver.recv() {
+            Ok(Message::Done(number, done)) => waiting.insert(number, done),
+            _ => {
+                // Those that wait for others are done all the same.
+                receive_the_rest(receiver, &mut waiting);
+                bar.suspend(|| {
+                    waiting.into_iter().for_each(|(n, done)| outcome.add(&jobs[n], *done))
+                });
+                return false;
             }
+        };
+        while let Some(done) = waiting.remove(&outcome.done()) {
+            bar.set_message(format!("{} of {}", outcome.done() + 1, jobs.len()));
+            let job = &jobs[outcome.done()];
+            bar.suspend(|| outcome.add(job, *done));
         }
-    });
-    bar.finish_and_clear();
-    outcome
+    }
+    true
+}
+
+/// Lets no further file get its name, and waits for those that have theirs.
+fn receive_the_rest(receiver: &Receiver<Message>, waiting: &mut BTreeMap<usize, Box<Done>>) {
+    write::stop();
+    let end = Instant::now() + PATIENCE;
+    let is_told = |waiting: &BTreeMap<usize, Box<Done>>| {
+        waiting.values().filter(|done| done.result.is_ok()).count() >= Written::count()
+    };
+    while !is_told(waiting) && Instant::now() < end {
+        if let Ok(Message::Done(number, done)) = receiver.recv_timeout(Duration::from_millis(10)) {
+            waiting.insert(number, done);
+        }
+    }
+}
+
+fn finish(args: &Args, outcome: Outcome, plan: &Plan, start: Instant) -> ExitCode {
+    let mut failed = plan.is_incomplete || outcome.has_failed();
+    if let Err(error) = outcome.finish(args, plan.jobs.len(), start.elapsed()) {
+        warn(format_args!("error: {error:#}"));
+        failed = true;
+    }
+    ExitCode::from(u8::from(failed))
 }
 
 /// Takes one job after the other until none is left.
-fn work(
-    jobs: &[Job],
-    settings: &Settings,
-    next: &AtomicUsize,
-    bar: &ProgressBar,
-    results: Sender<(usize, Result<Processed>)>,
-) {
+fn work(shared: &Shared, results: Sender<Message>) {
     loop {
-        let number = next.fetch_add(1, Ordering::Relaxed);
-        let Some(job) = jobs.get(number) else { return };
+        let number = shared.next.fetch_add(1, Ordering::Relaxed);
+        let Some(job) = shared.jobs.get(number) else { return };
         let shown = AtomicUsize::new(0);
         let progress = |share: f32| {
             let steps = (share * STEPS as f32) as usize;
-            bar.inc(steps.saturating_sub(shown.swap(steps, Ordering::Relaxed)) as u64);
+            shared.bar.inc(steps.saturating_sub(shown.swap(steps, Ordering::Relaxed)) as u64);
         };
+        let start = Instant::now();
+        let mut time = Duration::ZERO;
         // No file may take the others down, whatever is wrong with it or with us.
-        let result = catch_unwind(AssertUnwindSafe(|| process(job, settings, &progress)));
+        let result = catch_unwind(AssertUnwindSafe(|| {
+            let processed = process(job, &shared.settings, &progress);
+            time = start.elapsed();
+            finished(job, processed?, shared.studio.as_ref())
+        }));
         progress(1.0);
         let result = result.unwrap_or_else(|_| Err(anyhow!("internal error: please report it")));
-        if results.send((number, result)).is_err() {
+        if results.send(Message::Done(number, Box::new(Done { result, time }))).is_err() {
             return;
         }
     }
 }
 
-impl Outcome {
-    /// Reports a file that is done.
-    fn add(&mut self, job: &Job, result: Result<Processed>, with_picture: bool) {
-        let mut file = FileReport::new(&job.input, &job.output);
-        match result {
-            Ok(Processed { document, chamfered, reports, notes }) => {
-                for note in &notes {
-                    warn(format_args!("{}: note: {note}", file.file));
-                }
-                file.meshes = reports;
-                file.notes = notes;
-                say(&file);
-                if with_picture && chamfered.iter().any(|result| !result.mesh.indices.is_empty()) {
-                    let caption = name_of(&job.input);
-                    self.keep(Portrait { caption, document, chamfered });
-                }
-            }
-            Err(error) => {
-                let error = one_line(&error);
-                warn(format_args!("{}: {error}", file.file));
-                file.error = Some(error);
-            }
-        }
-        self.files.push(file);
-    }
-
-    fn keep(&mut self, portrait: Portrait) {
-        if self.portraits.len() < MOST_ROWS {
-            self.portraits.push(portrait);
-        } else {
-            self.left_out += 1;
-        }
-    }
-}
-
-fn write_extras(args: &Args, outcome: Outcome) -> Result<()> {
-    let Outcome { files, portraits, left_out } = outcome;
-    let report = args.report.as_deref().map(|path| {
-        let json = Report::new(files).to_json()?;
-        write::alone(path, json)
-    });
-    let draw = |path| draw(path, &portraits, left_out, args.preview_verdicts);
-    let preview = args.preview.as_deref().map(draw);
-    // One that fails is no reason to leave out the other.
-    report.unwrap_or(Ok(())).and(preview.unwrap_or(Ok(())))
-}
-
-fn draw(path: &Path, portraits: &[Portrait], left_out: usize, verdicts: bool) -> Result<()> {
-    if portraits.is_empty() {
-        warn(format_args!("{}: note: not drawn, there is no model to show", path.display()));
-        return Ok(());
-    }
-    if left_out > 0 {
-        let path = path.display();
-        warn(format_args!("{path}: note: {left_out} models left out after the first {MOST_ROWS}"));
-    }
-    pictures::draw(path, portraits, verdicts)
+/// Lets go of the model once its picture is drawn.
+fn finished(job: &Job, processed: Processed, studio: Option<&Studio>) -> Result<Finished> {
+    let Processed { document, chamfered, reports, notes, written } = processed;
+    let is_seen = chamfered.iter().any(|result| !result.mesh.indices.is_empty());
+    let draw = |studio: &Studio| studio.draw(name_of(&job.input), &*document, &chamfered);
+    let drawn = studio.filter(|_| is_seen).map(draw).transpose()?.unwrap_or_default();
+    Ok(Finished { reports, notes, drawn, written })
 }
 
 /// Drawn on a terminal only.

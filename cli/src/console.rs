@@ -5,10 +5,42 @@ use std::io::Write;
 
 /// Prints a line on standard output. A closed pipe (`chamfer ... | head`) is no reason to stop.
 pub fn say(line: impl Display) {
-    let _ = writeln!(std::io::stdout(), "{line}");
+    let _ = writeln!(std::io::stdout(), "{}", harmless(&line.to_string()));
 }
 
 /// Prints a line on standard error.
 pub fn warn(line: impl Display) {
-    let _ = writeln!(std::io::stderr(), "{line}");
+    let _ = writeln!(std::io::stderr(), "{}", harmless(&line.to_string()));
+}
+
+/// Names in files, and of files, may hold what a terminal takes for commands.
+pub fn harmless(text: &str) -> String {
+    let mut told = String::with_capacity(text.len());
+    for character in text.chars() {
+        match character {
+            '\n' => told.push(character),
+            _ if character.is_control() => told.extend(character.escape_default()),
+            _ => told.push(character),
+        }
+    }
+    told
+}
+
+/// The same where all is one line.
+pub fn one_line(text: &str) -> String {
+    harmless(text).replace('\n', "\\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn commands_to_a_terminal_are_shown_and_not_given() {
+        assert_eq!(
+            harmless("a\u{1b}[31mred\u{7}\u{9b}2J\n\u{e9}"),
+            "a\\u{1b}[31mred\\u{7}\\u{9b}2J\n\u{e9}"
+        );
+        assert_eq!(one_line("a\nb\r"), "a\\nb\\r");
+    }
 }

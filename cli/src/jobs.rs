@@ -1,6 +1,8 @@
 //! Which file goes where, decided and checked before any work.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
@@ -19,6 +21,16 @@ pub struct Job {
     pub output: PathBuf,
 }
 
+/// What a run has to do.
+#[derive(Debug, Default)]
+pub struct Plan {
+    pub jobs: Vec<Job>,
+    /// What could not be searched, a line each.
+    pub notes: Vec<String>,
+    /// Whether a model may be missing for that.
+    pub is_incomplete: bool,
+}
+
 /// A model found, and its path below the folder that results go to.
 struct Found {
     input: PathBuf,
@@ -29,20 +41,21 @@ struct Found {
 ///
 /// # Errors
 /// Where the arguments leave that open, or results would overwrite inputs or each other.
-pub fn jobs(args: &Args) -> Result<Vec<Job>> {
+pub fn plan(args: &Args) -> Result<Plan> {
     let single = args.inputs.len() == 1 && !args.inputs[0].is_dir();
-    let jobs = if single {
+    let plan = if single {
         let input = args.inputs[0].clone();
         let output = single_output(&input, args.output.as_deref())?;
-        vec![Job { input, output }]
+        Plan { jobs: vec![Job { input, output }], ..Plan::default() }
     } else {
         several(&args.inputs, args.output.as_deref())?
     };
+    let jobs = &plan.jobs;
     // One file may be replaced by name; a folder after -o does not name the files in it.
     let may_replace = single && args.output.as_ref() == Some(&jobs[0].output);
-    let extras = [args.report.as_deref(), args.preview.as_deref()];
-    check_overlaps(&jobs, may_replace, extras.into_iter().flatten())?;
-    Ok(jobs)
+    let extras = [args.report.as_deref(), args.preview.as_deref(), args.html.as_deref()];
+    check_overlaps(jobs, may_replace, extras.into_iter().flatten())?;
+    Ok(plan)
 }
 
 fn single_output(input: &Path, output: Option<&Path>) -> Result<PathBuf> {
@@ -83,24 +96,25 @@ fn usual_name(input: &Path) -> PathBuf {
     }
 }
 
-fn several(inputs: &[PathBuf], output: Option<&Path>) -> Result<Vec<Job>> {
+fn several(inputs: &[PathBuf], output: Option<&Path>) -> Result<Plan> {
     let Some(folder) = output else {
         bail!("several inputs or a folder need a folder for the results: add -o DIR");
     };
     if folder.is_file() || (row_of(folder).is_some() && !folder.is_dir()) {
         bail!("-o {}: several inputs or a folder need a folder, not a file", folder.display());
     }
-    let mut jobs = Vec::new();
+    let mut plan = Plan::default();
     for input in inputs {
-        for found in find_models(input, &identity(folder))? {
-            jobs.push(Job { input: found.input, output: folder.join(usual_name(&found.below)) });
+        for found in find_models(input, &identity(folder), &mut plan)? {
+            let output = folder.join(usual_name(&found.below));
+            plan.jobs.push(Job { input: found.input, output });
         }
     }
-    Ok(jobs)
+    Ok(plan)
 }
 
 /// The models in a folder, sorted, without those in `results`; or the file itself.
-fn find_models(input: &Path, results: &Path) -> Result<Vec<Found>> {
+fn find_models(input: &Path, results: &Path, plan: &mut Plan) -> Result<Vec<Found>> {
     if !input.is_dir() {
         let below = input.file_name().context("an input has no file name")?.into();
         return Ok(vec![Found { input: input.to_path_buf(), below }]);
@@ -109,16 +123,40 @@ fn find_models(input: &Path, results: &Path) -> Result<Vec<Found>> {
     // Results of an earlier run below the input folder are not inputs of this one.
     let walk = WalkDir::new(input).follow_links(true).sort_by_file_name().into_iter();
     for entry in walk.filter_entry(|e| e.depth() == 0 || identity(e.path()) != results) {
-        let entry = entry.with_context(|| format!("cannot search {}", input.display()))?;
+        let entry = match entry {
+            Ok(entry) => entry,
+            Err(error) => {
+                plan.leave_out(&error, input);
+                continue;
+            }
+        };
         if entry.file_type().is_file() && row_of(entry.path()).is_some() {
             let below = entry.path().strip_prefix(input)?.to_path_buf();
             found.push(Found { input: entry.path().to_path_buf(), below });
         }
     }
     if found.is_empty() {
-        bail!("{}: no {} file in this folder", input.display(), endings());
+        let left_out: String = plan.notes.iter().map(|note| format!("; {note}")).collect();
+        bail!("{}: no {} file in this folder{left_out}", input.display(), endings());
     }
     Ok(found)
+}
+
+impl Plan {
+    /// What a search of a folder stumbles over does not stop it.
+    fn leave_out(&mut self, error: &walkdir::Error, folder: &Path) {
+        let path = error.path().unwrap_or(folder);
+        let is_link = fs::symlink_metadata(path).is_ok_and(|file| file.is_symlink());
+        let (why, is_failure) = match error.io_error() {
+            None => ("a link to a folder that it lies in".to_owned(), false),
+            Some(error) if is_link && error.kind() == ErrorKind::NotFound => {
+                ("a link that leads nowhere".to_owned(), row_of(path).is_some())
+            }
+            Some(error) => (format!("cannot be read: {error}"), true),
+        };
+        self.notes.push(format!("{}: left out, {why}", path.display()));
+        self.is_incomplete |= is_failure;
+    }
 }
 
 fn check_overlaps<'a>(
@@ -151,7 +189,6 @@ fn check_overlaps<'a>(
 mod tests {
     use super::*;
     use clap::Parser;
-    use std::fs;
 
     struct Folder(tempfile::TempDir);
 
@@ -170,7 +207,7 @@ mod tests {
         fn jobs(&self, line: &str) -> Result<Vec<String>> {
             let root = self.0.path().to_str().unwrap();
             let line = format!("chamfer {}", line.replace('@', root));
-            let jobs = jobs(&Args::try_parse_from(line.split(' '))?)?;
+            let Plan { jobs, .. } = plan(&Args::try_parse_from(line.split(' '))?)?;
             let show = |job: &Job| format!("{}>{}", job.input.display(), job.output.display());
             Ok(jobs.iter().map(|job| show(job).replace(root, "@")).collect())
         }

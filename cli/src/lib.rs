@@ -8,12 +8,18 @@ pub mod scene;
 
 mod args;
 mod batch;
+mod busiest;
 mod check;
+mod coats;
 mod console;
 mod demo;
+mod html;
 mod jobs;
+mod nothing;
+mod outcome;
 mod process;
 mod report;
+mod summary;
 mod verdict_lines;
 mod write;
 
@@ -29,7 +35,9 @@ use args::{Args, Command};
 /// interrupt.
 pub fn run() -> ExitCode {
     let args = Args::parse();
-    write::clean_up_on_interrupt();
+    if args.command.is_some() {
+        write::on_interrupt(|| false);
+    }
     match &args.command {
         Some(Command::Demo(demo)) => demo::run(demo),
         Some(Command::Check(args)) => check::run(args),

@@ -19,8 +19,9 @@ use chamfer_formats::{Document, Encoded, OutputFile, ReadOptions, SourceMesh};
 use glam::{Mat4, Vec3};
 
 use crate::jobs::Job;
+use crate::nothing;
 use crate::report::MeshReport;
-use crate::write;
+use crate::write::{self, Written};
 
 /// What is the same for every file of a run.
 pub struct Settings {
@@ -30,6 +31,8 @@ pub struct Settings {
     pub core: Options,
     /// Whether the report lists every hard edge.
     pub report_edges: bool,
+    /// Whether results are compressed.
+    pub compresses: bool,
     /// Files that must not be written, and those that were.
     pub taken: Taken,
 }
@@ -44,6 +47,8 @@ pub struct Processed {
     pub reports: Vec<MeshReport>,
     /// What the user should know.
     pub notes: Vec<String>,
+    /// Kept until the file is told of.
+    pub written: Written,
 }
 
 /// Chamfers one file. `progress` is told the share done (0 to 1).
@@ -57,14 +62,24 @@ pub fn process(job: &Job, settings: &Settings, progress: &dyn Fn(f32)) -> Result
         notes.push("there are no triangles in it: nothing was chamfered".into());
     }
     let (chamfered, reports) = chamfer_all(&*document, settings, progress, &mut notes)?;
-    notes.extend(document.meshes().iter().zip(&chamfered).filter_map(too_far_out));
-    notes.extend(document.meshes().iter().filter_map(nearly_touching));
-    notes.extend(meshes_that_touch(&*document, &chamfered));
-    let Encoded { files, notes: lost } = formats::encode(&*document, &job.output, &chamfered)?;
+    let far_out = document.meshes().iter().zip(&chamfered).filter_map(too_far_out);
+    let apart = document.meshes().iter().filter_map(nearly_touching);
+    let reasons: Vec<String> =
+        far_out.chain(apart).chain(meshes_that_touch(&*document, &chamfered)).collect();
+    if reasons.is_empty() && nothing::is_untouched(&chamfered) {
+        notes.extend(nothing::no_hard_edges(&*document, settings.read.smoothing_angle));
+    }
+    notes.extend(reasons);
+    notes.extend(nothing::little(&reports));
+    let mut encoded = formats::encode(&*document, &job.output, &chamfered)?;
+    if settings.compresses {
+        formats::compress(&mut encoded)?;
+    }
+    let Encoded { files, notes: lost } = encoded;
     notes.extend(lost);
     settings.taken.claim(job, &files)?;
-    write::together(&files)?;
-    Ok(Processed { document, chamfered, reports, notes })
+    let written = write::model(&files)?;
+    Ok(Processed { document, chamfered, reports, notes, written })
 }
 
 /// Says where edges may be open that nobody sees.
@@ -138,12 +153,23 @@ fn chamfer_all(
         ));
     }
     let time = start.elapsed() / document.meshes().len().max(1) as u32;
+    let extent =
+        document.meshes().iter().map(|mesh| extent(&mesh.mesh.positions)).fold(0.0, f64::max);
     let report = |(SourceMesh { name, mesh }, result): (&SourceMesh, &Chamfered)| {
-        let report = MeshReport::new(name, mesh, result, time);
+        let report = MeshReport::new(name, mesh, result, time, extent);
         if settings.report_edges { report.with_edges(mesh, result) } else { report }
     };
     let reports = document.meshes().iter().zip(&scene.meshes).map(report).collect();
     Ok((scene.meshes, reports))
+}
+
+/// The largest side of the box around points.
+fn extent(positions: &[[f32; 3]]) -> f64 {
+    let bound = |axis: usize, start: f32, choose: fn(f32, f32) -> f32| {
+        f64::from(positions.iter().map(|at| at[axis]).fold(start, choose))
+    };
+    let side = |axis| bound(axis, f32::MIN, f32::max) - bound(axis, f32::MAX, f32::min);
+    (0..3).map(side).fold(0.0, f64::max)
 }
 
 /// Chamfers the meshes of a file as they stand in its scene: what rests on another is left to rest,

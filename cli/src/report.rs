@@ -1,20 +1,51 @@
 //! What became of each file and mesh, for the terminal and as JSON.
 
-use std::fmt;
 use std::path::Path;
 use std::time::Duration;
 
 use anyhow::Result;
-use chamfer::{ByReason, Chamfered, EdgeVerdict, MeshBuffers, Reason};
+use chamfer::{ByReason, Chamfered, EdgeVerdict, MeshBuffers, Outcome, Reason};
 use serde::{Serialize, Serializer};
 
-/// The whole report.
+/// The whole report, as `docs/report.schema.json` describes it.
 #[derive(Debug, Serialize)]
 pub struct Report {
+    /// The version of this program.
+    pub chamfer: &'static str,
+    /// What was asked for.
+    pub options: Asked,
+    /// Whether somebody ended the run before all files were done: those that are not are left out.
+    pub interrupted: bool,
     /// In the order of the inputs.
     pub files: Vec<FileReport>,
+    /// What could not be searched for models.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub notes: Vec<String>,
     /// Sums over all files.
     pub totals: ReportTotals,
+}
+
+/// The options of a run that the results depend on.
+#[derive(Clone, Debug, Serialize)]
+pub struct Asked {
+    /// The width, in the unit of `width_unit`.
+    pub width: f32,
+    /// "mesh" for the units of each mesh, "percent" of its largest side.
+    pub width_unit: &'static str,
+    /// What stays of the breadth of each face, in percent.
+    pub least_breadth: f32,
+    /// "seen", "full" or "fast".
+    pub verify: &'static str,
+    /// "owner", "own" or a number.
+    pub chamfer_submesh: String,
+    /// In degrees.
+    pub smoothing_angle: f32,
+    /// A distance in mesh units, or "auto"; absent where only equal positions are one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub weld: Option<String>,
+    /// "meshopt", or absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub compress: Option<&'static str>,
 }
 
 /// What became of one file.
@@ -30,6 +61,8 @@ pub struct FileReport {
     /// What else there is to know.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
+    /// Time from reading to writing.
+    pub milliseconds: f64,
     /// Its meshes; none where it failed.
     pub meshes: Vec<MeshReport>,
 }
@@ -51,9 +84,26 @@ pub struct MeshReport {
     /// Its hard edges with two sides, where they were asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub edges: Option<Vec<EdgeReport>>,
-    /// Length of all hard edges together: the weight of `mean_width` in sums.
+    /// The weights of `mean_width` in sums.
     #[serde(skip)]
-    pub hard_length: f64,
+    pub lengths: Lengths,
+    /// How many chamfers there are of each tenth of the width asked for.
+    #[serde(skip)]
+    pub widths: [u64; BINS],
+}
+
+/// Classes of widths.
+pub const BINS: usize = 10;
+
+/// Lengths of edges, in the largest sides of their model: millimetres count no more than metres.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Lengths {
+    /// Of all hard edges together.
+    pub hard: f64,
+    /// Of the narrowed ones.
+    pub narrowed: f64,
+    /// The same times the share of the width that each got.
+    pub narrowed_widths: f64,
 }
 
 /// What became of one hard edge.
@@ -85,7 +135,7 @@ pub struct Counts {
     /// Hard edges with two sides.
     pub hard_edges: u64,
     /// Those at full width.
-    pub chamfered: u64,
+    pub full: u64,
     /// Those chamfered, but narrower somewhere.
     pub narrowed: u64,
     /// Those left as they were.
@@ -108,15 +158,18 @@ pub struct ReportTotals {
     /// Sizes and verdicts.
     #[serde(flatten)]
     pub counts: Counts,
-    /// Mean width as a share (0 to 1) of the width asked for, weighted by edge length.
+    /// Mean width as a share (0 to 1) of the width asked for, weighted by edge length, which is
+    /// measured in the largest side of each model.
     pub mean_width: f32,
-    /// Time in the core and for looking at scenes.
+    /// The same of the narrowed edges alone.
+    pub mean_narrowed_width: f32,
+    /// Time from reading to writing, of all files together.
     pub milliseconds: f64,
 }
 
 impl Report {
     /// Adds up the files.
-    pub fn new(files: Vec<FileReport>) -> Report {
+    pub fn new(options: Asked, files: Vec<FileReport>, notes: Vec<String>) -> Report {
         let meshes = || files.iter().flat_map(|file| &file.meshes);
         let totals = ReportTotals {
             files: files.len() as u64,
@@ -124,9 +177,11 @@ impl Report {
             meshes: meshes().count() as u64,
             counts: Counts::sum(meshes()),
             mean_width: mean_width(meshes()),
-            milliseconds: round(meshes().map(|mesh| mesh.milliseconds).sum()),
+            mean_narrowed_width: mean_narrowed_width(meshes()),
+            milliseconds: round(files.iter().fold(0.0, |sum, file| sum + file.milliseconds)),
         };
-        Report { files, totals }
+        let chamfer = env!("CARGO_PKG_VERSION");
+        Report { chamfer, options, interrupted: false, files, notes, totals }
     }
 
     /// The report as JSON text.
@@ -142,41 +197,28 @@ impl Report {
 
 impl FileReport {
     /// A file of which nothing is known yet.
-    pub fn new(input: &Path, output: &Path) -> FileReport {
+    pub fn new(input: &Path, output: &Path, time: Duration) -> FileReport {
         FileReport {
             file: input.display().to_string(),
             output: output.display().to_string(),
             error: None,
             notes: Vec::new(),
+            milliseconds: milliseconds(time),
             meshes: Vec::new(),
         }
     }
 }
 
-/// The line for the terminal.
-impl fmt::Display for FileReport {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let counts = Counts::sum(self.meshes.iter());
-        let milliseconds: f64 = self.meshes.iter().map(|mesh| mesh.milliseconds).sum();
-        write!(
-            f,
-            "{} -> {}: {} hard edges: {} chamfered, {} narrowed, {} skipped; \
-             {} -> {} triangles; {milliseconds:.1} ms",
-            self.file,
-            self.output,
-            counts.hard_edges,
-            counts.chamfered,
-            counts.narrowed,
-            counts.skipped.total(),
-            counts.triangles_in,
-            counts.triangles_out,
-        )
-    }
-}
-
 impl MeshReport {
-    /// What the core says of a mesh, and what can be measured on it.
-    pub fn new(name: &str, source: &MeshBuffers, result: &Chamfered, time: Duration) -> MeshReport {
+    /// What the core says of a mesh, and what can be measured on it. `extent` is the largest side
+    /// of its model.
+    pub fn new(
+        name: &str,
+        source: &MeshBuffers,
+        result: &Chamfered,
+        time: Duration,
+        extent: f64,
+    ) -> MeshReport {
         let totals = &result.totals;
         MeshReport {
             name: name.into(),
@@ -186,15 +228,16 @@ impl MeshReport {
                 vertices_in: source.positions.len() as u64,
                 vertices_out: result.mesh.positions.len() as u64,
                 hard_edges: totals.hard_edges.into(),
-                chamfered: totals.chamfered.into(),
+                full: totals.chamfered.into(),
                 narrowed: totals.narrowed.into(),
                 skipped: Skipped::new(&totals.skipped),
             },
             mean_width: totals.mean_width,
             width: result.width,
-            milliseconds: round(time.as_secs_f64() * 1000.0),
+            milliseconds: milliseconds(time),
             edges: None,
-            hard_length: hard_length(source, result),
+            lengths: Lengths::new(source, result, extent),
+            widths: widths(result),
         }
     }
 
@@ -212,14 +255,15 @@ impl MeshReport {
 }
 
 impl Counts {
-    fn sum<'a>(meshes: impl Iterator<Item = &'a MeshReport>) -> Counts {
+    /// Adds up meshes.
+    pub fn sum<'a>(meshes: impl Iterator<Item = &'a MeshReport>) -> Counts {
         meshes.fold(Counts::default(), |mut sum, MeshReport { counts, .. }| {
             sum.triangles_in += counts.triangles_in;
             sum.triangles_out += counts.triangles_out;
             sum.vertices_in += counts.vertices_in;
             sum.vertices_out += counts.vertices_out;
             sum.hard_edges += counts.hard_edges;
-            sum.chamfered += counts.chamfered;
+            sum.full += counts.full;
             sum.narrowed += counts.narrowed;
             for (total, count) in sum.skipped.0.iter_mut().zip(counts.skipped.0) {
                 *total += count;
@@ -238,6 +282,14 @@ impl Skipped {
         counts
     }
 
+    /// The reasons there are, with their numbers.
+    pub fn text(&self) -> String {
+        let reasons = Reason::ALL.iter().zip(self.0).filter(|(_, count)| *count > 0);
+        let texts: Vec<String> =
+            reasons.map(|(reason, count)| format!("{} {count}", reason.name())).collect();
+        texts.join(", ")
+    }
+
     /// Edges of all reasons.
     pub fn total(&self) -> u64 {
         self.0.iter().sum()
@@ -251,23 +303,62 @@ impl Serialize for Skipped {
     }
 }
 
-fn mean_width<'a>(meshes: impl Iterator<Item = &'a MeshReport>) -> f32 {
-    let (sum, length) = meshes.fold((0.0, 0.0), |(sum, length), mesh| {
-        (sum + f64::from(mesh.mean_width) * mesh.hard_length, length + mesh.hard_length)
-    });
-    if length > 0.0 { (sum / length) as f32 } else { 0.0 }
+/// Mean width of meshes as a share of the width asked for, weighted by the lengths of edges.
+pub fn mean_width<'a>(meshes: impl Iterator<Item = &'a MeshReport>) -> f32 {
+    mean(meshes.map(|mesh| (f64::from(mesh.mean_width) * mesh.lengths.hard, mesh.lengths.hard)))
 }
 
-fn hard_length(source: &MeshBuffers, result: &Chamfered) -> f64 {
-    let length = |ends: [u32; 2]| {
-        let [a, b] = ends.map(|vertex| position(source, vertex));
-        (0..3).map(|axis| f64::from(b[axis] - a[axis]).powi(2)).sum::<f64>().sqrt()
-    };
-    result.verdicts.iter().map(|verdict| length(verdict.vertices)).sum()
+/// The same of the narrowed edges alone.
+pub fn mean_narrowed_width<'a>(meshes: impl Iterator<Item = &'a MeshReport>) -> f32 {
+    mean(meshes.map(|mesh| (mesh.lengths.narrowed_widths, mesh.lengths.narrowed)))
+}
+
+fn mean(weighted: impl Iterator<Item = (f64, f64)>) -> f32 {
+    let (sum, weight) = weighted.fold((0.0, 0.0), |sum, one| (sum.0 + one.0, sum.1 + one.1));
+    if weight > 0.0 { (sum / weight) as f32 } else { 0.0 }
+}
+
+fn widths(result: &Chamfered) -> [u64; BINS] {
+    let mut bins = [0; BINS];
+    for verdict in result.verdicts.iter().filter(|verdict| verdict.outcome != Outcome::Skipped) {
+        let share = verdict.widths.iter().sum::<f32>() / 2.0 / result.width;
+        // A full one is in the last tenth, whatever rounding makes of it.
+        let last = verdict.outcome == Outcome::Full;
+        let bin = if last { BINS - 1 } else { (share * BINS as f32) as usize };
+        bins[bin.min(BINS - 1)] += 1;
+    }
+    bins
+}
+
+/// The widths of all chamfers of meshes.
+pub fn histogram<'a>(meshes: impl Iterator<Item = &'a MeshReport>) -> [u64; BINS] {
+    meshes.fold([0; BINS], |sum, mesh| std::array::from_fn(|bin| sum[bin] + mesh.widths[bin]))
+}
+
+impl Lengths {
+    fn new(source: &MeshBuffers, result: &Chamfered, extent: f64) -> Lengths {
+        let mut lengths = Lengths::default();
+        for verdict in &result.verdicts {
+            let [a, b] = verdict.vertices.map(|vertex| position(source, vertex));
+            let square = (0..3).map(|axis| f64::from(b[axis] - a[axis]).powi(2)).sum::<f64>();
+            let length = if extent > 0.0 { square.sqrt() / extent } else { 0.0 };
+            lengths.hard += length;
+            if verdict.outcome == Outcome::Narrowed && result.width > 0.0 {
+                let share = verdict.widths.iter().sum::<f32>() / 2.0 / result.width;
+                lengths.narrowed += length;
+                lengths.narrowed_widths += length * f64::from(share.min(1.0));
+            }
+        }
+        lengths
+    }
 }
 
 fn position(source: &MeshBuffers, vertex: u32) -> [f32; 3] {
     source.positions.get(vertex as usize).copied().unwrap_or_default()
+}
+
+fn milliseconds(time: Duration) -> f64 {
+    round(time.as_secs_f64() * 1000.0)
 }
 
 /// To whole microseconds: more digits of a time say nothing.
@@ -280,7 +371,7 @@ mod tests {
     use super::*;
 
     fn mesh(mean_width: f32, hard_length: f64, skipped: u64) -> MeshReport {
-        let mut counts = Counts { hard_edges: 4, chamfered: 4 - skipped, ..Counts::default() };
+        let mut counts = Counts { hard_edges: 4, full: 4 - skipped, ..Counts::default() };
         counts.skipped.0[Reason::NoRoom as usize] = skipped;
         MeshReport {
             name: "box".into(),
@@ -289,41 +380,71 @@ mod tests {
             width: 0.5,
             milliseconds: 1.5,
             edges: None,
-            hard_length,
+            lengths: Lengths { hard: hard_length, ..Lengths::default() },
+            widths: [0; BINS],
         }
     }
 
+    fn asked() -> Asked {
+        use clap::Parser;
+        crate::args::Args::parse_from(["chamfer", "a.glb"]).asked()
+    }
+
+    fn report(files: Vec<FileReport>) -> Report {
+        Report::new(asked(), files, vec![])
+    }
+
     fn file(meshes: Vec<MeshReport>) -> FileReport {
-        FileReport { meshes, ..FileReport::new(Path::new("a.obj"), Path::new("b.obj")) }
+        let time = Duration::from_micros(2500);
+        FileReport { meshes, ..FileReport::new(Path::new("a.obj"), Path::new("b.obj"), time) }
     }
 
     #[test]
     fn totals_weigh_the_width_by_edge_length() {
-        let report =
-            Report::new(vec![file(vec![mesh(1.0, 3.0, 0)]), file(vec![mesh(0.5, 1.0, 1)])]);
+        let report = report(vec![file(vec![mesh(1.0, 3.0, 0)]), file(vec![mesh(0.5, 1.0, 1)])]);
         assert_eq!(report.totals.mean_width, 0.875);
         assert_eq!(report.totals.counts.hard_edges, 8);
-        assert_eq!(report.totals.milliseconds, 3.0);
+        assert_eq!(report.totals.milliseconds, 5.0, "with reading and writing");
+    }
+
+    /// A box of a thousand millimetres counts as one of one metre.
+    #[test]
+    fn lengths_are_measured_in_the_model() {
+        let lengths = |size: f32| {
+            let cube = chamfer::shapes::plain_cube(size);
+            let options = chamfer::Options::default();
+            let result = chamfer::chamfer(&cube.as_mesh(), &options).unwrap();
+            Lengths::new(&cube, &result, f64::from(size))
+        };
+        let (metre, millimetres) = (lengths(1.0), lengths(1000.0));
+        assert!((metre.hard - millimetres.hard).abs() < 1e-6, "{metre:?} {millimetres:?}");
     }
 
     #[test]
     fn json_names_the_reasons_and_keeps_its_order() {
         let text =
-            String::from_utf8(Report::new(vec![file(vec![mesh(0.5, 1.0, 2)])]).to_json().unwrap());
+            String::from_utf8(report(vec![file(vec![mesh(0.5, 1.0, 2)])]).to_json().unwrap());
         let text = text.unwrap();
         assert!(text.contains("\"no_room\": 2"), "{text}");
         assert!(!text.contains("folds") && !text.contains("error"), "{text}");
         let place = |key: &str| text.find(key).unwrap();
         assert!(place("\"file\"") < place("\"output\""));
-        assert!(place("\"hard_edges\"") < place("\"chamfered\""));
+        assert!(place("\"hard_edges\"") < place("\"full\""));
         assert!(place("\"files\"") < place("\"totals\""));
+    }
+
+    #[test]
+    fn no_time_is_never_less_than_none() {
+        let empty = FileReport::new(Path::new("a.obj"), Path::new("b.obj"), Duration::ZERO);
+        assert!(empty.to_string().ends_with("; 0.0 ms"), "{empty}");
+        assert!(report(vec![]).totals.milliseconds.is_sign_positive());
     }
 
     #[test]
     fn a_failed_file_is_counted_and_says_why() {
         let mut failed = file(Vec::new());
         failed.error = Some("broken".into());
-        let report = Report::new(vec![failed]);
+        let report = report(vec![failed]);
         assert_eq!(report.totals.failed, 1);
         assert!(String::from_utf8(report.to_json().unwrap()).unwrap().contains("\"broken\""));
     }

@@ -1,6 +1,6 @@
 //! Hard edges as lines over a picture, coloured by what became of them.
 
-use chamfer::{Chamfered, MeshBuffers, Outcome, TriangleKind};
+use chamfer::{Chamfered, EdgeVerdict, MeshBuffers, Outcome, TriangleKind};
 use glam::{Mat4, Vec3};
 
 use crate::preview::Line;
@@ -37,50 +37,48 @@ impl Legend {
 
 /// The hard edges where they were.
 pub fn before(source: &MeshBuffers, result: &Chamfered, transform: [[f32; 4]; 4]) -> Vec<Line> {
-    let ends = result.verdicts.iter().map(|verdict| ends(source, verdict.vertices));
-    lines(result, ends, transform)
+    let ends = result.verdicts.iter().map(|verdict| (verdict, ends(source, verdict.vertices)));
+    lines(ends, transform)
 }
 
-/// Along the middle of the strips that took their place; where there is none, where they were.
+/// Along both rims of the strips that took their place, which stay visible between; where there is
+/// none, where they were.
 pub fn after(source: &MeshBuffers, result: &Chamfered, transform: [[f32; 4]; 4]) -> Vec<Line> {
     let mut strips = vec![Vec::new(); result.verdicts.len()];
     for (triangle, strip) in result.mesh.indices.chunks_exact(3).zip(&result.triangle_sources) {
         if strip.kind == TriangleKind::Edge {
-            for &vertex in triangle {
-                let point = Vec3::from(result.mesh.positions[vertex as usize]);
-                let points: &mut Vec<Vec3> = &mut strips[strip.index as usize];
-                if !points.contains(&point) {
-                    points.push(point);
-                }
-            }
+            let point =
+                |corner: usize| Vec3::from(result.mesh.positions[triangle[corner] as usize]);
+            strips[strip.index as usize].push([0, 1, 2].map(point));
         }
     }
-    let ends = result
-        .verdicts
-        .iter()
-        .zip(strips)
-        .map(|(verdict, strip)| middle(ends(source, verdict.vertices), &strip));
-    lines(result, ends, transform)
+    let rimmed = result.verdicts.iter().zip(strips).flat_map(|(verdict, strip)| {
+        let edge = ends(source, verdict.vertices);
+        let rims = rims(edge, &strip);
+        rims.into_iter().map(move |rim| (verdict, rim))
+    });
+    lines(rimmed, transform)
 }
 
 fn ends(source: &MeshBuffers, vertices: [u32; 2]) -> [Vec3; 2] {
     vertices.map(|vertex| Vec3::from(source.positions[vertex as usize]))
 }
 
-/// At each end of an edge the mean of the strip's points on that half of it.
-fn middle(edge: [Vec3; 2], strip: &[Vec3]) -> [Vec3; 2] {
-    let halfway = (edge[0] + edge[1]) / 2.0;
-    let is_second = |point: &Vec3| (*point - halfway).dot(edge[1] - edge[0]) > 0.0;
-    [false, true].map(|second| {
-        let points = strip.iter().filter(|point| is_second(point) == second);
-        let count = points.clone().count();
-        if count == 0 { edge[usize::from(second)] } else { points.sum::<Vec3>() / count as f32 }
-    })
+/// The two sides of a strip that run along its edge; the edge itself where there is no strip.
+fn rims(edge: [Vec3; 2], strip: &[[Vec3; 3]]) -> Vec<[Vec3; 2]> {
+    let side = |triangle: &[Vec3; 3], first: usize| [triangle[first], triangle[(first + 1) % 3]];
+    let all = || strip.iter().flat_map(|triangle| [0, 1, 2].map(|first| side(triangle, first)));
+    // What two triangles share is the diagonal.
+    let is_shared = |[a, b]: &[Vec3; 2]| all().any(|[c, d]| [c, d] == [*b, *a]);
+    let mut sides: Vec<[Vec3; 2]> = all().filter(|side| !is_shared(side)).collect();
+    let along = |[a, b]: &[Vec3; 2]| (*b - *a).dot(edge[1] - edge[0]).abs();
+    sides.sort_by(|a, b| along(b).total_cmp(&along(a)));
+    sides.truncate(2);
+    if sides.is_empty() { vec![edge] } else { sides }
 }
 
-fn lines(
-    result: &Chamfered,
-    ends: impl Iterator<Item = [Vec3; 2]>,
+fn lines<'a>(
+    ends: impl Iterator<Item = (&'a EdgeVerdict, [Vec3; 2])>,
     transform: [[f32; 4]; 4],
 ) -> Vec<Line> {
     let transform = Mat4::from_cols_array_2d(&transform);
@@ -89,11 +87,11 @@ fn lines(
         Outcome::Narrowed => NARROWED,
         Outcome::Skipped => SKIPPED,
     };
-    let line = |(verdict, ends): (&chamfer::EdgeVerdict, [Vec3; 2])| Line {
+    let line = |(verdict, ends): (&EdgeVerdict, [Vec3; 2])| Line {
         ends: ends.map(|end| transform.transform_point3(end).to_array()),
         color: color(verdict.outcome),
     };
-    result.verdicts.iter().zip(ends).map(line).collect()
+    ends.map(line).collect()
 }
 
 #[cfg(test)]
@@ -108,18 +106,20 @@ mod tests {
         let options = Options::default().with_width(Width::Units(0.1));
         let result = chamfer(&cube.as_mesh(), &options).unwrap();
         let [old, new] = [before, after].map(|lines| lines(&cube, &result, IDENTITY));
-        assert_eq!((old.len(), new.len()), (12, 12));
-        for (old, new) in old.iter().zip(&new) {
+        assert_eq!((old.len(), new.len()), (12, 24));
+        for (number, new) in new.iter().enumerate() {
+            let old = &old[number / 2];
             assert_eq!((old.color, new.color), (FULL, FULL));
-            // In the middle between two faces, and shorter by the width at both ends.
-            let [from, to] =
-                [0, 1].map(|end| Vec3::from(old.ends[end]).abs() - Vec3::from(new.ends[end]).abs());
-            let mut expected = [0.05, 0.05, 0.1];
-            for moved in [from, to] {
-                let mut moved = moved.to_array();
+            // Along one axis: no diagonal of a strip.
+            let along = (0..3).filter(|&axis| new.ends[0][axis] != new.ends[1][axis]).count();
+            assert_eq!(along, 1);
+            // On one of two faces, pulled by the width, and shorter by it at both ends.
+            for end in 0..2 {
+                let place = |line: &Line| Vec3::from(line.ends[end]).abs();
+                let mut moved = (place(old) - place(new)).to_array();
                 moved.sort_by(f32::total_cmp);
-                expected.sort_by(f32::total_cmp);
-                assert!(moved.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-6));
+                let expected = [0.0, 0.1, 0.1];
+                assert!(moved.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-6), "{moved:?}");
             }
         }
     }

@@ -1,15 +1,16 @@
 //! Runs the built `chamfer` on files that the tests write.
 
+#[path = "support/folder.rs"]
+mod folder;
 #[path = "support/run.rs"]
 mod run;
 
 use std::fs;
-use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use serde_json::Value;
-use tempfile::TempDir;
 
+use folder::Folder;
 use run::Run;
 
 const CUBE_OBJ: &str = "\
@@ -55,62 +56,6 @@ const TRIANGLE_GLTF: &str = r#"{
 "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]
 }"#;
 
-/// A folder in which the command runs.
-struct Folder(TempDir);
-
-impl Folder {
-    fn with(files: &[(&str, &str)]) -> Folder {
-        let folder = Folder(tempfile::tempdir().unwrap());
-        for (name, text) in files {
-            fs::create_dir_all(folder.path(name).parent().unwrap()).unwrap();
-            fs::write(folder.path(name), text).unwrap();
-        }
-        folder
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.0.path().join(name)
-    }
-
-    fn text(&self, name: &str) -> String {
-        fs::read_to_string(self.path(name)).unwrap()
-    }
-
-    fn json(&self, name: &str) -> Value {
-        serde_json::from_slice(&fs::read(self.path(name)).unwrap()).unwrap()
-    }
-
-    /// Runs `chamfer` with these arguments.
-    fn run(&self, arguments: &str) -> Run {
-        Run(self.command().args(arguments.split(' ')).output().unwrap())
-    }
-
-    fn command(&self) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_chamfer"));
-        command.current_dir(self.0.path());
-        command
-    }
-
-    /// The files in the folder and below, sorted.
-    fn files(&self) -> Vec<String> {
-        let mut files = Vec::new();
-        list(self.0.path(), self.0.path(), &mut files);
-        files.sort();
-        files
-    }
-}
-
-fn list(root: &Path, folder: &Path, files: &mut Vec<String>) {
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.is_dir() {
-            list(root, &path, files);
-        } else {
-            files.push(path.strip_prefix(root).unwrap().to_str().unwrap().replace('\\', "/"));
-        }
-    }
-}
-
 #[test]
 fn an_obj_stays_an_obj_with_its_materials() {
     let folder = Folder::with(&[("cube.obj", CUBE_OBJ), ("cube.mtl", "newmtl top\n")]);
@@ -150,6 +95,21 @@ fn chamfers_go_to_the_submesh_that_is_asked_for() {
 }
 
 #[test]
+fn results_are_compressed_where_asked() {
+    let folder = Folder::with(&[("cube.obj", CUBE_OBJ)]);
+    let run = folder.run("cube.obj -o small.glb --compress meshopt").exits(0);
+    let told = "cube.obj: note: written with EXT_meshopt_compression: ";
+    assert!(run.err().starts_with(told), "{}", run.err());
+    let text = fs::read(folder.path("small.glb")).unwrap();
+    assert!(String::from_utf8_lossy(&text).contains(r#""mode":"ATTRIBUTES""#));
+    folder.run("check cube.obj small.glb").exits(0);
+    let run = folder.run("cube.obj -o small.obj --compress meshopt").exits(1);
+    assert!(run.err().contains("only .glb and .gltf can be compressed"), "{}", run.err());
+    let run = folder.run("small.glb -o again.glb --compress meshopt").exits(0);
+    assert!(!run.err().contains("is written without"), "{}", run.err());
+}
+
+#[test]
 fn an_stl_goes_out_as_glb_unless_an_stl_is_asked_for() {
     let folder = Folder::with(&[("a.stl", TRIANGLE_STL)]);
     folder.run("a.stl").exits(0);
@@ -179,10 +139,12 @@ fn one_bad_file_does_not_stop_the_others() {
         ("in/notes.txt", "not a model"),
     ]);
     let run = folder.run("in -o out --report r.json").exits(1);
-    assert_eq!(run.err(), "in/bad.obj: line 2: vertex 2 of 1 that the file has\n");
+    let told: Vec<String> = run.err().lines().map(str::to_owned).collect();
+    assert_eq!(told[0], "in/bad.obj: line 2: vertex 2 of 1 that the file has");
+    assert!(told[1].starts_with("in/c.stl: note: it has no hard edges") && told.len() == 2);
     let lines: Vec<String> =
         run.out().lines().map(|line| line.chars().take(12).collect()).collect();
-    assert_eq!(lines, ["in/a/cube.ob", "in/c.stl -> "]);
+    assert_eq!(lines, ["in/a/cube.ob", "in/c.stl -> ", "3 files, 1 f"]);
     let results: Vec<String> =
         folder.files().into_iter().filter(|file| !file.starts_with("in/")).collect();
     assert_eq!(results, ["out/a/cube.obj", "out/c.glb", "r.json"]);
@@ -233,9 +195,7 @@ fn the_report_has_the_figures_of_each_mesh() {
     assert!(report["files"][0].get("error").is_none());
     let mesh = &report["files"][0]["meshes"][0];
     assert_eq!((&mesh["name"], &mesh["triangles_in"]), (&"cube".into(), &12.into()));
-    for key in
-        ["triangles_out", "vertices_in", "vertices_out", "hard_edges", "chamfered", "narrowed"]
-    {
+    for key in ["triangles_out", "vertices_in", "vertices_out", "hard_edges", "full", "narrowed"] {
         assert!(mesh[key].is_u64(), "{key}");
         assert!(report["totals"][key].is_u64(), "{key}");
     }
@@ -345,6 +305,89 @@ fn previews_are_pictures() {
     assert!(two.height() > one.height());
 }
 
+fn size_of(folder: &Folder, name: &str) -> (u32, u32) {
+    let picture = image::open(folder.path(name)).unwrap();
+    (picture.width(), picture.height())
+}
+
+/// A tile is 100 pixels wide, a line of text 28 high, and there are two pixels between tiles.
+#[test]
+fn previews_have_widths_and_a_close_up_in_the_size_asked_for() {
+    let folder = Folder::with(&[("a.obj", CUBE_OBJ)]);
+    let run = |more: &str| {
+        folder
+            .run(format!("a.obj -o x.obj --preview p.png --preview-size 100 {more}").trim_end())
+            .exits(0);
+        size_of(&folder, "p.png")
+    };
+    assert_eq!(run(""), (202, 156));
+    assert_eq!(run("--preview-close-up"), (202, 312));
+    assert_eq!(run("--preview-widths 0.5,2,8,20"), (508, 156));
+    let picture = image::open(folder.path("p.png")).unwrap().into_rgb8();
+    let tiles: Vec<Vec<u8>> = (0..5)
+        .map(|tile| {
+            let tile = image::imageops::crop_imm(&picture, 102 * tile, 28, 100, 100);
+            tile.to_image().into_raw()
+        })
+        .collect();
+    let differ =
+        |a: usize, b: usize| tiles[a].iter().zip(&tiles[b]).filter(|(a, b)| a != b).count();
+    assert!(
+        differ(0, 1) < differ(0, 2) && differ(0, 2) < differ(0, 3) && differ(0, 3) < differ(0, 4)
+    );
+    folder.run("a.obj -o x.obj --preview-size 100").exits(2);
+    folder.run("a.obj -o x.obj --preview p.png --preview-widths 1,-1").exits(2);
+}
+
+#[test]
+fn many_models_go_to_pages() {
+    let folder = Folder::with(&[]);
+    fs::create_dir(folder.path("in")).unwrap();
+    for number in 0..26 {
+        fs::write(folder.path(&format!("in/{number}.obj")), CUBE_OBJ).unwrap();
+    }
+    folder.run("in -o out --preview sheet.png --preview-size 40 --verify fast").exits(0);
+    let row = 40 + 56 + 2;
+    assert_eq!(size_of(&folder, "sheet.png"), (2 * 82 + 2, 12 * row - 2));
+    assert_eq!(size_of(&folder, "sheet-2.png"), (82, 2 * row - 2));
+    assert!(!folder.path("sheet-3.png").exists());
+}
+
+/// The colours of its materials: the top is blue.
+#[test]
+fn previews_show_materials() {
+    let folder = Folder::with(&[("a.obj", CUBE_OBJ), ("cube.mtl", "newmtl top\nKd 0.1 0.2 1\n")]);
+    folder.run("a.obj -o x.obj --preview p.png").exits(0);
+    folder.run("a.obj -o x.glb --preview q.png").exits(0);
+    folder.run("x.glb -o y.glb --preview r.png").exits(0);
+    for name in ["p.png", "q.png", "r.png"] {
+        let picture = image::open(folder.path(name)).unwrap().into_rgb8();
+        let is_blue = |p: &&image::Rgb<u8>| p.0[2] > 100 && p.0[2] / 2 > p.0[0];
+        let count = picture.pixels().filter(is_blue).count();
+        assert!(count > 10_000, "{name}: {count}");
+    }
+}
+
+/// A wall that faces the eye's side, red below and green above, in an .obj, a .glb and a .gltf.
+#[test]
+fn previews_show_textures() {
+    let wall = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n\
+                vn 0 0 1\nusemtl m\nf 1/1/1 2/2/1 3/3/1 4/4/1\n";
+    let folder = Folder::with(&[("a.obj", wall), ("a.mtl", "newmtl m\nmap_Kd halves.png\n")]);
+    let halves = image::RgbImage::from_fn(8, 8, |_, y| {
+        image::Rgb(if y < 4 { [0, 255, 0] } else { [255, 0, 0] })
+    });
+    halves.save(folder.path("halves.png")).unwrap();
+    for (from, to) in [("a.obj", "b.glb"), ("b.glb", "c.gltf"), ("c.gltf", "d.gltf")] {
+        folder.run(&format!("{from} -o {to} --preview p.png --preview-size 100")).exits(0);
+        let picture = image::open(folder.path("p.png")).unwrap().into_rgb8();
+        let pixel = |y: u32| picture.get_pixel(50, 28 + y).0;
+        let (above, below) = (pixel(30), pixel(70));
+        assert!(above[1] / 2 > above[0], "{from}: {above:?}");
+        assert!(below[0] / 2 > below[1], "{from}: {below:?}");
+    }
+}
+
 #[test]
 fn the_demo_needs_no_file() {
     let folder = Folder::with(&[]);
@@ -399,7 +442,7 @@ mod on_unix {
             env!("CARGO_BIN_EXE_chamfer")
         );
         let mut command = Command::new("sh");
-        let run = Run(command.args(["-c", &script]).current_dir(folder.0.path()).output().unwrap());
+        let run = Run(command.args(["-c", &script]).current_dir(folder.path("")).output().unwrap());
         let run = run.exits(1);
         assert!(run.err().starts_with("a.obj: cannot write b.obj: "), "{}", run.err());
         assert_eq!(folder.text("b.obj"), "old");
@@ -480,7 +523,7 @@ fn vertices_that_nearly_touch_are_counted_or_welded() {
     assert!(run.err().contains("vertices are not where others are"), "{}", run.err());
     for weld in ["auto", "0.001"] {
         let run = folder.run(&format!("a.obj -o b.obj --weld {weld}")).exits(0);
-        assert!(run.out().contains("12 hard edges: 12 chamfered"), "{}", run.out());
+        assert!(run.out().contains("12 hard edges: 12 full"), "{}", run.out());
         assert!(run.err().contains("were welded onto others"), "{}", run.err());
         folder.run(&format!("check a.obj b.obj --weld {weld}")).exits(0);
     }

@@ -1,10 +1,12 @@
 //! Measures how a folder of models is chamfered: soundness, coverage and width.
 //!
-//! `cargo run --release --example measure -- [--full] [--verbose] [--reach] [--only NAME]
-//! [--folder DIR] PERCENT..`
+//! `cargo run --release --example measure -- [--full] [--verbose] [--reach] [--compare]
+//! [--only NAME] [--folder DIR] PERCENT..`
 //!
 //! `--reach` also tells how wide the chamfers could be where neighbours leave them half of the way
 //! to each other: width that is lost beyond that is lost to the triangles, not to the shape.
+//! `--compare` also checks each result as `chamfer check` does, by what went in and what came out
+//! alone.
 
 #[path = "../../tests/corpus/measure.rs"]
 mod measure;
@@ -12,7 +14,8 @@ mod reach;
 
 use std::path::{Path, PathBuf};
 
-use chamfer::Verify;
+use chamfer::check::{check, compare};
+use chamfer::{Chamfered, Mesh, Verify};
 use measure::{FOLDER, Measured, Sum, measure, models};
 
 /// What was asked for on the command line.
@@ -20,6 +23,7 @@ struct Request {
     verify: Verify,
     is_verbose: bool,
     is_reach_asked: bool,
+    is_compared: bool,
     only: Option<String>,
     folder: String,
     percents: Vec<f32>,
@@ -31,6 +35,7 @@ impl Request {
             verify: Verify::Fast,
             is_verbose: false,
             is_reach_asked: false,
+            is_compared: false,
             only: None,
             folder: FOLDER.to_owned(),
             percents: Vec::new(),
@@ -40,6 +45,7 @@ impl Request {
                 "--full" => request.verify = Verify::Full,
                 "--verbose" => request.is_verbose = true,
                 "--reach" => request.is_reach_asked = true,
+                "--compare" => request.is_compared = true,
                 "--only" => request.only = arguments.next(),
                 "--folder" => request.folder = arguments.next().unwrap_or(request.folder),
                 percent => request.percents.extend(percent.parse::<f32>().ok()),
@@ -78,6 +84,9 @@ fn of_file(request: &Request, path: &Path, percent: f32, reaches: &mut Vec<f64>)
         if request.is_reach_asked && after.totals.hard_edges > 0 {
             reaches.push(reach::reach(before, after));
         }
+        if request.is_compared {
+            print_compared(path, percent, before, after);
+        }
     });
     let meshes = measured.unwrap_or_else(|error| {
         println!("{}: {error}", path.display());
@@ -92,4 +101,17 @@ fn of_file(request: &Request, path: &Path, percent: f32, reaches: &mut Vec<f64>)
         println!("{}: {file}", path.display());
     }
     meshes
+}
+
+/// Prints what seems to be otherwise where nothing tells what came from what.
+fn print_compared(path: &Path, percent: f32, before: &Mesh, after: &Chamfered) {
+    let found = compare(before, &after.mesh.as_mesh(), Verify::Fast);
+    let told = check(before, after, Verify::Fast).edges;
+    let others = found.edges.iter().zip(&told).filter(|(found, told)| found != told).count()
+        + found.edges.len().abs_diff(told.len());
+    if !found.is_sound() || others > 0 {
+        let name = path.display();
+        println!("by the two alone, {name} at {percent} %, {others} edges measured otherwise:");
+        println!("{found}");
+    }
 }

@@ -19,6 +19,8 @@ pub enum Format {
     Stl,
     /// Autodesk's FBX, binary or ASCII.
     Fbx,
+    /// Stanford's polygons, ASCII or binary.
+    Ply,
 }
 
 /// One mesh of a file, in the layout of the core.
@@ -96,6 +98,32 @@ pub struct NormalsRead {
     pub repaired: Vec<(u32, [f32; 3])>,
 }
 
+/// What the meshes of a file look like, as far as pictures of them show it.
+#[derive(Clone, Debug, Default)]
+pub struct Looks {
+    /// Files of pictures, PNG or JPEG; empty where one cannot be read.
+    pub pictures: Vec<Vec<u8>>,
+    /// `#meshes by #submeshes`.
+    pub meshes: Vec<Vec<Look>>,
+}
+
+/// What a submesh looks like.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Look {
+    /// Red, green and blue (0 to 1), linear, which the picture is multiplied by.
+    pub color: [f32; 3],
+    /// The number of its picture, by the first UV channel.
+    pub picture: Option<usize>,
+    /// Whether v counts from below.
+    pub flips: bool,
+}
+
+impl Default for Look {
+    fn default() -> Self {
+        Look { color: [1.0; 3], picture: None, flips: false }
+    }
+}
+
 /// A model file that was read.
 pub trait Document {
     /// The meshes to chamfer.
@@ -107,6 +135,11 @@ pub trait Document {
     /// Where the meshes stand in the scene: each once and where it is, if the format has none.
     fn instances(&self) -> Vec<Instance> {
         (0..self.meshes().len()).map(|mesh| Instance { mesh, transform: IDENTITY }).collect()
+    }
+
+    /// What its meshes look like; nothing where the format does not say.
+    fn looks(&self) -> Looks {
+        Looks::default()
     }
 
     /// What the user should know of what was read: a sentence each.

@@ -20,13 +20,15 @@ pub mod obj_file;
 mod parts;
 pub mod paths;
 pub mod pictures;
+pub mod ply_file;
 mod polygon;
 mod registry;
 pub mod stl_file;
 pub mod weld;
 
 pub use document::{
-    Document, Encoded, Format, IDENTITY, Instance, NormalsRead, OutputFile, ReadOptions,
-    SourceMesh, Weld,
+    Document, Encoded, Format, IDENTITY, Instance, Look, Looks, NormalsRead, OutputFile,
+    ReadOptions, SourceMesh, Weld,
 };
+pub use gltf_file::compress;
 pub use registry::{FORMATS, Row, decode, encode, endings, read, row_of};

@@ -10,17 +10,27 @@ use serde_json::Value;
 #[path = "support/cube_fbx.rs"]
 mod cube_fbx;
 
+#[path = "support/binary_fbx.rs"]
+mod binary_fbx;
+
+use binary_fbx::binary_fbx;
 use cube_fbx::cube_fbx;
 
 fn read(text: &str) -> Result<Box<dyn Document + Send>, String> {
-    let options = ReadOptions::default();
-    decode(Path::new("model.fbx"), text.as_bytes().to_vec(), &options)
+    read_bytes(text.as_bytes().to_vec())
+}
+
+fn read_bytes(bytes: Vec<u8>) -> Result<Box<dyn Document + Send>, String> {
+    decode(Path::new("model.fbx"), bytes, &ReadOptions::default())
         .map_err(|error| format!("{error:#}"))
 }
 
 /// The JSON of the .glb that a model becomes, chamfered.
 fn written(text: &str) -> (Value, Vec<u8>) {
-    let document = read(text).unwrap();
+    written_of(&*read(text).unwrap())
+}
+
+fn written_of(document: &dyn Document) -> (Value, Vec<u8>) {
     let options = Options::default().with_width(Width::PercentOfExtent(10.0));
     let chamfered: Vec<_> = document
         .meshes()
@@ -30,7 +40,7 @@ fn written(text: &str) -> (Value, Vec<u8>) {
     assert_eq!(chamfered[0].totals.chamfered, 12);
     let folder: PathBuf = Path::new(env!("CARGO_TARGET_TMPDIR")).join("fbx");
     fs::create_dir_all(&folder).unwrap();
-    let files = encode(&*document, &folder.join("out.glb"), &chamfered).unwrap().files;
+    let files = encode(document, &folder.join("out.glb"), &chamfered).unwrap().files;
     assert_eq!(files.len(), 1);
     let length = u32::from_le_bytes(files[0].bytes[12..16].try_into().unwrap()) as usize;
     (serde_json::from_slice(&files[0].bytes[20..20 + length]).unwrap(), files[0].bytes.clone())
@@ -75,6 +85,54 @@ fn skin_shapes_materials_and_hierarchy_go_along() {
     }
     let again = decode(Path::new("out.glb"), bytes, &ReadOptions::default());
     assert_eq!(again.unwrap().meshes()[0].mesh.indices.len(), 44 * 3);
+}
+
+/// Both kinds of file say the same.
+#[test]
+fn a_binary_file_is_read_as_its_text_is() {
+    let (text, binary) = (read(&cube_fbx()).unwrap(), read_bytes(binary_fbx(&cube_fbx())).unwrap());
+    let [source] = binary.meshes() else { panic!("{} meshes", binary.meshes().len()) };
+    assert_eq!((source.name.as_str(), source.mesh.positions.len()), ("box", 24));
+    assert_eq!(source.mesh, text.meshes()[0].mesh);
+    assert_eq!(binary.notes(), text.notes());
+    assert_eq!(written_of(&*binary), written_of(&*text));
+}
+
+#[test]
+fn a_binary_file_cut_off_anywhere_is_read_or_refused() {
+    let bytes = binary_fbx(&cube_fbx());
+    assert!(read_bytes(bytes[..bytes.len() / 2].to_vec()).is_err());
+    for length in (0..bytes.len()).step_by(11) {
+        if let Ok(document) = read_bytes(bytes[..length].to_vec()) {
+            assert!(document.meshes().len() <= 1);
+        }
+    }
+}
+
+/// Where the bones stand as they stood when they were bound, the skin leaves the cube in its place.
+#[test]
+fn bones_are_bound_where_they_were() {
+    let (json, glb) = written(&cube_fbx());
+    let accessor =
+        &json["accessors"][json["skins"][0]["inverseBindMatrices"].as_u64().unwrap() as usize];
+    let view = &json["bufferViews"][accessor["bufferView"].as_u64().unwrap() as usize];
+    let start = 28 + u32::from_le_bytes(glb[12..16].try_into().unwrap()) as usize;
+    let start = start + view["byteOffset"].as_u64().unwrap_or(0) as usize;
+    let (words, _) = glb[start..start + 128].as_chunks();
+    let numbers: Vec<f32> = words.iter().map(|word| f32::from_le_bytes(*word)).collect();
+    let place = |node: usize| -> Vec<f64> {
+        let place = json["nodes"][node]["translation"].as_array();
+        place.map_or(vec![0.0; 3], |at| at.iter().map(|n| n.as_f64().unwrap()).collect())
+    };
+    assert_eq!(place(2), [3.0, 1.0, 0.0]);
+    for (joint, matrix) in [1, 2].into_iter().zip(numbers.chunks_exact(16)) {
+        let linear: Vec<f32> = (0..12).map(|n| if n % 5 == 0 { 1.0 } else { 0.0 }).collect();
+        assert_eq!(matrix[..12], linear[..]);
+        for axis in 0..3 {
+            let skinned = place(joint)[axis] + f64::from(matrix[12 + axis]);
+            assert!((skinned - place(0)[axis]).abs() < 1e-6, "{joint} {axis}: {matrix:?}");
+        }
+    }
 }
 
 #[test]

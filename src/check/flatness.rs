@@ -56,24 +56,29 @@ pub(super) fn check_flatness(
     let fans = measure(before, &fan_of);
     let extent = f64::from(before.mesh.extent());
     let tolerance = (PLANE_TOLERANCE * extent).max(before.rounding());
+    let least_height = LEAST_HEIGHT * before.rounding();
     for (triangle, source) in (0u32..).zip(&origins.triangles) {
         let Some(source) = source else { continue };
         // A line or a point has no plane and shows no normal.
         if normal_with_area(before.triangle(source[0] / 3)).is_none() {
             continue;
         }
-        let corners = [0, 1, 2].map(|side| {
-            (&fans[fan_of[source[side as usize] as usize] as usize], 3 * triangle + side)
-        });
-        if corners.iter().any(|(fan, corner)| {
+        let alone = || Fan::of_triangle(before, source[0] / 3, least_height);
+        let fan_at = |corner: u32| match origins.own_corner(corner) {
+            Some(own) => (fans[fan_of[own as usize] as usize], corner),
+            // A corner that a cut has added on a hard edge belongs to nothing but its triangle.
+            None => (alone(), corner),
+        };
+        let corners = || (0..3).map(|side| fan_at(3 * triangle + side));
+        if corners().any(|(fan, corner)| {
             fan.off_plane <= FLAT_TOLERANCE * extent
                 && !fan.leans
                 && !fan.shades_curved
-                && fan.distance(after.position(*corner)) > tolerance
+                && fan.distance(after.position(corner)) > tolerance
         }) {
             findings.note(Rule::FlatFace, Element::Triangle(triangle));
         }
-        if corners.iter().any(|(fan, corner)| fan.bends(after.normal(*corner))) {
+        if corners().any(|(fan, corner)| fan.bends(after.normal(corner))) {
             findings.note(Rule::FlatNormal, Element::Triangle(triangle));
         }
     }
@@ -116,6 +121,14 @@ fn measure(surface: &Surface, fan_of: &[u32]) -> Vec<Fan> {
 }
 
 impl Fan {
+    /// The fan that a triangle is by itself.
+    fn of_triangle(surface: &Surface, triangle: u32, least_height: f64) -> Fan {
+        let mut fan = Fan::default();
+        fan.add_plane(surface.triangle(triangle), least_height);
+        (0..3).for_each(|side| fan.add_normal(surface.normal(3 * triangle + side)));
+        fan
+    }
+
     fn add_plane(&mut self, triangle: [DVec3; 3], least_height: f64) {
         let Some(normal) = normal_with_area(triangle) else { return };
         let area = normal.length();

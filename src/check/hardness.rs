@@ -19,6 +19,8 @@ pub(super) fn check_hard_edges(
     for edge in after.edges().filter(|edge| after.is_hard(edge)) {
         let ([forward], [backward]) = edge else { continue };
         let is_old = match [forward, backward].map(|side| source_side(side, origins)) {
+            // A cut through a triangle is no edge of the source.
+            [Some(one), Some(other)] if one / 3 == other / 3 => false,
             [Some(one), Some(other)] => {
                 hard_before[one as usize] && hard_before[other as usize]
                     || parted_before(before, one, other)

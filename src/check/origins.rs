@@ -1,6 +1,7 @@
 //! Which source triangle and which source vertices an element comes from.
 
 use super::matching::match_triangles;
+use super::pieces::{Cut, Cuts, is_covered, pieces_in_order};
 use super::rules::{Element, Facts, Findings, Rule};
 use super::surface::Surface;
 use crate::mesh::Mesh;
@@ -12,8 +13,11 @@ const WEIGHT_SUM_TOLERANCE: f32 = 1e-3;
 /// Where the elements of a chamfered mesh come from.
 pub(super) struct Origins<'a> {
     /// `#triangles`: the source corner of each corner of a triangle that is not new. All three are
-    /// of one source triangle.
+    /// of one source triangle. A piece of one has all of its corners: [`Cut`] tells which of them
+    /// are its own.
     pub triangles: Vec<Option<[u32; 3]>>,
+    /// The triangles that are pieces of source triangles.
+    cuts: Cuts,
     vertices: Option<&'a VertexSources>,
 }
 
@@ -25,6 +29,7 @@ impl<'a> Origins<'a> {
         let triangles: Vec<_> = after.triangle_sources.iter().map(source_of).collect();
         let kept = after.mesh.positions.len() >= before.positions.len()
             && keeps_triangles(before, &after.mesh.as_mesh(), &triangles)
+            && is_covered(before.indices.len() / 3, &triangles, &after.pieces)
             && after.vertex_sources.len() == after.mesh.positions.len();
         if !kept {
             findings.note(Rule::Origins, Element::Mesh);
@@ -41,12 +46,13 @@ impl<'a> Origins<'a> {
         let corners = |source: Option<u32>| source.map(|t| [0, 1, 2].map(|side| 3 * t + side));
         (findings.count(Rule::Origins) == 0).then_some(Origins {
             triangles: triangles.into_iter().map(corners).collect(),
+            cuts: after.pieces.iter().map(|piece| (piece.triangle, Cut::told(piece))).collect(),
             vertices: Some(&after.vertex_sources),
         })
     }
 
-    /// By the order of the triangles: those of the source stand first in each submesh. None where
-    /// there are too few.
+    /// By the order of the triangles: those of the source stand first in each submesh, or their
+    /// first pieces in their place, and then the other pieces. None where there are too few.
     pub fn in_order([before, after]: &[Surface; 2]) -> Option<Self> {
         let mut triangles = Vec::with_capacity(after.triangle_count() as usize);
         let mut first = 0;
@@ -58,15 +64,18 @@ impl<'a> Origins<'a> {
             first += before;
         }
         let corners = |first: u32| [0, 1, 2].map(|side| first + side);
-        (first == before.triangle_count()).then(|| Origins {
-            triangles: triangles.into_iter().map(|first| first.map(corners)).collect(),
-            vertices: None,
+        (first == before.triangle_count()).then(|| {
+            let mut triangles: Vec<_> =
+                triangles.into_iter().map(|first| first.map(corners)).collect();
+            let cuts = pieces_in_order([before, after], &mut triangles);
+            Origins { triangles, cuts, vertices: None }
         })
     }
 
     /// By where the triangles are.
     pub fn by_geometry([before, after]: &[Surface; 2]) -> Self {
-        Origins { triangles: match_triangles(before, after), vertices: None }
+        let triangles = match_triangles(before, after);
+        Origins { triangles, cuts: Cuts::new(), vertices: None }
     }
 
     /// Notes the triangles of the source that are not found. That is a breach only where there are
@@ -77,7 +86,11 @@ impl<'a> Origins<'a> {
         if with_area(findings.after) < with_area(findings.before) {
             findings.note(Rule::Origins, Element::Mesh);
         }
-        findings.lost = findings.before.triangles - self.triangles.iter().flatten().count();
+        let mut found: Vec<u32> =
+            self.triangles.iter().flatten().map(|[first, ..]| *first).collect();
+        found.sort_unstable();
+        found.dedup();
+        findings.lost = findings.before.triangles - found.len();
         if findings.lost > 0 {
             for rule in [Rule::Flipped, Rule::FlatFace, Rule::FlatNormal, Rule::HardEdges] {
                 findings.leave_out(rule, "not every triangle of the source is where it was");
@@ -131,7 +144,14 @@ impl<'a> Origins<'a> {
             for (side, &source) in corners.iter().flatten().enumerate() {
                 let vertex = after.indices[3 * triangle + side] as usize;
                 let held = by_corners[vertex].get_or_insert(true);
-                *held &= holds[before.indices[source as usize] as usize];
+                // What a cut has added is made from two of the corners.
+                let made_from = match self.own_corner(3 * triangle as u32 + side as u32) {
+                    Some(own) => own..own + 1,
+                    None => source - source % 3..source - source % 3 + 3,
+                };
+                *held &= made_from
+                    .into_iter()
+                    .all(|source| holds[before.indices[source as usize] as usize]);
             }
         }
         let everything_holds = holds.iter().all(|&holds| holds);
@@ -142,16 +162,25 @@ impl<'a> Origins<'a> {
     /// lost.
     pub fn corners_after(&self, source_corners: usize) -> Vec<Option<u32>> {
         let mut after = vec![None; source_corners];
-        for (triangle, corners) in (0u32..).zip(&self.triangles) {
-            for (side, &source) in (0u32..).zip(corners.iter().flatten()) {
-                after[source as usize] = Some(3 * triangle + side);
+        for corner in 0..3 * self.triangles.len() as u32 {
+            if let Some(source) = self.own_corner(corner) {
+                after[source as usize] = Some(corner);
             }
         }
         after
     }
+
+    /// The source corner that a corner of the result is; none of what is new, be it in a piece of
+    /// a source triangle.
+    pub fn own_corner(&self, corner: u32) -> Option<u32> {
+        let (triangle, side) = (corner / 3, corner as usize % 3);
+        let corners = self.triangles[triangle as usize]?;
+        let is_own = self.cuts.get(&triangle).is_none_or(|cut| cut.is_own[side]);
+        is_own.then_some(corners[side])
+    }
 }
 
-/// Whether every source triangle is there once, in its submesh, in its order.
+/// Whether every source triangle is there, in its submesh, in its order; pieces may follow.
 fn keeps_triangles(before: &Mesh, after: &Mesh, origins: &[Option<u32>]) -> bool {
     if origins.len() != after.indices.len() / 3 {
         return false;
@@ -161,8 +190,11 @@ fn keeps_triangles(before: &Mesh, after: &Mesh, origins: &[Option<u32>]) -> bool
     for (submesh, &indices) in after.submesh_index_counts.iter().enumerate() {
         let (here, later) = rest.split_at(indices as usize / 3);
         let before_here = before.submesh_index_counts.get(submesh).copied().unwrap_or(0) / 3;
-        let in_order = here.iter().flatten().copied().eq(expected..expected + before_here);
-        if !in_order {
+        let of_here = expected..expected + before_here;
+        let mut of_source = here.iter().flatten().copied();
+        if !of_source.by_ref().take(of_here.len()).eq(of_here.clone())
+            || !of_source.all(|piece| of_here.contains(&piece))
+        {
             return false;
         }
         expected += before_here;

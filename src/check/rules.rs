@@ -17,8 +17,9 @@ pub enum Rule {
     IndexRange,
     /// Every value is finite.
     Finite,
-    /// With provenance: no source vertex is missing, every source triangle is there once, in its
-    /// submesh and in its order, and the provenance points into the source. Without: there are as
+    /// With provenance: no source vertex is missing, every source triangle is there once or in
+    /// pieces that cover it, in its submesh and in its order, and the provenance points into the
+    /// source. Without: there are as
     /// many triangles as in the source, those without area aside.
     Origins,
     /// New triangles name verdicts and source vertices that exist, a verdict has strip triangles

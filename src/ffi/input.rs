@@ -9,7 +9,10 @@ use std::{array, ptr, slice};
 use super::sized::{self, StatesSize, check_pointer};
 use super::status::Failure;
 use super::types::*;
-use crate::{ChamferSubmesh, Error, Mesh, Options, UV_CHANNELS, Uv, Verify, Width};
+use crate::{
+    ChamferSubmesh, Convexity, Error, Factors, Mesh, Options, UV_CHANNELS, Uv, Verify, Width,
+    WidthMode,
+};
 
 const _: () = assert!(CHAMFER_UV_CHANNELS == UV_CHANNELS);
 
@@ -46,6 +49,19 @@ pub unsafe fn borrow_mesh<'a>(mesh: *const chamfer_mesh) -> Result<Mesh<'a>, Fai
                 "mesh->submesh_index_counts",
             )?,
             held: required(mesh.held.cast(), mesh.held_count as usize, "mesh->held")?,
+            factors: Factors {
+                submeshes: optional(
+                    mesh.submesh_factors,
+                    mesh.submesh_count as usize,
+                    "mesh->submesh_factors",
+                )?,
+                vertices: optional(mesh.vertex_factors, vertices, "mesh->vertex_factors")?,
+                edges: required(
+                    mesh.edge_factors.cast(),
+                    mesh.edge_factor_count as usize,
+                    "mesh->edge_factors",
+                )?,
+            },
         })
     }
 }
@@ -128,20 +144,18 @@ pub unsafe fn read_options(options: *const chamfer_options) -> Result<Options, F
         return Ok(Options::default());
     }
     // SAFETY: as this function's.
-    let options = unsafe { sized::read(options, "options") }?;
-    if is_blank(&options) {
+    if unsafe { sized::is_blank(options, "options") }? {
         return Ok(Options::default());
     }
+    // SAFETY: as this function's.
+    let options = unsafe { sized::read(options, "options") }?;
     Ok(Options {
         width: match options.width_unit {
             CHAMFER_WIDTH_MESH_UNITS => Width::Units(options.width),
             CHAMFER_WIDTH_PERCENT => Width::PercentOfExtent(options.width),
             other => return Err(bad_option("width_unit", other)),
         },
-        least_breadth: match options.least_breadth {
-            0.0 => Options::default().least_breadth,
-            share => share,
-        },
+        least_breadth: or_default(options.least_breadth, Options::default().least_breadth),
         verify: match options.verify {
             CHAMFER_VERIFY_FAST => Verify::Fast,
             CHAMFER_VERIFY_FULL => Verify::Full,
@@ -155,17 +169,32 @@ pub unsafe fn read_options(options: *const chamfer_options) -> Result<Options, F
             other => return Err(bad_option("submesh_mode", other)),
         },
         threads: options.threads,
+        width_mode: match options.width_mode {
+            CHAMFER_WIDTH_OFFSET => WidthMode::Offset,
+            CHAMFER_WIDTH_CHORD => WidthMode::Chord,
+            CHAMFER_WIDTH_DEPTH => WidthMode::Depth,
+            CHAMFER_WIDTH_RADIUS => WidthMode::Radius,
+            other => return Err(bad_option("width_mode", other)),
+        },
+        min_angle: options.min_angle,
+        max_angle: or_default(options.max_angle, Options::default().max_angle),
+        convexity: match options.convexity {
+            CHAMFER_CONVEXITY_BOTH => Convexity::Both,
+            CHAMFER_CONVEXITY_CONVEX => Convexity::Convex,
+            CHAMFER_CONVEXITY_CONCAVE => Convexity::Concave,
+            other => return Err(bad_option("convexity", other)),
+        },
+        hard_angle: or_default(options.hard_angle, Options::default().hard_angle),
+        scale: match options.scale {
+            zeros if zeros == [0.0; 9] => Options::default().scale,
+            axes => [0, 3, 6].map(|first| [axes[first], axes[first + 1], axes[first + 2]]),
+        },
     })
 }
 
-/// Nothing but the size is set, as by `= {sizeof options}`: whoever writes that wants the defaults, and
-/// not a width of 0, which would give the mesh back as it is.
-fn is_blank(options: &chamfer_options) -> bool {
-    let chamfer_options { struct_size, width, width_unit, verify, submesh_mode, .. } = *options;
-    let chamfer_options { submesh, threads, least_breadth, .. } = *options;
-    let has_breadth = struct_size as usize >= size_of::<chamfer_options>();
-    let numbers = [width_unit, verify, submesh_mode, submesh, threads];
-    numbers == [0; 5] && width == 0.0 && !(has_breadth && least_breadth != 0.0)
+/// Zero stands for the default, as in the structs of older callers.
+fn or_default(value: f32, default: f32) -> f32 {
+    if value == 0.0 { default } else { value }
 }
 
 fn bad_option(field: &str, value: u32) -> Failure {
@@ -177,8 +206,11 @@ fn bad_option(field: &str, value: u32) -> Failure {
 
 // SAFETY: numbers and pointers only, the size first.
 unsafe impl StatesSize for chamfer_mesh {
-    const SIZES: &'static [usize] =
-        &[offset_of!(chamfer_mesh, held_count), size_of::<chamfer_mesh>()];
+    const SIZES: &'static [usize] = &[
+        offset_of!(chamfer_mesh, held_count),
+        offset_of!(chamfer_mesh, submesh_factors),
+        size_of::<chamfer_mesh>(),
+    ];
 
     fn defaults() -> Self {
         chamfer_mesh {
@@ -195,14 +227,18 @@ unsafe impl StatesSize for chamfer_mesh {
             indices: ptr::null(),
             held_count: 0,
             held: ptr::null(),
+            submesh_factors: ptr::null(),
+            vertex_factors: ptr::null(),
+            edge_factor_count: 0,
+            edge_factors: ptr::null(),
         }
     }
 }
 
 // SAFETY: numbers only, the size first.
 unsafe impl StatesSize for chamfer_options {
-    // Before the least breadth there were seven fields.
-    const SIZES: &'static [usize] = &[28, size_of::<chamfer_options>()];
+    // Before the least breadth there were seven fields, before the width mode eight.
+    const SIZES: &'static [usize] = &[28, 32, size_of::<chamfer_options>()];
 
     fn defaults() -> Self {
         let options = Options::default();
@@ -228,6 +264,12 @@ unsafe impl StatesSize for chamfer_options {
             submesh,
             threads: options.threads,
             least_breadth: options.least_breadth,
+            width_mode: CHAMFER_WIDTH_OFFSET,
+            min_angle: options.min_angle,
+            max_angle: options.max_angle,
+            convexity: CHAMFER_CONVEXITY_BOTH,
+            hard_angle: options.hard_angle,
+            scale: array::from_fn(|k| options.scale[k / 3][k % 3]),
         }
     }
 }

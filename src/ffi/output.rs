@@ -7,8 +7,8 @@ use super::sized::{StatesSize, check_pointer};
 use super::status::Failure;
 use super::types::*;
 use crate::{
-    Blend, EdgeVerdict, Error, MeshBuffers, Outcome, Reason, Totals, TriangleKind, TriangleSource,
-    UvBuffer, VertexSource,
+    Blend, EdgeFactor, EdgeVerdict, Error, MeshBuffers, Outcome, Reason, Totals, TriangleKind,
+    TriangleSource, UvBuffer, VertexSource,
 };
 
 /// The core's array elements are handed out as they stand: same size, same places, same numbers.
@@ -18,6 +18,8 @@ const _: () = {
     assert!(offset_of!(EdgeVerdict, outcome) == offset_of!(chamfer_edge_verdict, outcome));
     assert!(offset_of!(EdgeVerdict, reason) == offset_of!(chamfer_edge_verdict, reason));
     assert!(offset_of!(EdgeVerdict, widths) == offset_of!(chamfer_edge_verdict, widths));
+    assert!(size_of::<EdgeFactor>() == size_of::<chamfer_edge_factor>());
+    assert!(offset_of!(EdgeFactor, factor) == offset_of!(chamfer_edge_factor, factor));
     assert!(size_of::<Blend>() == size_of::<chamfer_blend>());
     assert!(offset_of!(Blend, weights) == offset_of!(chamfer_blend, weights));
     assert!(size_of::<VertexSource>() == size_of::<chamfer_vertex_source>());

@@ -115,6 +115,9 @@ fn add_arrays(mesh: &Mesh, ranges: &mut Vec<Range<usize>>) {
         range(mesh.indices.as_ptr(), mesh.indices.len()),
         range(mesh.submesh_index_counts.as_ptr(), mesh.submesh_index_counts.len()),
         range(mesh.held.as_ptr(), mesh.held.len()),
+        range(mesh.factors.submeshes.as_ptr(), mesh.factors.submeshes.len()),
+        range(mesh.factors.vertices.as_ptr(), mesh.factors.vertices.len()),
+        range(mesh.factors.edges.as_ptr(), mesh.factors.edges.len()),
     ]);
     ranges.extend(mesh.uvs.iter().map(|uv| range(uv.values.as_ptr(), uv.values.len())));
 }

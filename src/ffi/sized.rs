@@ -59,6 +59,19 @@ pub unsafe fn stated_size<T: StatesSize>(pointer: *const T, name: &str) -> Resul
     ))
 }
 
+/// Whether nothing but its size is set in a caller's struct, as by `= {sizeof options}`: whoever writes
+/// that wants the defaults.
+///
+/// # Safety
+/// As [`read`].
+pub unsafe fn is_blank<T: StatesSize>(pointer: *const T, name: &str) -> Result<bool, Failure> {
+    // SAFETY: as this function's.
+    let size = unsafe { stated_size(pointer, name) }?;
+    // SAFETY: the struct has that many bytes, numbers only.
+    let bytes = unsafe { slice::from_raw_parts(pointer.cast::<u8>(), size) };
+    Ok(bytes[size_of::<u32>()..].iter().all(|&byte| byte == 0))
+}
+
 /// Reads a caller's struct.
 ///
 /// # Safety

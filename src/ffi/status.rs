@@ -4,6 +4,7 @@ use std::any::Any;
 use std::ffi::CStr;
 
 use super::types::*;
+use crate::smoothing::SMOOTHING_ANGLE;
 use crate::{Error, Reason};
 
 /// Why an export returns something else than `CHAMFER_STATUS_OK`.
@@ -64,7 +65,12 @@ fn status_and_element(error: &Error) -> (i32, u32) {
         Error::IndexRange { place, .. } => (CHAMFER_STATUS_INDEX_RANGE, place),
         Error::BadWidth(_) => (CHAMFER_STATUS_BAD_WIDTH, NONE),
         Error::BadBreadth(_) => (CHAMFER_STATUS_BAD_OPTION, NONE),
-        Error::BadAngle(_) => (CHAMFER_STATUS_BAD_ANGLE, NONE),
+        Error::BadAngle { option: SMOOTHING_ANGLE, .. } => (CHAMFER_STATUS_BAD_ANGLE, NONE),
+        Error::BadAngle { .. } | Error::AngleOrder { .. } | Error::BadScale => {
+            (CHAMFER_STATUS_BAD_OPTION, NONE)
+        }
+        Error::BadFactor { place, .. } => (CHAMFER_STATUS_BAD_FACTOR, place),
+        Error::EdgeRange { edge, .. } => (CHAMFER_STATUS_EDGE_RANGE, edge),
         Error::SubmeshRange { submesh, .. } => (CHAMFER_STATUS_SUBMESH_RANGE, submesh),
         Error::TooLarge => (CHAMFER_STATUS_TOO_LARGE, NONE),
         Error::OutOfMemory => (CHAMFER_STATUS_OUT_OF_MEMORY, NONE),
@@ -95,6 +101,8 @@ pub fn status_text(status: i32) -> &'static CStr {
         CHAMFER_STATUS_INDEX_TOTAL => c"the submesh index counts do not add up",
         CHAMFER_STATUS_INDEX_COUNT => c"an index count is not a multiple of three",
         CHAMFER_STATUS_INDEX_RANGE => c"an index points past the last vertex",
+        CHAMFER_STATUS_BAD_FACTOR => c"a factor is negative or not finite",
+        CHAMFER_STATUS_EDGE_RANGE => c"a listed edge is of a vertex that does not exist",
         CHAMFER_STATUS_TOO_LARGE => c"the result does not fit 32-bit indices",
         CHAMFER_STATUS_OUT_OF_MEMORY => c"out of memory",
         CHAMFER_STATUS_INTERNAL => c"internal fault",

@@ -54,6 +54,10 @@ pub const CHAMFER_STATUS_INDEX_TOTAL: i32 = 204;
 pub const CHAMFER_STATUS_INDEX_COUNT: i32 = 205;
 /// An index points past the last vertex. Element: its place among the indices.
 pub const CHAMFER_STATUS_INDEX_RANGE: i32 = 206;
+/// A factor is negative, infinite or not a number. Element: its place.
+pub const CHAMFER_STATUS_BAD_FACTOR: i32 = 207;
+/// A listed edge is of a vertex that does not exist. Element: its place in the list.
+pub const CHAMFER_STATUS_EDGE_RANGE: i32 = 208;
 
 /// The result would not fit 32-bit indices.
 pub const CHAMFER_STATUS_TOO_LARGE: i32 = 300;
@@ -76,6 +80,22 @@ pub const CHAMFER_UV_CHANNELS: usize = 8;
 pub const CHAMFER_WIDTH_MESH_UNITS: u32 = 0;
 /// `width_unit`: the width is in percent of the largest side of the mesh's box.
 pub const CHAMFER_WIDTH_PERCENT: u32 = 1;
+
+/// `width_mode`: from the old edge to the pulled one, within the face.
+pub const CHAMFER_WIDTH_OFFSET: u32 = 0;
+/// `width_mode`: across the chamfer, from one pulled edge to the other.
+pub const CHAMFER_WIDTH_CHORD: u32 = 1;
+/// `width_mode`: from the old edge straight down to the chamfer.
+pub const CHAMFER_WIDTH_DEPTH: u32 = 2;
+/// `width_mode`: of the circle that touches both faces at the pulled edges.
+pub const CHAMFER_WIDTH_RADIUS: u32 = 3;
+
+/// `convexity`: edges of both kinds are chamfered.
+pub const CHAMFER_CONVEXITY_BOTH: u32 = 0;
+/// `convexity`: only those whose faces meet as those of a cube.
+pub const CHAMFER_CONVEXITY_CONVEX: u32 = 1;
+/// `convexity`: only those whose faces meet as a wall and the floor of a room.
+pub const CHAMFER_CONVEXITY_CONCAVE: u32 = 2;
 
 /// `verify`: nothing opens, flips or degenerates.
 pub const CHAMFER_VERIFY_FAST: u32 = 0;
@@ -118,6 +138,8 @@ pub const CHAMFER_REASON_NO_AREA: u32 = 7;
 pub const CHAMFER_REASON_TOO_FINE: u32 = 8;
 /// `reason`: something rests on the edge, or right beside it; light would show behind a chamfer.
 pub const CHAMFER_REASON_CONTACT: u32 = 9;
+/// `reason`: the edge is not among those that were asked for, by angle, convexity, factor or list.
+pub const CHAMFER_REASON_NOT_SELECTED: u32 = 10;
 
 /// How many reasons `skipped_by_reason` has room for: more than there are, so that reasons can be
 /// added.
@@ -171,6 +193,28 @@ pub struct chamfer_mesh {
     pub held_count: u32,
     /// `#held`, or NULL: where something outside of the mesh rests on it. Results hold none.
     pub held: *const chamfer_held,
+    /// `#submeshes` or NULL: how many times the width the chamfers of each get; 0 leaves its edges
+    /// as they are. An edge between two submeshes has the smaller of their factors. Results have no
+    /// factors.
+    pub submesh_factors: *const f32,
+    /// `#vertices` or NULL: a mask. An end of an edge has the mean over its two sides, and at least a
+    /// sixteenth of the other end.
+    pub vertex_factors: *const f32,
+    /// How many edges are listed.
+    pub edge_factor_count: u32,
+    /// `#listed`, or NULL. Where some are, only these are chamfered. All factors that concern one
+    /// end of an edge multiply.
+    pub edge_factors: *const chamfer_edge_factor,
+}
+
+/// How wide the chamfer of one edge is.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct chamfer_edge_factor {
+    /// Vertices at its ends, on either side of the edge and in either order.
+    pub vertices: [u32; 2],
+    /// How many times the width asked for; 0 leaves the edge as it is.
+    pub factor: f32,
 }
 
 /// A place where the surface of a mesh is not to be cut away: all within a radius of a segment.
@@ -223,6 +267,21 @@ pub struct chamfer_options {
     /// How much of the breadth of each face has to stay between its chamfers, as a share up to 1.
     /// 0 for the default, a fifth; a tiny share for nothing.
     pub least_breadth: f32,
+    /// One of `CHAMFER_WIDTH_OFFSET` (default), `_CHORD`, `_DEPTH`, `_RADIUS`.
+    pub width_mode: u32,
+    /// Edges are chamfered whose faces meet at this angle at least, in degrees: 0 (default) for a
+    /// flat surface, 180 for one folded back on itself.
+    pub min_angle: f32,
+    /// The same at most. 0 for the default, 180.
+    pub max_angle: f32,
+    /// One of `CHAMFER_CONVEXITY_BOTH` (default), `_CONVEX`, `_CONCAVE`.
+    pub convexity: u32,
+    /// Normals are one that differ by less than this, in degrees up to 90. 0 for the default, 1.
+    pub hard_angle: f32,
+    /// Where the three axes of the mesh go in the space in which widths, angles and planes are
+    /// measured, such as that of the scene. It may mirror and shear, but not flatten. All 0 for the
+    /// default, the mesh as it is.
+    pub scale: [f32; 9],
 }
 
 /// What went wrong, in detail. Callers set `struct_size`; a call fills in the rest, also when it

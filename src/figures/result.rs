@@ -1,11 +1,13 @@
-//! What comes out: strips, corners, verdicts, output.
+//! What comes out: patches, strips, fills, verdicts, output.
 
 use glam::{DVec2, DVec3};
 
 use super::drawing::{Anchor, Drawing, GREEN, INK, ORANGE, Pen, RED};
 use super::models::{add_block, add_card, chamfered, nothing};
 use super::scene::{CLAY, Camera, FILL, FRONT, Facet, Paint, STRIP, Scene, triangles};
-use crate::mesh::MeshBuffers;
+use crate::ids::{Id, Patch};
+use crate::mesh::{Factors, Mesh, MeshBuffers};
+use crate::options::{Convexity, Options, Width};
 use crate::report::{Chamfered, Outcome, TriangleKind};
 use crate::shapes;
 use crate::stages::stages_of;
@@ -15,7 +17,7 @@ use crate::view::wide;
 const ABOVE: [f64; 3] = [0.6, 3.0, 2.0];
 
 /// The result's triangles, painted by what they are.
-fn draw_result(drawing: &mut Drawing, result: &Chamfered, camera: Camera) -> Scene {
+pub fn draw_result(drawing: &mut Drawing, result: &Chamfered, camera: Camera) -> Scene {
     let paint = |kind| match kind {
         TriangleKind::Source => CLAY,
         TriangleKind::Edge => STRIP,
@@ -30,6 +32,87 @@ fn draw_result(drawing: &mut Drawing, result: &Chamfered, camera: Camera) -> Sce
     scene.paint(drawing);
     scene.outline(drawing, Pen::new(INK, 0.5));
     scene
+}
+
+/// The patches of a pyramid, lifted off its faces, with their joints and their middles.
+pub fn patches() -> Drawing {
+    let mut drawing = Drawing::new(720, 330);
+    drawing.title(360.0, "ten strips and six fills: joints, triangles, and a point in the middle");
+    let pyramid = shapes::pyramid(5);
+    let stages = stages_of(&pyramid, 0.13);
+    let placement = stages.placement();
+    let patches = stages.patches(&placement);
+    let mut facets: Vec<Facet> = (stages.view.triangles())
+        .map(|t| t.corners().map(|corner| placement.position_at(corner)))
+        .map(|points| Facet { points, paint: CLAY })
+        .collect();
+    let mut dots = Vec::new();
+    for patch in (0..patches.len()).map(Patch::new) {
+        let parts = patches.parts(patch);
+        let joints = parts.joints.iter().map(|&joint| placement.position_at(joint));
+        let points: Vec<DVec3> = joints.chain(parts.middles.iter().map(|m| m.position)).collect();
+        let middle = points.iter().sum::<DVec3>() / points.len() as f64;
+        let normal: DVec3 = parts.joints.iter().map(|&joint| placement.normal_at(joint)).sum();
+        let lifted = |point: DVec3| middle + (point - middle) * 0.9 + normal.normalize() * LIFT;
+        let paint = if patches.edge_or_ring(patch).is_ok() { STRIP } else { FILL };
+        facets.extend(parts.triangles.iter().map(|triangle| Facet {
+            points: triangle.map(|place| lifted(points[place as usize])),
+            paint,
+        }));
+        let color = |place: usize| if place < parts.joints.len() { INK } else { RED };
+        dots.extend(points.iter().enumerate().map(|(k, &point)| (lifted(point), color(k))));
+    }
+    let scene = Scene::new(Camera::new(ABOVE, [0.0, 0.2, 0.0], 128.0, [360.0, 170.0]), facets);
+    scene.paint(&mut drawing);
+    scene.outline(&mut drawing, Pen::new(INK, 0.5));
+    for (at, color) in dots.into_iter().filter(|(at, _)| scene.shows(*at)) {
+        scene.dot(&mut drawing, at, 3.0, color);
+    }
+    drawing.legend(&[("#7dafdc", "strip"), ("#f0ba5f", "fill")]);
+    drawing
+}
+
+/// How far patches are drawn above where they are.
+const LIFT: f64 = 0.05;
+
+/// Results of asking for some edges only, or for unlike widths.
+pub fn selection() -> Drawing {
+    let mut drawing = Drawing::new(720, 300);
+    let asked = |mesh: &MeshBuffers, factors: Factors, options: Options| {
+        let mesh = Mesh { factors, ..mesh.as_mesh() };
+        crate::chamfer(&mesh, &options).unwrap_or_default()
+    };
+    let options = |width: f32| Options { width: Width::Units(width), ..Options::default() };
+    let corner = shapes::saddle();
+    let convex = Options { convexity: Convexity::Convex, ..options(0.2) };
+    let bolt = shapes::bolt();
+    let submeshes = Factors { submeshes: &[1.0, 0.3], ..Factors::default() };
+    let cube = shapes::plain_cube(2.0);
+    let mask: Vec<f32> = cube.positions.iter().map(|at| 0.55 + 0.45 * at[0]).collect();
+    let mask = Factors { vertices: &mask, ..Factors::default() };
+    let pictures = [
+        (
+            "convex edges only",
+            asked(&corner, Factors::default(), convex),
+            Camera::new(FRONT, [1.0, 0.8, 1.0], 74.0, [125.0, 150.0]),
+        ),
+        (
+            "a factor for each submesh",
+            asked(&bolt, submeshes, options(0.06)),
+            Camera::new(FRONT, [0.0, 0.45, 0.0], 72.0, [360.0, 150.0]),
+        ),
+        (
+            "a mask, from 0.1 to 1",
+            asked(&cube, mask, options(0.4)),
+            Camera::new(FRONT, [0.0; 3], 66.0, [585.0, 150.0]),
+        ),
+    ];
+    for (title, result, camera) in pictures {
+        drawing.title(camera.flat(camera.middle()).x, title);
+        draw_result(&mut drawing, &result, camera);
+    }
+    drawing.legend(&[("#7dafdc", "strip"), ("#f0ba5f", "fill")]);
+    drawing
 }
 
 pub fn strips() -> Drawing {

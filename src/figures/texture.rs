@@ -93,7 +93,7 @@ const FACES: [Paint; 6] = [
     [205.0, 200.0, 190.0],
 ];
 
-pub fn seams() -> Drawing {
+pub fn charts() -> Drawing {
     let mut drawing = Drawing::new(720, 330);
     let result = chamfered(&shapes::cube(1.0), 0.1);
     let mesh = &result.mesh;

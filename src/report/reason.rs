@@ -49,6 +49,8 @@ reasons! {
     TooFine = 8, c"too_fine";
     /// Something rests on the edge, or on a face right beside it: light would show behind a chamfer.
     Contact = 9, c"contact";
+    /// It is not among the edges that were asked for, by angle, convexity, factor or list.
+    NotSelected = 10, c"not_selected";
 }
 
 impl Reason {

@@ -111,6 +111,22 @@ impl VertexSources {
         self.own[vertex - self.kept as usize] = self.put(surface, chart);
     }
 
+    /// Puts other blends in the place of all.
+    pub(crate) fn replace(&mut self, with: impl Fn(Blend) -> Blend) {
+        self.blends.iter_mut().for_each(|blend| *blend = with(*blend));
+        let owns = self.own.iter_mut().chain(self.continuing.iter_mut().map(|one| &mut one.own));
+        for own in owns {
+            if let Own::Kept(source) = *own {
+                let blend = with(Blend::one(source));
+                if blend != Blend::one(source) {
+                    *own = Own::One(self.blends.len() as u32);
+                    self.blends.push(blend);
+                }
+            }
+        }
+        self.continuing.iter_mut().for_each(|one| one.owner = with(one.owner));
+    }
+
     fn put(&mut self, surface: Blend, chart: Blend) -> Own {
         let first = self.blends.len() as u32;
         self.blends.push(surface);
@@ -175,5 +191,17 @@ mod tests {
         let odd = VertexSource { owner: Blend::one(9), ..own(Blend::one(3), HALF) };
         let all = [odd, own(HALF, HALF), own(Blend::one(5), Blend::one(5))];
         assert!(all.into_iter().collect::<VertexSources>().iter().eq(all));
+    }
+
+    #[test]
+    fn all_blends_can_be_replaced() {
+        let mut sources = VertexSources::with_room(2, 1, 1);
+        sources.set(0, HALF, Blend::one(1));
+        sources.push_copy(1, Blend::one(1), 0b10);
+        sources.replace(|blend| if blend == Blend::one(1) { Blend::one(5) } else { blend });
+        let one = |source: VertexSource| [source.surface, source.chart, source.owner];
+        assert_eq!(one(sources.get(0)), [HALF, Blend::one(5), Blend::one(5)]);
+        assert_eq!(one(sources.get(1)), [Blend::one(5); 3]);
+        assert_eq!(one(sources.get(2)), [Blend::one(5); 3]);
     }
 }

@@ -74,6 +74,14 @@ pub fn plate() -> MeshBuffers {
     builder.finish()
 }
 
+/// A wedge along z whose two long faces open by an angle, in radians, from its ridge, which is the
+/// z axis from -2 to 2.
+pub fn wedge(angle: f32) -> MeshBuffers {
+    let mut builder = Builder::default();
+    builder.prism(&[[0.0; 2], [1.0, 0.0], [angle.cos(), angle.sin()]], -2.0, 2.0);
+    builder.finish()
+}
+
 /// A block with a ridge on top that falls into a smooth plain: the ridge's hard edge runs from the
 /// rim to the middle of the top and ends there, inside a smooth area.
 pub fn wedge_end() -> MeshBuffers {

@@ -150,6 +150,15 @@ fn table_underside(builder: &mut Builder, at: impl Fn((usize, usize)) -> [f32; 3
     }
 }
 
+/// A flat-shaded prism along z of radius 1 and length 2, with `sides` (at least 3) faces around it.
+pub fn prism(sides: u32) -> MeshBuffers {
+    let outline: Vec<[f32; 2]> =
+        circle(sides.max(3), 1.0, 0.0).into_iter().map(|[x, _, z]| [z, x]).collect();
+    let mut builder = Builder::default();
+    builder.prism(&outline, -1.0, 1.0);
+    builder.finish()
+}
+
 /// A flat-shaded pyramid of radius and height 1 on the ground, with `sides` (at least 3) faces
 /// at the apex.
 pub fn pyramid(sides: u32) -> MeshBuffers {

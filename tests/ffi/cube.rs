@@ -60,6 +60,10 @@ impl Cube {
             indices: ptr::null(),
             held_count: 0,
             held: ptr::null(),
+            submesh_factors: ptr::null(),
+            vertex_factors: ptr::null(),
+            edge_factor_count: 0,
+            edge_factors: ptr::null(),
         }
     }
 }
@@ -75,6 +79,12 @@ pub fn options() -> chamfer_options {
         submesh: 99,
         threads: 99,
         least_breadth: 99.0,
+        width_mode: 99,
+        min_angle: 99.0,
+        max_angle: 99.0,
+        convexity: 99,
+        hard_angle: 99.0,
+        scale: [99.0; 9],
     };
     // SAFETY: the struct states its size.
     let status = unsafe { (crate::library::LIBRARY.chamfer_options_init)(&mut options) };

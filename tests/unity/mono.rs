@@ -117,8 +117,11 @@ fn is_there() -> bool {
     runs("mcs") && runs("mono")
 }
 
-/// Tries Debian's packages, which need the rights of root.
+/// Tries Debian's packages, which need the rights of root, where whoever runs the tests asks for it.
 fn install() -> bool {
+    if env::var_os("CHAMFER_INSTALL").is_none() {
+        return false;
+    }
     let packages = ["install", "-y", "--no-install-recommends", "mono-mcs", "mono-runtime"];
     let apt = |arguments: &[&str]| {
         Command::new("apt-get").args(arguments).output().is_ok_and(|o| o.status.success())

@@ -53,8 +53,11 @@ fn has_rustup_target() -> bool {
     installed.is_ok_and(|o| String::from_utf8_lossy(&o.stdout).contains("x86_64-pc-windows-gnu"))
 }
 
-/// Tries Debian's packages, which need the rights of root.
+/// Tries Debian's packages, which need the rights of root, where whoever runs the tests asks for it.
 fn install() -> bool {
+    if std::env::var_os("CHAMFER_INSTALL").is_none() {
+        return false;
+    }
     // A registry that does not answer must not hold up the tests.
     let patience = ["-o", "Acquire::http::Timeout=20", "-o", "Acquire::Retries=1"];
     let apt = |arguments: &[&str]| {

@@ -7,7 +7,7 @@ use std::error::Error;
 use std::path::Path;
 
 use chamfer::{Chamfered, MeshBuffers, Options, Width, chamfer, shapes};
-use chamfer_cli::preview::{Panel, Placed, Surface, Zoom, before_after};
+use chamfer_cli::preview::{LARGE_TILE, Panel, Placed, Surface, Zoom, before_after};
 use chamfer_formats::IDENTITY;
 use image::{RgbImage, imageops};
 
@@ -25,7 +25,7 @@ fn seamed_cube() -> Result<RgbImage, Box<dyn Error>> {
     let cube = shapes::cube(1.0);
     let caption = "a checker on a cube whose edges are all seams";
     let panel = Panel { caption: caption.into(), surface: Surface::Checker, ..Panel::default() };
-    Ok(before_after(&both(panel, &cube, &chamfered(&cube, 6.0)?)))
+    Ok(before_after(&both(panel, &cube, &chamfered(&cube, 6.0)?), LARGE_TILE))
 }
 
 /// A table with an atlas, and below it the atlas with the triangles that lie on it.
@@ -40,7 +40,7 @@ fn table_atlas() -> Result<RgbImage, Box<dyn Error>> {
         zoom: Some(Zoom { factor: 1.6, focus: Some([0.6, 0.6, 0.4]) }),
         ..Panel::default()
     };
-    let models = before_after(&both(panel, &table, &after));
+    let models = before_after(&both(panel, &table, &after), LARGE_TILE);
     let [left, right] = [&table, &after.mesh].map(|mesh| atlas::outlined(&image, mesh));
     let (width, height) = models.dimensions();
     let mut picture = RgbImage::new(width, height + left.height());

@@ -10,7 +10,7 @@ use glam::Vec3;
 
 use crate::close_up::close_up;
 use crate::pictures::write_png;
-use crate::preview::{Panel, before_after, contact_sheet};
+use crate::preview::{LARGE_TILE, Panel, before_after, contact_sheet};
 use crate::scene::{placed, scene_triangles};
 
 use super::report::{Place, SeeThrough};
@@ -84,7 +84,11 @@ pub fn draw(
     };
     write_png(
         path,
-        &if panels.is_empty() { before_after(&whole()) } else { contact_sheet(&panels) },
+        &if panels.is_empty() {
+            before_after(&whole(), LARGE_TILE)
+        } else {
+            contact_sheet(&panels)
+        },
     )
 }
 

@@ -8,7 +8,7 @@ use glam::{DVec2, DVec3, Vec3};
 
 /// From the model to the eye: a three-quarter view from above that shows the three sides of a
 /// box differently wide. Front is +z, up is +y.
-pub(super) const TOWARD_EYE: DVec3 = DVec3::new(0.55, 0.45, 0.72);
+pub const TOWARD_EYE: DVec3 = DVec3::new(0.55, 0.45, 0.72);
 
 /// Distance of the eye in radii of the bounding sphere: a mild perspective.
 const EYE_DISTANCE: f64 = 4.0;

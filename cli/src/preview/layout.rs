@@ -8,9 +8,10 @@ use super::caption::{self, TEXT_HEIGHT, TextBox};
 use super::scene::Scene;
 use super::tile::{SAMPLES, Tile};
 
-/// Pixels per side of a tile of a picture of its own, and of one on a sheet.
-const LARGE_TILE: u32 = 600;
-const SMALL_TILE: u32 = 320;
+/// Pixels per side of a tile of a picture of its own.
+pub const LARGE_TILE: u32 = 600;
+/// Pixels per side of a tile on a sheet.
+pub const SMALL_TILE: u32 = 320;
 
 /// A sheet with more panels than this has two columns.
 const LONGEST_COLUMN: usize = 4;
@@ -25,23 +26,50 @@ const PAPER: Rgb<u8> = Rgb([24, 25, 28]);
 const TITLE_INK: Rgb<u8> = Rgb([236, 236, 232]);
 const CAPTION_INK: Rgb<u8> = Rgb([168, 172, 178]);
 
-/// Draws one model before and after, side by side, 1202 by 656 pixels.
-pub fn before_after(panel: &Panel) -> RgbImage {
-    Drawn::new(panel, LARGE_TILE).image()
+/// Draws one model before and after, side by side, each in a tile of so many pixels per side.
+pub fn before_after(panel: &Panel, tile: u32) -> RgbImage {
+    Drawn::new(panel, tile).image()
 }
 
-/// Draws several models, each before and after: a row each, in two columns where there are many.
+/// The tiles of a model before and after alone, without captions.
+pub fn tiles(panel: &Panel, tile: u32) -> [RgbImage; 2] {
+    let mut tiles = Drawn::new(panel, tile).tiles.into_iter();
+    [(); 2].map(|()| tiles.next().unwrap_or_default())
+}
+
+/// Draws several models, each before and after.
 pub fn contact_sheet(panels: &[Panel]) -> RgbImage {
-    let columns = if panels.len() > LONGEST_COLUMN { 2 } else { 1 };
-    let rows = panels.len().div_ceil(columns).max(1);
+    let rows: Vec<RgbImage> = panels.iter().map(|panel| before_after(panel, SMALL_TILE)).collect();
+    sheet(&rows)
+}
+
+/// Puts pictures one below the other.
+pub fn stacked(pictures: &[RgbImage]) -> RgbImage {
+    let width = pictures.iter().map(RgbImage::width).max().unwrap_or(0);
+    let height = pictures.iter().map(RgbImage::height).sum();
+    let mut image = RgbImage::from_pixel(width, height, PAPER);
+    let mut top = 0;
+    for picture in pictures {
+        imageops::replace(&mut image, picture, 0, top);
+        top += i64::from(picture.height());
+    }
+    image
+}
+
+/// Puts pictures of models together: a row each, in two columns where there are many.
+pub fn sheet(pictures: &[RgbImage]) -> RgbImage {
+    let columns = if pictures.len() > LONGEST_COLUMN { 2 } else { 1 };
+    let rows = pictures.len().div_ceil(columns).max(1);
+    let largest = |side: fn(&RgbImage) -> u32| pictures.iter().map(side).max();
     let [width, height] = panel_size(SMALL_TILE);
+    let width = largest(RgbImage::width).unwrap_or(width);
+    let height = largest(RgbImage::height).unwrap_or(height);
     let spread = |count: usize, size: u32| count as u32 * (size + GAP) - GAP;
     let mut sheet = RgbImage::from_pixel(spread(columns, width), spread(rows, height), PAPER);
-    for (number, panel) in panels.iter().enumerate() {
+    for (number, picture) in pictures.iter().enumerate() {
         let x = (number % columns) as u32 * (width + GAP);
         let y = (number / columns) as u32 * (height + GAP);
-        let image = Drawn::new(panel, SMALL_TILE).image();
-        imageops::replace(&mut sheet, &image, x.into(), y.into());
+        imageops::replace(&mut sheet, picture, x.into(), y.into());
     }
     sheet
 }
@@ -53,15 +81,20 @@ fn panel_size(tile: u32) -> [u32; 2] {
 /// A panel whose tiles are drawn.
 struct Drawn<'a> {
     title: &'a str,
-    tiles: [RgbImage; 2],
-    captions: [String; 2],
+    tiles: Vec<RgbImage>,
+    captions: Vec<String>,
 }
 
 impl<'a> Drawn<'a> {
     fn new(panel: &'a Panel, tile: u32) -> Self {
-        let scenes = [Scene::gather(&panel.before), Scene::gather(&panel.after)];
+        let further = panel.further.iter().map(|(_, placed)| placed);
+        let placed = [&panel.before, &panel.after].into_iter().chain(further);
+        let scenes: Vec<Scene> = placed.map(|placed| Scene::gather(placed)).collect();
         let camera = camera(&scenes, panel, tile as usize * SAMPLES);
-        let [before, after] = &scenes;
+        let after = panel.after_name.as_deref().unwrap_or("after");
+        let names = ["before", after].into_iter();
+        let names = names.chain(panel.further.iter().map(|(name, _)| &**name));
+        let lines = [&panel.before_lines[..], &panel.after_lines];
         let render = |scene, lines| {
             let camera = camera.as_ref();
             let culls_backs = panel.toward_eye.is_some();
@@ -70,19 +103,26 @@ impl<'a> Drawn<'a> {
         };
         Drawn {
             title: &panel.caption,
-            tiles: [render(before, &panel.before_lines), render(after, &panel.after_lines)],
-            captions: [count("before", before), count("after", after)],
+            tiles: (0..)
+                .zip(&scenes)
+                .map(|(number, scene)| {
+                    render(scene, lines.get(number).copied().unwrap_or_default())
+                })
+                .collect(),
+            captions: names.zip(&scenes).map(|(name, scene)| count(name, scene)).collect(),
         }
     }
 
     /// The title above, the tiles, a caption below each.
     fn image(&self) -> RgbImage {
         let tile = self.tiles[0].width();
-        let [width, height] = panel_size(tile);
+        let [_, height] = panel_size(tile);
+        let width = self.tiles.len() as u32 * (tile + GAP) - GAP;
         let mut image = RgbImage::from_pixel(width, height, PAPER);
         let title = TextBox { left: 0, top: (BAR - TEXT_HEIGHT) / 2, width };
         caption::write(&mut image, self.title, &title, TITLE_INK);
-        for (left, (drawn, text)) in [0, tile + GAP].into_iter().zip(self.parts()) {
+        for (number, (drawn, text)) in (0..).zip(self.parts()) {
+            let left = number * (tile + GAP);
             imageops::replace(&mut image, drawn, left.into(), BAR.into());
             let below = TextBox { left, top: BAR + tile + title.top, width: tile };
             caption::write(&mut image, text, &below, CAPTION_INK);
@@ -115,12 +155,11 @@ fn grouped(number: usize) -> String {
 }
 
 /// One view of both scenes; `None` where neither has an extent.
-fn camera(scenes: &[Scene; 2], panel: &Panel, samples: usize) -> Option<Camera> {
-    let [before, after] = scenes;
+fn camera(scenes: &[Scene], panel: &Panel, samples: usize) -> Option<Camera> {
     let toward_eye = panel.toward_eye.map(|direction| glam::Vec3::from(direction).as_dvec3());
     let camera = Camera::frame(
         toward_eye.unwrap_or(TOWARD_EYE),
-        before.corners().chain(after.corners()),
+        scenes.iter().flat_map(Scene::corners),
         samples,
     )?;
     let Some(zoom) = panel.zoom.filter(|zoom| zoom.factor > 0.0 && zoom.factor.is_finite()) else {
@@ -129,8 +168,7 @@ fn camera(scenes: &[Scene; 2], panel: &Panel, samples: usize) -> Option<Camera> 
     let given = zoom.focus.map(|focus| glam::Vec3::from(focus).as_dvec3());
     let focus = given
         .filter(|&focus| camera.depth(focus) > 0.0 && focus.is_finite())
-        .or_else(|| nearest(&camera, before))
-        .or_else(|| nearest(&camera, after));
+        .or_else(|| scenes.iter().find_map(|scene| nearest(&camera, scene)));
     Some(match focus {
         // Away from the middle of the model the direction would be another one.
         Some(focus) if toward_eye.is_some() => {
@@ -168,12 +206,12 @@ mod tests {
 
     #[test]
     fn the_same_panel_gives_the_same_bytes() {
-        assert_eq!(before_after(&panel()), before_after(&panel()));
+        assert_eq!(before_after(&panel(), 40), before_after(&panel(), 40));
     }
 
     #[test]
     fn an_empty_panel_is_background() {
-        assert_eq!(before_after(&Panel::default()).dimensions(), (1202, 656));
+        assert_eq!(before_after(&Panel::default(), LARGE_TILE).dimensions(), (1202, 656));
         assert_eq!(contact_sheet(&[]).dimensions(), (642, 376));
     }
 

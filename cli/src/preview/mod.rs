@@ -17,7 +17,8 @@ mod tile;
 
 use image::RgbImage;
 
-pub use layout::{before_after, contact_sheet};
+pub use camera::TOWARD_EYE;
+pub use layout::{LARGE_TILE, SMALL_TILE, before_after, contact_sheet, sheet, stacked, tiles};
 
 /// A mesh and where it stands in the scene, whose up is +y.
 pub struct Placed<'a> {
@@ -40,6 +41,10 @@ pub struct Panel<'a> {
     pub before_lines: Vec<Line>,
     /// Drawn over the right tile, likewise.
     pub after_lines: Vec<Line>,
+    /// Further tiles on the right, and what each is called.
+    pub further: Vec<(String, Vec<Placed<'a>>)>,
+    /// What the right tile is called: "after", if nothing else.
+    pub after_name: Option<String>,
     /// What the model seems to be made of.
     pub surface: Surface<'a>,
     /// A close-up instead of the whole model.
@@ -61,6 +66,23 @@ pub enum Surface<'a> {
     Checker,
     /// This image by UV channel 0, repeated; v = 0 is its first row. Clay where it is absent.
     Texture(&'a RgbImage),
+    /// What its own materials say, times the vertex colors.
+    Own(&'a Wardrobe<'a>),
+}
+
+/// By place in [`Panel::before`] and submesh; clay where there is none. A submesh past the last is
+/// like the last.
+pub type Wardrobe<'a> = Vec<Vec<Coat<'a>>>;
+
+/// What a material looks like.
+#[derive(Clone, Copy, Debug)]
+pub struct Coat<'a> {
+    /// Red, green and blue, linear.
+    pub color: [f32; 3],
+    /// By UV channel 0, repeated.
+    pub image: Option<&'a RgbImage>,
+    /// Whether v = 0 is the last row of the image.
+    pub flips: bool,
 }
 
 /// A colored segment in the scene. What is in front of it hides it.

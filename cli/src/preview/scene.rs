@@ -19,6 +19,8 @@ pub(super) struct Scene {
     pub vertices: Vec<Vertex>,
     /// Counter-clockwise where seen from outside, also where a transform mirrors.
     pub triangles: Vec<[u32; 3]>,
+    /// `#triangles`: the place of its mesh among those placed, and its submesh.
+    pub origins: Vec<[u32; 2]>,
 }
 
 impl Scene {
@@ -26,10 +28,10 @@ impl Scene {
     /// not finite, and triangles that refer to no vertex.
     pub fn gather(placed: &[Placed]) -> Scene {
         let mut scene = Scene::default();
-        for item in placed {
+        for (number, item) in (0..).zip(placed) {
             let transform = DMat4::from_cols_array_2d(&item.transform.map(|c| c.map(f64::from)));
             if transform.is_finite() {
-                scene.append(&item.mesh, &transform);
+                scene.append(number, &item.mesh, &transform);
             }
         }
         scene
@@ -40,7 +42,7 @@ impl Scene {
         self.triangles.iter().flatten().map(|&v| self.vertices[v as usize].position)
     }
 
-    fn append(&mut self, mesh: &chamfer::Mesh, transform: &DMat4) {
+    fn append(&mut self, number: u32, mesh: &chamfer::Mesh, transform: &DMat4) {
         let base = self.vertices.len() as u32;
         let normals = NormalTransform::new(&DMat3::from_mat4(*transform));
         self.vertices.extend((0..mesh.positions.len()).map(|v| Vertex {
@@ -49,11 +51,16 @@ impl Scene {
             uv: uv(mesh, v),
             color: color(mesh, v),
         }));
+        let counts = (0..).zip(mesh.submesh_index_counts);
+        let mut submeshes =
+            counts.flat_map(|(submesh, count)| std::iter::repeat_n(submesh, *count as usize / 3));
         for triangle in mesh.indices.chunks_exact(3) {
+            let submesh = submeshes.next().unwrap_or(0);
             let [a, b, c] = [triangle[0], triangle[1], triangle[2]];
             if [a, b, c].iter().all(|&v| self.is_drawable(base, v)) {
                 let wound = if normals.mirrors() { [a, c, b] } else { [a, b, c] };
                 self.triangles.push(wound.map(|v| base + v));
+                self.origins.push([number, submesh]);
             }
         }
     }
@@ -118,6 +125,7 @@ mod tests {
         uvs: [chamfer::Uv { components: 0, values: &[] }; chamfer::UV_CHANNELS],
         submesh_index_counts: &[9],
         held: &[],
+        factors: chamfer::Factors { submeshes: &[], vertices: &[], edges: &[] },
     };
 
     fn scene(transform: [[f32; 4]; 4]) -> Scene {

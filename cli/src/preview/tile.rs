@@ -7,13 +7,13 @@ use super::camera::{Camera, Projected};
 use super::raster::{NOTHING, ScreenTriangle, Visibility, sample_center};
 use super::scene::{Scene, Vertex};
 use super::shade::{self, Lights, SurfacePoint};
-use super::{Line, Surface, color, lines};
+use super::{Line, Surface, Wardrobe, color, lines};
 
 /// Samples per side of a pixel.
 pub(super) const SAMPLES: usize = 4;
 
 /// Width of a line, in pixels.
-const LINE_WIDTH: f64 = 1.6;
+const LINE_WIDTH: f64 = 1.2;
 
 /// The background at the top and at the bottom of a tile.
 const BACKGROUND: [Vec3; 2] = [Vec3::new(0.075, 0.085, 0.105), Vec3::new(0.022, 0.025, 0.031)];
@@ -94,7 +94,8 @@ impl<'a> Drawing<'a> {
         }
         let corners = scene.triangles[item].map(|vertex| &scene.vertices[vertex as usize]);
         let screen = self.screen_triangle(item)?;
-        Some(Item::Facet(Facet { corners, screen, surface: self.tile.surface }))
+        let surface = self.tile.surface;
+        Some(Item::Facet(Facet { corners, screen, surface, origin: scene.origins[item] }))
     }
 }
 
@@ -150,6 +151,8 @@ struct Facet<'a> {
     corners: [&'a Vertex; 3],
     screen: ScreenTriangle,
     surface: Surface<'a>,
+    /// The place of its mesh, and its submesh.
+    origin: [u32; 2],
 }
 
 impl Facet<'_> {
@@ -174,9 +177,26 @@ impl Facet<'_> {
             (Surface::VertexColors, _) => {
                 shade::CLAY * blend(weights, self.corners.map(|corner| corner.color))
             }
+            (Surface::Own(wardrobe), uv) => {
+                self.coat(wardrobe, uv) * blend(weights, self.corners.map(|corner| corner.color))
+            }
             (Surface::Checker, Some(uv)) => shade::checker(uv),
             (Surface::Texture(image), Some(uv)) => shade::texture(image, uv),
             _ => shade::CLAY,
+        }
+    }
+
+    fn coat(&self, wardrobe: &Wardrobe, uv: Option<Vec2>) -> Vec3 {
+        let [item, submesh] = self.origin.map(|number| number as usize);
+        let coats = wardrobe.get(item).map_or(&[][..], Vec::as_slice);
+        let Some(coat) = coats.get(submesh).or(coats.last()) else { return shade::CLAY };
+        let color = Vec3::from(coat.color);
+        match (coat.image, uv) {
+            (Some(image), Some(uv)) if coat.flips => {
+                color * shade::texture(image, Vec2::new(uv.x, 1.0 - uv.y))
+            }
+            (Some(image), Some(uv)) => color * shade::texture(image, uv),
+            _ => color * shade::CLAY,
         }
     }
 
@@ -192,8 +212,8 @@ fn blend([u, v, w]: [f32; 3], [a, b, c]: [Vec3; 3]) -> Vec3 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Placed;
     use super::super::camera::TOWARD_EYE;
+    use super::super::{Coat, Placed};
     use super::*;
     use chamfer::MeshBuffers;
     use image::Rgb;
@@ -289,6 +309,26 @@ mod tests {
         let image = RgbImage::new(1, 1);
         assert_eq!(render(&[&mesh], &[], Surface::Checker), clay);
         assert_eq!(render(&[&mesh], &[], Surface::Texture(&image)), clay);
+    }
+
+    #[test]
+    fn each_submesh_wears_its_own_coat() {
+        let mut mesh = square(1.0, 0.0);
+        mesh.uvs[0] = chamfer::UvBuffer { components: 2, values: vec![0.5; 8] };
+        mesh.submesh_index_counts = vec![3, 3];
+        let green = RgbImage::from_pixel(1, 1, Rgb([0, 255, 0]));
+        let coat = |color, image| Coat { color, image, flips: false };
+        let coats = vec![vec![coat([1.0, 0.0, 0.0], None), coat([1.0; 3], Some(&green))]];
+        let drawn = render(&[&mesh], &[], Surface::Own(&coats));
+        // The first triangle is on the right and below, the second on the left and above.
+        let [red, green] = [(14, 16), (4, 4)].map(|(x, y)| drawn.get_pixel(x, y).0);
+        assert!(red[0] > 2 * red[1] && red[0] > 2 * red[2], "{red:?}");
+        assert!(green[1] > 2 * green[0] && green[1] > 2 * green[2], "{green:?}");
+        let none = Vec::new();
+        assert_eq!(
+            render(&[&mesh], &[], Surface::Own(&none)),
+            render(&[&mesh], &[], Surface::Clay)
+        );
     }
 
     #[test]

@@ -125,6 +125,19 @@ pub fn normals_read(geometry: &MeshGeometry, mesh: &MeshBuffers) -> NormalsRead 
     read
 }
 
+/// Says that normals of the file point nowhere; others were made.
+pub fn note(name: &str, geometry: &MeshGeometry, read: &NormalsRead) -> Option<String> {
+    let is_unread = |origin: &&Origin| {
+        let block = &geometry.blocks[origin.block as usize];
+        block.smoothed && block.attribute("NORMAL").is_some()
+    };
+    let filled = read.repaired.iter().filter(|(_, stored)| *stored == [0.0; 3]).count();
+    let count = filled + geometry.origins.iter().filter(is_unread).count();
+    (count > 0).then(|| {
+        format!("mesh {name}: {count} normals have no direction: they were made from the faces")
+    })
+}
+
 /// Tangents of a block without normals count for nothing, so the specification says.
 fn tangents(geometry: &MeshGeometry, smooth: &[[f32; 3]]) -> Vec<[f32; 4]> {
     let has = |block: &Block| !block.smoothed && block.attribute("TANGENT").is_some();

@@ -98,7 +98,9 @@ fn gather(buffers: &[Vec<u8>], dropped: &[(usize, Range<usize>)]) -> (Vec<u8>, V
     let mut pieces = Vec::new();
     for (buffer, content) in buffers.iter().enumerate() {
         let mut from = 0;
-        let gaps = dropped.iter().filter(|(of, _)| *of == buffer).map(|(_, range)| range.clone());
+        let before = dropped.partition_point(|(of, _)| *of < buffer);
+        let gaps = dropped[before..].iter().take_while(|(of, _)| *of == buffer);
+        let gaps = gaps.map(|(_, range)| range.clone());
         for gap in gaps.chain(std::iter::once(content.len()..content.len())) {
             let range = from..gap.start.min(content.len());
             from = gap.end;

@@ -1,19 +1,36 @@
 //! Attributes that the core does not carry follow its provenance: each output vertex blends those
 //! of up to three source vertices.
 
+use std::collections::BTreeMap;
+
 use chamfer::{Blend, VertexSource, VertexSources};
 
 use super::element::{ElementType, Stream};
 use super::geometry::{MeshGeometry, SourceStreams};
+use super::names::is_carried_by_core;
+use super::skin;
+
+/// The least and the most of each component.
+type Range = Vec<[f64; 2]>;
 
 /// Blends the attributes of one mesh.
 pub struct Follower<'a> {
     pub geometry: &'a MeshGeometry,
     /// `#output vertices`.
     pub sources: &'a VertexSources,
+    /// `#blocks`: how many whole sets of influences each has.
+    pub skin_sets: Vec<usize>,
+    /// By name: a blend of colours that reads past its triangle must not leave them.
+    color_ranges: BTreeMap<&'a str, Range>,
 }
 
-impl Follower<'_> {
+impl<'a> Follower<'a> {
+    /// Looks once at what all blocks have.
+    pub fn new(geometry: &'a MeshGeometry, sources: &'a VertexSources) -> Follower<'a> {
+        let skin_sets = geometry.blocks.iter().map(skin::set_count).collect();
+        Follower { geometry, sources, skin_sets, color_ranges: color_ranges(geometry) }
+    }
+
     /// An attribute of some output vertices, of a morph target or of the mesh itself, as near to
     /// the given type as its values allow.
     pub fn follow(
@@ -25,7 +42,7 @@ impl Follower<'_> {
     ) -> Stream {
         let streams = self.geometry.streams(target, name);
         let is_color = name.starts_with("COLOR_") && target.is_none();
-        let range = if is_color { self.range(&streams) } else { Vec::new() };
+        let range = self.color_ranges.get(name).filter(|_| is_color).into_iter().flatten();
         let mut values = Vec::with_capacity(vertices.len() * element.shape.components());
         for vertex in vertices {
             let source = self.sources.get(*vertex as usize);
@@ -34,7 +51,7 @@ impl Follower<'_> {
                 true => nearest(&streams, blend),
                 false => mean(&streams, blend),
             };
-            for (number, &[least, most]) in value.iter_mut().zip(&range) {
+            for (number, &[least, most]) in value.iter_mut().zip(range.clone()) {
                 *number = number.max(least).min(most);
             }
             values.extend((0..element.shape.components()).map(|component| {
@@ -44,18 +61,26 @@ impl Follower<'_> {
         let stream = Stream { element, values };
         if may_be_rounded(name) { stream } else { stream.exact_or_floats() }
     }
+}
 
-    /// The least and the most of each component: a blend that reads past its triangle must not
-    /// leave them.
-    fn range(&self, streams: &SourceStreams) -> Vec<[f64; 2]> {
-        let mut range = Vec::new();
-        for value in (0..self.geometry.origins.len()).filter_map(|vertex| streams.at(vertex)) {
-            range.resize(range.len().max(value.len()), [f64::INFINITY, f64::NEG_INFINITY]);
-            for ([least, most], number) in range.iter_mut().zip(value) {
-                (*least, *most) = (number.min(*least), number.max(*most));
-            }
+/// The ranges of all colours that the core does not carry.
+fn color_ranges(geometry: &MeshGeometry) -> BTreeMap<&str, Range> {
+    let mut ranges: BTreeMap<&str, Range> = BTreeMap::new();
+    for origin in &geometry.origins {
+        let attributes = geometry.blocks[origin.block as usize].attributes.iter();
+        let colors = attributes.filter(|attribute| attribute.name.starts_with("COLOR_"));
+        for color in colors.filter(|color| !is_carried_by_core(&color.name)) {
+            let range = ranges.entry(&color.name).or_default();
+            extend(range, color.stream.at(origin.element as usize));
         }
-        range
+    }
+    ranges
+}
+
+fn extend(range: &mut Range, value: &[f64]) {
+    range.resize(range.len().max(value.len()), [f64::INFINITY, f64::NEG_INFINITY]);
+    for ([least, most], number) in range.iter_mut().zip(value) {
+        (*least, *most) = (number.min(*least), number.max(*most));
     }
 }
 
@@ -73,9 +98,11 @@ fn blend_of<'a>(source: &'a VertexSource, name: &str) -> &'a Blend {
 }
 
 /// Plain integers that nothing says are quantities: numbers of joints, features, materials.
-fn is_label(name: &str, element: ElementType) -> bool {
+/// Those of features may be written as floats.
+pub fn is_label(name: &str, element: ElementType) -> bool {
     let named = name.starts_with('_') || name.starts_with("JOINTS_");
-    named && element.component.is_integer() && !element.normalized
+    let is_integer = element.component.is_integer() && !element.normalized;
+    named && is_integer || name.starts_with("_FEATURE_ID_")
 }
 
 /// A geometric stream would step where its type is coarser than the chamfer.
@@ -101,7 +128,8 @@ pub fn single(blend: &Blend) -> Option<usize> {
     parts.all(|(other, _)| other == vertex).then_some(vertex)
 }
 
-fn nearest(streams: &SourceStreams, blend: &Blend) -> Vec<f64> {
+/// The value of the heaviest source vertex of a blend that has one.
+pub fn nearest(streams: &SourceStreams, blend: &Blend) -> Vec<f64> {
     let mut best: Option<(f64, &[f64])> = None;
     for (vertex, weight) in parts(blend) {
         let Some(value) = streams.at(vertex) else { continue };

@@ -3,6 +3,7 @@
 //! Primitives with the same attribute accessors share their vertices: they form a *block*. The
 //! vertices of the blocks stand one block after the other; copies that smoothing makes follow.
 
+use std::cell::Cell;
 use std::collections::hash_map::Entry;
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
@@ -110,20 +111,17 @@ impl MeshGeometry {
         };
         let mut positions: Vec<[f32; 3]> = (0..self.origins.len()).map(place).collect();
         let moved = weld::weld(&mut positions, weld);
-        for (number, block) in (0..).zip(&mut self.blocks) {
-            let attribute = block.attributes.iter_mut().find(|a| a.name == "POSITION");
-            let Some(stream) = attribute.map(|attribute| Arc::make_mut(&mut attribute.stream))
-            else {
+        for (origin, position) in self.origins.iter().zip(&positions) {
+            let attributes = &mut self.blocks[origin.block as usize].attributes;
+            let Some(attribute) = attributes.iter_mut().find(|a| a.name == "POSITION") else {
                 continue;
             };
-            let own =
-                self.origins.iter().zip(&positions).filter(|(origin, _)| origin.block == number);
-            for (origin, position) in own {
-                let place = &mut stream.values[3 * origin.element as usize..][..3];
-                // Others keep the digits that the file has.
-                if place.iter().zip(position).any(|(old, new)| *old as f32 != *new) {
-                    place.copy_from_slice(&position.map(f64::from));
-                }
+            let place = 3 * origin.element as usize..3 * origin.element as usize + 3;
+            let old = &attribute.stream.values[place.clone()];
+            // Others keep the digits that the file has.
+            if old.iter().zip(position).any(|(old, new)| *old as f32 != *new) {
+                let values = &mut Arc::make_mut(&mut attribute.stream).values;
+                values[place].copy_from_slice(&position.map(f64::from));
             }
         }
         moved
@@ -140,29 +138,51 @@ impl MeshGeometry {
 
     /// The streams of that name of all blocks, of a morph target or of the mesh itself.
     pub fn streams(&self, target: Option<usize>, name: &str) -> SourceStreams<'_> {
-        let found = self.blocks.iter().map(|block| block.find(target, name));
-        let of_block = found.map(|found| found.map(|attribute| &*attribute.stream)).collect();
-        SourceStreams { origins: &self.origins, of_block }
+        SourceStreams { geometry: self, target, name: name.to_owned(), last: Cell::new(None) }
+    }
+
+    /// `#blocks`: the submeshes of each.
+    fn submeshes_of_blocks(&self) -> Vec<Vec<usize>> {
+        let mut submeshes = vec![Vec::new(); self.blocks.len()];
+        for (number, submesh) in self.submeshes.iter().enumerate() {
+            submeshes[submesh.block].push(number);
+        }
+        submeshes
     }
 }
 
-/// An attribute by source vertex.
+/// An attribute by source vertex. Blocks are looked up as they are asked for: a file can have as
+/// many as it has primitives, and each asks for few.
 pub struct SourceStreams<'a> {
-    origins: &'a [Origin],
-    /// `#blocks`: absent where the block has no such attribute.
-    of_block: Vec<Option<&'a Stream>>,
+    geometry: &'a MeshGeometry,
+    target: Option<usize>,
+    name: String,
+    /// The block asked for last, and its stream: the next vertex is mostly of the same.
+    last: Cell<Option<(u32, Option<&'a Stream>)>>,
 }
 
 impl<'a> SourceStreams<'a> {
     /// The value at a source vertex, if the vertex has one.
     pub fn at(&self, vertex: usize) -> Option<&'a [f64]> {
-        let origin = self.origins[vertex];
-        self.of_block[origin.block as usize].map(|stream| stream.at(origin.element as usize))
+        let Origin { block, element } = self.geometry.origins[vertex];
+        let stream = match self.last.get() {
+            Some((last, stream)) if last == block => stream,
+            _ => {
+                let stream = self.of_block(&self.geometry.blocks[block as usize]);
+                self.last.set(Some((block, stream)));
+                stream
+            }
+        };
+        stream.map(|stream| stream.at(element as usize))
     }
 
     /// Whether any vertex has a value.
     pub fn exist(&self) -> bool {
-        self.of_block.iter().any(Option::is_some)
+        self.geometry.blocks.iter().any(|block| self.of_block(block).is_some())
+    }
+
+    fn of_block(&self, block: &'a Block) -> Option<&'a Stream> {
+        block.find(self.target, &self.name).map(|attribute| &*attribute.stream)
     }
 }
 
@@ -225,10 +245,9 @@ impl<'a> GeometryReader<'a> {
             geometry.submeshes.push(Submesh { primitive, block, indices, index_count });
             corners.push(triangles);
         }
-        for (number, block) in geometry.blocks.iter_mut().enumerate() {
-            let used = geometry.submeshes.iter().zip(&corners);
-            let used = used.filter(|(submesh, _)| submesh.block == number);
-            let mut elements = used.flat_map(|(_, corners)| corners);
+        let submeshes = geometry.submeshes_of_blocks();
+        for (block, submeshes) in geometry.blocks.iter_mut().zip(submeshes) {
+            let mut elements = submeshes.iter().flat_map(|submesh| &corners[*submesh]);
             let stored = block.attribute("NORMAL").map(|normals| normals.stream.clone());
             let is_zero =
                 |normals: &Stream, element: &u32| has_no_direction(normals.at(*element as usize));
@@ -311,9 +330,9 @@ impl<'a> GeometryReader<'a> {
     /// Gives each block's elements their places among the vertices of the core mesh.
     fn place_vertices(&self, geometry: &mut MeshGeometry, corners: Vec<Vec<u32>>) -> Result<()> {
         let mut places = Vec::new();
+        let submeshes = geometry.submeshes_of_blocks();
         for (number, block) in geometry.blocks.iter().enumerate() {
-            let used = geometry.submeshes.iter().zip(&corners);
-            let used = used.filter(|(submesh, _)| submesh.block == number).map(|(_, c)| c);
+            let used = submeshes[number].iter().map(|submesh| &corners[*submesh]);
             let placed = Places { first: geometry.origins.len(), used: self.used(block, used) };
             let count = placed.used.as_ref().map_or(block.vertex_count(), Vec::len);
             self.budget.spend(count)?;

@@ -15,6 +15,7 @@
 mod accessor;
 mod accessor_writer;
 mod budget;
+pub mod buffers;
 mod compressed;
 mod container;
 mod core_mesh;
@@ -29,8 +30,15 @@ mod fold;
 mod follow;
 mod geometry;
 mod json;
+mod labels;
+mod looks;
 #[cfg(feature = "meshopt")]
 mod meshopt_codec;
+#[cfg(feature = "meshopt")]
+mod meshopt_pack;
+#[cfg(not(feature = "meshopt"))]
+#[path = "meshopt_left_out.rs"]
+mod meshopt_pack;
 mod meshopt_views;
 mod names;
 mod quantized;
@@ -52,7 +60,7 @@ use chamfer::Chamfered;
 use serde_json::Value;
 
 use crate::document::{
-    Document, Encoded, Format, Instance, NormalsRead, OutputFile, ReadOptions, SourceMesh,
+    Document, Encoded, Format, Instance, Looks, NormalsRead, OutputFile, ReadOptions, SourceMesh,
 };
 use crate::weld;
 use accessor_writer::AccessorWriter;
@@ -67,6 +75,8 @@ use rewrite::Rewrite;
 use uri::Target;
 
 pub(crate) use container::write_glb;
+use meshopt_pack::WRITTEN_WITHOUT;
+pub use meshopt_pack::compress;
 
 /// A glTF file that was read.
 pub struct GltfDocument {
@@ -85,7 +95,8 @@ pub struct GltfDocument {
     instances: Vec<Instance>,
     /// The URIs of the buffers of the file, before any was unpacked.
     buffer_uris: Vec<Option<String>>,
-    was_compressed: bool,
+    /// The extensions that it was compressed with.
+    compressions: Vec<&'static str>,
     /// What the user should know.
     notes: Vec<String>,
 }
@@ -121,10 +132,7 @@ impl GltfDocument {
         let buffers = read_buffers(&json, binary, &resources::folder(path))?;
         let Plain { json, buffers, dropped } = compressed::plain(json, buffers)?;
         extensions::refuse_unreadable(&json)?;
-        let mut notes: Vec<String> = dropped
-            .iter()
-            .map(|name| format!("it was compressed ({name}), and is written without"))
-            .collect();
+        let mut notes = Vec::new();
         let instances = scene::instances(&json, &mut notes)?;
         let size = bytes.len() + buffers.iter().map(Vec::len).sum::<usize>();
         let budget = Budget::of_file(size);
@@ -135,10 +143,12 @@ impl GltfDocument {
             let mut geometry = reader.read(index)?;
             welded += geometry.weld(options.weld);
             let mesh = core_mesh::build(&mut geometry, options.smoothing_angle)?;
-            normals.push(core_mesh::normals_read(&geometry, &mesh));
-            geometry.forget_core_streams();
+            let read = core_mesh::normals_read(&geometry, &mesh);
             let name = value.get("name").and_then(Value::as_str);
             let name = name.map_or_else(|| format!("mesh {index}"), str::to_owned);
+            notes.extend(core_mesh::note(&name, &geometry, &read));
+            normals.push(read);
+            geometry.forget_core_streams();
             meshes.push(SourceMesh { name, mesh });
             geometries.push(geometry);
         }
@@ -154,7 +164,7 @@ impl GltfDocument {
             normals,
             instances,
             buffer_uris,
-            was_compressed: !dropped.is_empty(),
+            compressions: dropped,
             notes,
             bytes,
         })
@@ -193,7 +203,8 @@ impl GltfDocument {
         let mentions = Mentions::of(&json);
         let freed = references::freed(&json, &self.replaced(chamfered), &mentions)?;
         let mut writer = AccessorWriter::new(&json, freed);
-        let mut notes = Vec::new();
+        let note = |name| format!("it was compressed ({name}), {WRITTEN_WITHOUT}");
+        let mut notes: Vec<String> = self.compressions.iter().map(note).collect();
         for (index, result) in chamfered.iter().enumerate() {
             if !self.is_changed(index, result) {
                 continue;
@@ -314,6 +325,11 @@ impl Document for GltfDocument {
         self.notes.clone()
     }
 
+    fn looks(&self) -> Looks {
+        let folder = resources::folder(&self.path);
+        looks::looks(&self.json, &self.buffers, &folder, &self.geometries)
+    }
+
     fn encode(&self, format: Format, output: &Path, chamfered: &[Chamfered]) -> Result<Encoded> {
         ensure!(
             chamfered.len() == self.meshes.len(),
@@ -322,7 +338,7 @@ impl Document for GltfDocument {
             chamfered.len()
         );
         let changed = chamfered.iter().enumerate().any(|(i, result)| self.is_changed(i, result));
-        if !changed && format == self.format && !self.was_compressed {
+        if !changed && format == self.format && self.compressions.is_empty() {
             return Ok(self.encode_unchanged(output)?.into());
         }
         let Rewritten { mut json, mut buffer, notes } = self.rewritten(chamfered)?;

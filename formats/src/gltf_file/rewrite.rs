@@ -1,13 +1,14 @@
 //! Gives the primitives of a chamfered mesh their new accessors.
 
 use anyhow::{Context, Result, ensure};
-use chamfer::{Chamfered, MeshBuffers};
+use chamfer::{Chamfered, MeshBuffers, TriangleSource};
 use serde_json::{Map, Value};
 
 use super::accessor_writer::{AccessorWriter, Role, Usage};
 use super::element::{ElementType, Shape, Stream};
 use super::follow::Follower;
 use super::geometry::{Attribute, Block, MeshGeometry, Submesh};
+use super::labels::{Chosen, Labels};
 use super::names::{is_carried_by_core, uv_channel};
 use super::skin;
 
@@ -24,13 +25,18 @@ struct Part<'a> {
     is_further: bool,
     /// `#triangles by 3`, flattened.
     corners: &'a [u32],
+    /// `#triangles`
+    triangles: &'a [TriangleSource],
 }
 
 /// One chamfered mesh on its way into the file.
 pub struct Rewrite<'a> {
     geometry: &'a MeshGeometry,
     chamfered: &'a Chamfered,
+    follower: Follower<'a>,
     parts: Vec<Part<'a>>,
+    /// `#blocks`: the parts of each.
+    parts_of: Vec<Vec<usize>>,
     /// `#blocks`: the source vertices of each.
     own_vertices: Vec<Vec<u32>>,
 }
@@ -48,26 +54,21 @@ impl<'a> Rewrite<'a> {
             && positions.len() >= geometry.origins.len()
             && submesh_index_counts.len() >= geometry.submeshes.len()
             && total == indices.len()
+            && chamfered.triangle_sources.len() * 3 == total
+            && submesh_index_counts.iter().all(|count| count.is_multiple_of(3))
             && indices.iter().all(|index| (*index as usize) < positions.len());
         ensure!(fits, "the chamfered mesh does not match the primitives of the file");
-        let mut rest = &indices[..];
-        let mut parts = Vec::new();
-        for (number, count) in submesh_index_counts.iter().enumerate() {
-            let (corners, after) = rest.split_at(*count as usize);
-            rest = after;
-            let is_further = number >= geometry.submeshes.len();
-            let submesh = geometry.submeshes.get(number).or(geometry.submeshes.last());
-            let submesh = submesh.context("the mesh had no triangles, but now it has")?;
-            // A primitive without triangles is more than glTF can say, and nothing to see.
-            if !(is_further && corners.is_empty()) {
-                parts.push(Part { submesh, is_further, corners });
-            }
+        let parts = parts(geometry, chamfered)?;
+        let mut parts_of = vec![Vec::new(); geometry.blocks.len()];
+        for (number, part) in parts.iter().enumerate() {
+            parts_of[part.submesh.block].push(number);
         }
         let mut own_vertices = vec![Vec::new(); geometry.blocks.len()];
         for (vertex, origin) in geometry.origins.iter().enumerate() {
             own_vertices[origin.block as usize].push(vertex as u32);
         }
-        Ok(Rewrite { geometry, chamfered, parts, own_vertices })
+        let follower = Follower::new(geometry, &chamfered.vertex_sources);
+        Ok(Rewrite { geometry, chamfered, follower, parts, parts_of, own_vertices })
     }
 
     /// Replaces what the JSON of the mesh says of its triangles.
@@ -77,24 +78,41 @@ impl<'a> Rewrite<'a> {
     pub fn write(&self, mesh: &mut Value, writer: &mut AccessorWriter) -> Result<()> {
         let mut place_of = vec![ABSENT; self.chamfered.mesh.positions.len()];
         for (number, block) in self.geometry.blocks.iter().enumerate() {
-            let vertices = self.block_vertices(number, &mut place_of);
-            let attributes = self.attributes(block, &vertices, writer)?;
+            let mut vertices = self.block_vertices(number, &mut place_of);
+            let place = |index: &u32| place_of[*index as usize];
+            let places = self.parts_of(number).map(|part| part.corners.iter().map(place).collect());
+            let mut places: Vec<Vec<u32>> = places.collect();
+            // Only what was set, or many blocks would take quadratic time.
+            vertices.iter().for_each(|vertex| place_of[*vertex as usize] = ABSENT);
+            let labels = self.labels(number, &mut vertices, &mut places);
+            let attributes = self.attributes(block, &vertices, labels.as_ref(), writer)?;
             let targets = self.targets(block, &vertices, writer)?;
-            for part in self.parts_of(number) {
-                let places = part.corners.iter().map(|index| place_of[*index as usize]);
-                let indices =
-                    writer.write_indices(part.role(block), &places.collect::<Vec<_>>())?;
+            for (part, places) in self.parts_of(number).zip(&places) {
+                let indices = writer.write_indices(part.role(block), places)?;
                 let primitive = part.primitive(mesh).context("a primitive is gone")?;
                 replace(primitive, &attributes, &targets, indices);
             }
-            // Only what was set, or many blocks would take quadratic time.
-            vertices.iter().for_each(|vertex| place_of[*vertex as usize] = ABSENT);
         }
         Ok(())
     }
 
+    /// The labels of a block's vertices, of which some are added for them.
+    fn labels(
+        &self,
+        number: usize,
+        vertices: &mut Vec<u32>,
+        places: &mut [Vec<u32>],
+    ) -> Option<Labels<'_>> {
+        let mut labels = Labels::new(&self.follower, &self.geometry.blocks[number], vertices)?;
+        let mut chosen = Chosen::default();
+        for (part, places) in self.parts_of(number).zip(places) {
+            labels.keep_apart(part.triangles, places, &mut chosen, vertices);
+        }
+        Some(labels)
+    }
+
     fn parts_of(&self, block: usize) -> impl Iterator<Item = &Part<'a>> {
-        self.parts.iter().filter(move |part| part.submesh.block == block)
+        self.parts_of[block].iter().map(|part| &self.parts[*part])
     }
 
     /// The source vertices of a block in their order, then all others that its triangles use; each
@@ -121,6 +139,7 @@ impl<'a> Rewrite<'a> {
         &self,
         block: &Block,
         vertices: &[u32],
+        labels: Option<&Labels>,
         writer: &mut AccessorWriter,
     ) -> Result<Accessors> {
         let mut accessors = self.skin(block, vertices, writer)?;
@@ -129,9 +148,13 @@ impl<'a> Rewrite<'a> {
             if dropped || accessors.iter().any(|(name, _)| *name == attribute.name) {
                 continue;
             }
-            let stream = match is_carried_by_core(&attribute.name) {
-                true => self.core_stream(&attribute.name, attribute.stream.element, vertices)?,
-                false => self.follow(None, attribute, vertices),
+            let label = labels.and_then(|labels| labels.stream(&attribute.name));
+            let stream = match (label, is_carried_by_core(&attribute.name)) {
+                (Some(label), _) => label,
+                (None, true) => {
+                    self.core_stream(&attribute.name, attribute.stream.element, vertices)?
+                }
+                (None, false) => self.follow(None, attribute, vertices),
             };
             let accessor =
                 writer.write(Role::Successor(attribute.accessor), usage(attribute), &stream)?;
@@ -151,7 +174,7 @@ impl<'a> Rewrite<'a> {
         vertices: &[u32],
         writer: &mut AccessorWriter,
     ) -> Result<Accessors> {
-        let skin = skin::blend(&self.follower(), block, vertices);
+        let skin = skin::blend(&self.follower, block, vertices);
         let mut accessors = Vec::new();
         for (kind, streams) in [("JOINTS", &skin.joints), ("WEIGHTS", &skin.weights)] {
             for (set, stream) in streams.iter().enumerate() {
@@ -188,11 +211,7 @@ impl<'a> Rewrite<'a> {
     }
 
     fn follow(&self, target: Option<usize>, attribute: &Attribute, vertices: &[u32]) -> Stream {
-        self.follower().follow(target, &attribute.name, attribute.stream.element, vertices)
-    }
-
-    fn follower(&self) -> Follower<'_> {
-        Follower { geometry: self.geometry, sources: &self.chamfered.vertex_sources }
+        self.follower.follow(target, &attribute.name, attribute.stream.element, vertices)
     }
 
     /// A stream that the core chamfered. Colours are rounded to their old type; what is geometry
@@ -218,6 +237,25 @@ impl<'a> Rewrite<'a> {
         ensure!(stream.count() == vertices.len(), "the chamfered mesh has lost its {name}");
         Ok(stream)
     }
+}
+
+/// The submeshes of a chamfered mesh.
+fn parts<'a>(geometry: &'a MeshGeometry, chamfered: &'a Chamfered) -> Result<Vec<Part<'a>>> {
+    let mut rest = (&chamfered.mesh.indices[..], &chamfered.triangle_sources[..]);
+    let mut parts = Vec::new();
+    for (number, count) in chamfered.mesh.submesh_index_counts.iter().enumerate() {
+        let (corners, corners_after) = rest.0.split_at(*count as usize);
+        let (triangles, triangles_after) = rest.1.split_at(*count as usize / 3);
+        rest = (corners_after, triangles_after);
+        let is_further = number >= geometry.submeshes.len();
+        let submesh = geometry.submeshes.get(number).or(geometry.submeshes.last());
+        let submesh = submesh.context("the mesh had no triangles, but now it has")?;
+        // A primitive without triangles is more than glTF can say, and nothing to see.
+        if !(is_further && corners.is_empty()) {
+            parts.push(Part { submesh, is_further, corners, triangles });
+        }
+    }
+    Ok(parts)
 }
 
 impl Part<'_> {

@@ -21,7 +21,7 @@ pub struct Skin {
 }
 
 /// How many whole sets a block has.
-fn set_count(block: &Block) -> usize {
+pub fn set_count(block: &Block) -> usize {
     let has = |kind: &str, set: usize| block.attribute(&format!("{kind}_{set}")).is_some();
     (0..).take_while(|set| has("JOINTS", *set) && has("WEIGHTS", *set)).count()
 }
@@ -29,43 +29,55 @@ fn set_count(block: &Block) -> usize {
 /// The skin of some output vertices, in the types and with as many sets as the block has.
 pub fn blend(follower: &Follower, block: &Block, vertices: &[u32]) -> Skin {
     let sets = set_count(block);
-    let most = follower.geometry.blocks.iter().map(set_count).max().unwrap_or(0);
-    let streams: Vec<[SourceStreams; 2]> = (0..most)
-        .map(|set| {
-            ["JOINTS", "WEIGHTS"]
-                .map(|kind| follower.geometry.streams(None, &format!("{kind}_{set}")))
-        })
-        .collect();
+    let streams = Influences::new(follower);
     let weight_type = weight_type(block, sets);
     let mut influences = Vec::with_capacity(vertices.len() * sets * SET_SIZE);
     for vertex in vertices {
         let surface = &follower.sources.get(*vertex as usize).surface;
-        let own = single(surface).and_then(|source| as_stored(&streams, source, sets));
+        let own = single(surface).and_then(|source| streams.as_stored(source, sets));
         influences.extend(own.unwrap_or_else(|| {
-            let merged =
-                merge(parts(surface).map(|(v, weight)| (influences_of(&streams, v), weight)));
+            let merged = merge(parts(surface).map(|(v, weight)| (streams.of(v), weight)));
             strongest(merged, sets * SET_SIZE, weight_type.component)
         }));
     }
     spread(&influences, block, sets, weight_type)
 }
 
-/// The influences of a source vertex in their places, if they fill as many sets.
-fn as_stored(streams: &[[SourceStreams; 2]], vertex: usize, sets: usize) -> Option<Vec<Influence>> {
-    let influences = influences_of(streams, vertex);
-    (influences.len() == sets * SET_SIZE).then_some(influences)
+/// The influences of the source vertices.
+struct Influences<'a> {
+    follower: &'a Follower<'a>,
+    /// By set: the joints and the weights.
+    streams: Vec<[SourceStreams<'a>; 2]>,
 }
 
-fn influences_of(streams: &[[SourceStreams; 2]], vertex: usize) -> Vec<Influence> {
-    let mut influences = Vec::new();
-    for [joints, weights] in streams {
-        let (Some(joints), Some(weights)) = (joints.at(vertex), weights.at(vertex)) else {
-            continue;
+impl<'a> Influences<'a> {
+    fn new(follower: &'a Follower<'a>) -> Influences<'a> {
+        let most = follower.skin_sets.iter().copied().max().unwrap_or(0);
+        let streams = |set| {
+            ["JOINTS", "WEIGHTS"]
+                .map(|kind| follower.geometry.streams(None, &format!("{kind}_{set}")))
         };
-        influences
-            .extend(joints.iter().zip(weights).map(|(joint, weight)| (*joint as u32, *weight)));
+        Influences { follower, streams: (0..most).map(streams).collect() }
     }
-    influences
+
+    /// Those of a vertex in their places, if they fill as many sets.
+    fn as_stored(&self, vertex: usize, sets: usize) -> Option<Vec<Influence>> {
+        let influences = self.of(vertex);
+        (influences.len() == sets * SET_SIZE).then_some(influences)
+    }
+
+    fn of(&self, vertex: usize) -> Vec<Influence> {
+        let block = self.follower.geometry.origins[vertex].block as usize;
+        let mut influences = Vec::new();
+        for [joints, weights] in &self.streams[..self.follower.skin_sets[block]] {
+            let (Some(joints), Some(weights)) = (joints.at(vertex), weights.at(vertex)) else {
+                continue;
+            };
+            influences
+                .extend(joints.iter().zip(weights).map(|(joint, weight)| (*joint as u32, *weight)));
+        }
+        influences
+    }
 }
 
 fn merge(sources: impl Iterator<Item = (Vec<Influence>, f64)>) -> BTreeMap<u32, f64> {

@@ -15,7 +15,7 @@ use anyhow::{Context, Result};
 use chamfer::Chamfered;
 
 use crate::document::{
-    Document, Encoded, Format, NormalsRead, OutputFile, ReadOptions, SourceMesh,
+    Document, Encoded, Format, Look, Looks, NormalsRead, OutputFile, ReadOptions, SourceMesh,
 };
 use crate::glb;
 use crate::weld;
@@ -80,6 +80,10 @@ impl Document for ObjDocument {
         notes
     }
 
+    fn looks(&self) -> Looks {
+        self.known_looks()
+    }
+
     fn encode(&self, format: Format, output: &Path, chamfered: &[Chamfered]) -> Result<Encoded> {
         let result = chamfered.first().context("the mesh is missing")?;
         if format == Format::Glb {
@@ -98,6 +102,27 @@ impl Document for ObjDocument {
 }
 
 impl ObjDocument {
+    fn known_looks(&self) -> Looks {
+        let mut looks = Looks { meshes: vec![Vec::new()], ..Looks::default() };
+        // Without its library it looks like clay.
+        let (library, _) = materials::known(&self.obj, &self.folder).unwrap_or_default();
+        for name in self.obj.materials_of_runs() {
+            let known = library.iter().find(|known| Some(&known.name) == name.as_ref());
+            let Some(known) = known else {
+                looks.meshes[0].push(Look::default());
+                continue;
+            };
+            let [red, green, blue, _] = known.color;
+            let picture = known.texture.as_ref().map(|picture| {
+                looks.pictures.push(picture.bytes.clone());
+                looks.pictures.len() - 1
+            });
+            // OBJ counts the second texture coordinate from below.
+            looks.meshes[0].push(Look { color: [red, green, blue], picture, flips: true });
+        }
+        looks
+    }
+
     /// The file, and what it is without.
     fn to_glb(&self, result: &Chamfered) -> Result<(Vec<u8>, Vec<String>)> {
         let mut mesh = result.mesh.clone();

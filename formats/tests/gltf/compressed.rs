@@ -3,12 +3,12 @@
 use std::fs;
 use std::path::Path;
 
-use chamfer::{MeshBuffers, shapes};
-use chamfer_formats::{Document, encode};
+use chamfer::{MeshBuffers, Options, Width, chamfer, shapes};
+use chamfer_formats::{Document, Encoded, ReadOptions, compress, decode, encode, glb};
 use serde_json::{Value, json};
 
 use crate::draco::draco_bytes;
-use crate::support::{Model, all_grown, folder, json_of, read, unchanged};
+use crate::support::{Model, all_grown, folder, json_of, read, unchanged, write};
 
 /// A cube with normals and texture coordinates, as a model whose views are its streams.
 fn plain_cube() -> (Model, MeshBuffers) {
@@ -107,12 +107,14 @@ fn triangles(mesh: &MeshBuffers) -> Vec<[[f32; 8]; 3]> {
 fn comes_out_plain(name: &str, model: &Model, mesh: &MeshBuffers, extension: &str) {
     let document = model.read(name).unwrap();
     assert_eq!(triangles(&document.meshes()[0].mesh), triangles(mesh));
-    assert!(document.notes()[0].contains(extension), "{:?}", document.notes());
     for (chamfered, added) in [(unchanged(&document), 0), (all_grown(&document), 1)] {
         for ending in ["glb", "gltf"] {
             let output =
                 folder(&format!("{name}/{ending}{added}")).join("out").with_extension(ending);
-            let files = encode(&document, &output, &chamfered).unwrap().files;
+            let encoded = encode(&document, &output, &chamfered).unwrap();
+            let told = format!("it was compressed ({extension}), and is written without");
+            assert_eq!(encoded.notes, [told]);
+            let files = encoded.files;
             for file in &files {
                 fs::write(&file.path, &file.bytes).unwrap();
             }
@@ -249,4 +251,69 @@ fn read_or_refuse(path: &Path, model: &Model) {
         }
         Err(error) => assert!(!error.to_string().is_empty()),
     }
+}
+
+fn binary_length(glb: &[u8]) -> usize {
+    glb.len() - 28 - u32::from_le_bytes(glb[12..16].try_into().unwrap()) as usize
+}
+
+/// A field of cubes is compressed without loss: every stream and every index is as it was.
+#[test]
+fn what_is_compressed_here_is_read_again_bit_for_bit() {
+    let field = shapes::cube_field(200);
+    let plain = glb::encode("field", &field, &[], &[]).unwrap();
+    let document = decode(Path::new("field.glb"), plain, &ReadOptions::default()).unwrap();
+    let options = Options::default().with_width(Width::Units(0.1));
+    let chamfered = [chamfer(&document.meshes()[0].mesh.as_mesh(), &options).unwrap()];
+    for ending in ["glb", "gltf"] {
+        let output = folder(&format!("packed_{ending}")).join("out").with_extension(ending);
+        let mut encoded = encode(&*document, &output, &chamfered).unwrap();
+        let size = |encoded: &Encoded| encoded.files.iter().map(|f| f.bytes.len()).sum::<usize>();
+        let before = size(&encoded);
+        compress(&mut encoded).unwrap();
+        assert!(size(&encoded) * 2 < before, "{} of {before}", size(&encoded));
+        assert!(encoded.notes[0].starts_with("written with EXT_meshopt_compression: "));
+        let json = json_of(&encoded.files[0].bytes);
+        assert_eq!(json["extensionsRequired"], json!(["EXT_meshopt_compression"]));
+        let packed = &json["bufferViews"][0]["extensions"]["EXT_meshopt_compression"];
+        assert_eq!((packed.get("filter"), &packed["buffer"]), (None, &json!(0)));
+        assert_eq!(json["buffers"][1]["extensions"]["EXT_meshopt_compression"]["fallback"], true);
+        // Of version 0, as the extension wants it.
+        let bytes = &encoded.files[encoded.files.len() - 1].bytes;
+        let start = if ending == "glb" { bytes.len() - binary_length(bytes) } else { 0 };
+        assert_eq!(bytes[start + packed["byteOffset"].as_u64().unwrap() as usize], 0xA0);
+        write(&encoded.files);
+        let again = read(&output).unwrap();
+        let mesh = &again.meshes()[0].mesh;
+        assert_eq!(mesh.indices, chamfered[0].mesh.indices);
+        assert_eq!(mesh.positions, chamfered[0].mesh.positions);
+        assert_eq!(mesh.normals, chamfered[0].mesh.normals);
+        assert_eq!(mesh.uvs, chamfered[0].mesh.uvs);
+        let unchanged = unchanged(&again);
+        let mut twice = encode(&again, &output, &unchanged).unwrap();
+        compress(&mut twice).unwrap();
+        assert_eq!(twice.notes.len(), 1, "{:?}", twice.notes);
+    }
+}
+
+#[test]
+fn pictures_and_other_formats_are_not_compressed() {
+    let (mut model, _) = plain_cube();
+    let picture = vec![7; 4000];
+    let view = model.view(&picture);
+    model.json["images"] = json!([{"bufferView": view, "mimeType": "image/png"}]);
+    let document = model.read("packed_picture").unwrap();
+    let folder = folder("packed_picture");
+    let mut encoded = encode(&document, &folder.join("out.glb"), &all_grown(&document)).unwrap();
+    compress(&mut encoded).unwrap();
+    let json = json_of(&encoded.files[0].bytes);
+    let image = &json["bufferViews"][json["images"][0]["bufferView"].as_u64().unwrap() as usize];
+    assert_eq!((image.get("extensions"), &image["byteLength"]), (None, &json!(4000)));
+    let start =
+        28 + encoded.files[0].bytes[12..16].iter().rev().fold(0, |n, &b| n * 256 + b as usize);
+    let offset = start + image["byteOffset"].as_u64().unwrap() as usize;
+    assert_eq!(encoded.files[0].bytes[offset..offset + 4000], picture);
+
+    encoded.files[0].path.set_extension("obj");
+    assert!(compress(&mut encoded).unwrap_err().to_string().contains("only .glb and .gltf"));
 }

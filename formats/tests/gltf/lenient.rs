@@ -75,6 +75,8 @@ fn normals_without_a_direction_are_made_anew() {
     let (model, cube) = cube_without_normals(|_| true);
     let document = model.read("no_normals").unwrap();
     assert!(document.normals()[0].computed);
+    let told = "mesh mesh 0: 24 normals have no direction: they were made from the faces";
+    assert_eq!(document.notes(), [told]);
     assert_eq!(document.meshes()[0].mesh.normals, cube.normals);
     let written = model.grown("no_normals");
     let normals = written.floats("/meshes/0/primitives/0/attributes/NORMAL");
@@ -90,6 +92,7 @@ fn single_normals_without_a_direction_are_filled_in() {
     let toward_face: f32 = normal.iter().zip(cube.normals[5]).map(|(a, b)| a * b).sum();
     assert!(toward_face > 0.5, "{normal:?}");
     assert_eq!(document.normals()[0].repaired, [(5, [0.0; 3])]);
+    assert!(document.notes()[0].starts_with("mesh mesh 0: 1 normals have"));
 }
 
 //  1---3   4

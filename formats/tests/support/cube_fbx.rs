@@ -7,6 +7,9 @@ const FACES: [[i32; 4]; 6] =
 const NORMALS: [[i32; 3]; 6] =
     [[-1, 0, 0], [1, 0, 0], [0, -1, 0], [0, 1, 0], [0, 0, -1], [0, 0, 1]];
 
+/// Where the right bone stands, in centimetres.
+const RIGHT_BONE: [i32; 3] = [300, 100, 0];
+
 /// What belongs to what, by number; 0 is the scene.
 const LINKS: [(u32, u32); 18] = [
     (1, 2),
@@ -102,16 +105,18 @@ fn geometry() -> String {
 }
 
 fn models() -> String {
-    let placed =
-        "Properties70: { P: \"Lcl Translation\", \"Lcl Translation\", \"\", \"A\",0,500,0 }\n";
+    let placed = |[x, y, z]: [i32; 3]| {
+        let name = "\"Lcl Translation\"";
+        format!("Properties70: {{ P: {name}, {name}, \"\", \"A\",{x},{y},{z} }}\n")
+    };
     let color = "Properties70: { P: \"DiffuseColor\", \"Color\", \"\", \"A\",1,0,0 }\n";
     let bone = "TypeFlags: \"Skeleton\"\n";
     [
-        object("Model", 2, "Model::box", "Mesh", placed),
+        object("Model", 2, "Model::box", "Mesh", &placed([0, 500, 0])),
         object("Material", 3, "Material::red", "", color),
         object("Material", 4, "Material::lid", "", ""),
         object("Model", 5, "Model::left bone", "LimbNode", ""),
-        object("Model", 6, "Model::right bone", "LimbNode", ""),
+        object("Model", 6, "Model::right bone", "LimbNode", &placed(RIGHT_BONE)),
         object("NodeAttribute", 7, "NodeAttribute::", "LimbNode", bone),
         object("NodeAttribute", 8, "NodeAttribute::", "LimbNode", bone),
         object("Model", 15, "Model::eye", "Camera", ""),
@@ -124,14 +129,20 @@ fn skin() -> String {
     let cluster = |id: u32, name: &str, side: i32| {
         let own = (0..8).filter(|&n| corners()[n][0] == side).map(|n| n as i32);
         let own: Vec<i32> = own.collect();
-        let matrix = array("Transform", &[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]);
-        let link = matrix.replace("Transform", "TransformLink");
+        // Where the bone was when it was bound, and the cube as the bone saw it then.
+        let bone = if side > 0 { RIGHT_BONE } else { [0; 3] };
+        let matrix = matrix("Transform", [-bone[0], 500 - bone[1], -bone[2]]);
+        let link = self::matrix("TransformLink", bone);
         let weights = array("Weights", &vec![1; own.len()]);
         let body = [array("Indexes", &own), weights, matrix, link].concat();
         object("Deformer", id, &format!("SubDeformer::{name}"), "Cluster", &body)
     };
     let skin = object("Deformer", 9, "Deformer::skin", "Skin", "Link_DeformAcuracy: 50\n");
     [skin, cluster(10, "left", -1), cluster(11, "right", 1)].concat()
+}
+
+fn matrix(name: &str, [x, y, z]: [i32; 3]) -> String {
+    array(name, &[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, x, y, z, 1])
 }
 
 fn shapes() -> String {

@@ -1,0 +1,152 @@
+//! What is known of a finer mesh, from what is known of its source: only the pieces are new.
+
+use super::Refined;
+use crate::contacts::Contacts;
+use crate::edges::{Edges, HardEdge, seam_channels};
+use crate::faces::{Faces, own_normal};
+use crate::ids::{Cluster, Corner, Edge, Id, IdVec, Triangle};
+use crate::report::Reason;
+use crate::sectors::sectors;
+use crate::shape::Shape;
+use crate::topology::Topology;
+use crate::view::View;
+use crate::weld::Weld;
+
+/// The same as the stages would find on the finer mesh, but for the numbers of clusters and edges.
+/// None where two triangles share so much that it cannot be told which pieces belong together.
+pub fn shape(fine: &View, refined: &Refined, coarse: &Shape) -> Option<Shape> {
+    let weld = weld(refined, &coarse.weld);
+    let topology = topology(fine, refined, &coarse.topology, &weld)?;
+    let faces = faces(fine, refined, &coarse.faces);
+    let contacts = coarse.contacts.renamed(|border| refined.whole_side(border));
+    let edges = edges(fine, refined, (&topology, &faces, &contacts), &coarse.edges);
+    let sectors = sectors(fine, &topology, &edges, &contacts);
+    Some(Shape { weld, topology, faces, contacts, edges, sectors })
+}
+
+/// Each new site is a cluster.
+fn weld(refined: &Refined, coarse: &Weld) -> Weld {
+    let mut weld =
+        Weld { cluster_of: coarse.cluster_of.clone(), first_vertex: coarse.first_vertex.clone() };
+    for added in &refined.added {
+        let vertex = weld.cluster_of.push(Cluster::NONE);
+        let cluster = Cluster(coarse.first_vertex.len() as u32 + added.site);
+        weld.cluster_of[vertex] = cluster;
+        if cluster.index() == weld.first_vertex.len() {
+            weld.first_vertex.push(vertex);
+        }
+    }
+    weld
+}
+
+fn topology(fine: &View, refined: &Refined, coarse: &Topology, weld: &Weld) -> Option<Topology> {
+    let renamed = |half_edge: Corner| refined.whole_side(half_edge);
+    let mut all = Topology { clusters: weld.first_vertex.len(), ..coarse.renamed(&renamed) };
+    let cluster = |corner: Corner| weld.cluster_of[fine.vertex_at(corner)];
+    for _ in all.cluster_at.len()..fine.corner_count() {
+        all.cluster_at.push(Cluster::NONE);
+        all.twin.push(Corner::NONE);
+    }
+    let corners = || refined.pieces.iter().flat_map(|piece| piece.triangle.corners());
+    corners().for_each(|corner| all.cluster_at[corner] = cluster(corner));
+    let mut new: Vec<([Cluster; 2], Corner)> = Vec::new();
+    for corner in corners() {
+        match refined.whole_of(corner) {
+            Some(source) => {
+                let twin = coarse.twin[source];
+                let twin = if twin.is_some() { renamed(twin) } else { twin };
+                all.twin[corner] = twin;
+                if twin.is_some() {
+                    all.twin[twin] = corner;
+                }
+            }
+            None => {
+                let ends = [corner, corner.next()].map(|corner| all.cluster_at[corner]);
+                new.push(([ends[0].min(ends[1]), ends[0].max(ends[1])], corner));
+            }
+        }
+    }
+    // All others have a new vertex at an end, and so lie on nothing but their twins.
+    new.sort_unstable();
+    for pair in new.chunk_by(|one, other| one.0 == other.0) {
+        let &[(_, one), (_, other)] = pair else { return None };
+        (all.twin[one], all.twin[other]) = (other, one);
+    }
+    Some(all)
+}
+
+fn faces(fine: &View, refined: &Refined, coarse: &Faces) -> Faces {
+    let mut faces = Faces { normal: coarse.normal.clone(), lender: coarse.lender.clone() };
+    for piece in &refined.pieces {
+        let normal = own_normal(fine, piece.triangle);
+        if piece.triangle.index() < faces.normal.len() {
+            faces.normal[piece.triangle] = normal;
+        } else {
+            faces.normal.push(normal);
+            faces.lender.push(Corner::NONE);
+        }
+    }
+    let lenders = faces.lender.iter_mut().filter(|lender| lender.is_some());
+    lenders.for_each(|lender| *lender = refined.whole_side(*lender));
+    faces
+}
+
+/// The parts of an edge stand where it stood.
+fn edges(
+    fine: &View,
+    refined: &Refined,
+    (topology, faces, contacts): (&Topology, &Faces, &Contacts),
+    coarse: &Edges,
+) -> Edges {
+    let mut edges = Edges {
+        hard: IdVec::default(),
+        chamfered_at: IdVec::filled(Edge::NONE, fine.corner_count()),
+        // Lines are never cut.
+        spanned: coarse.spanned.clone(),
+    };
+    for edge in coarse.hard.iter() {
+        for side in refined.parts_of_side(edge.sides[0]) {
+            let sides = [side, topology.twin[side]];
+            let is_whole = refined.whole_of(side) == Some(edge.sides[0]);
+            let frees = edge.skipped == Some(Reason::Contact)
+                && !is_whole
+                && !contacts.holds(fine, topology, faces, side);
+            let skipped = if frees { None } else { edge.skipped };
+            let seams = if is_whole { edge.seams } else { seam_channels(fine, sides[0], sides[1]) };
+            let edge = edges.hard.push(HardEdge { sides, skipped, seams, widths: edge.widths });
+            if skipped.is_none() {
+                sides.iter().for_each(|&side| edges.chamfered_at[side] = edge);
+            }
+        }
+    }
+    edges
+}
+
+impl Refined {
+    /// The half-edge of the source that one of the finer mesh is, from end to end.
+    fn whole_of(&self, side: Corner) -> Option<Corner> {
+        let Some(piece) = self.piece(side.triangle()) else { return Some(side) };
+        let place = side.0 as usize % 3;
+        let is_own = piece.is_own_corner(place) && piece.is_own_corner((place + 1) % 3);
+        is_own.then(|| piece.source.corners()[place])
+    }
+
+    /// What a half-edge of the source that got no vertices is now.
+    fn whole_side(&self, side: Corner) -> Corner {
+        self.parts_of_side(side).next().unwrap_or(side)
+    }
+
+    /// The parts of a half-edge of the source, in its direction.
+    pub(super) fn parts_of_side(&self, side: Corner) -> impl Iterator<Item = Corner> + '_ {
+        let is_cut = self.is_cut(side.triangle());
+        let first = if is_cut { self.sides.partition_point(|part| part.source < side) } else { 0 };
+        let parts = if is_cut { &self.sides[first..] } else { &[] };
+        let parts = parts.iter().take_while(move |part| part.source == side);
+        parts.map(|part| part.fine).chain((!is_cut).then_some(side))
+    }
+
+    /// Whether a triangle of the source is in pieces.
+    fn is_cut(&self, triangle: Triangle) -> bool {
+        self.is_cut[triangle.index()]
+    }
+}
