@@ -2,8 +2,9 @@
 
 #[path = "corpus/measure.rs"]
 mod measure;
+#[path = "support/own_models.rs"]
+mod own_models;
 
-use std::io::Write;
 use std::path::Path;
 
 use chamfer::Verify;
@@ -13,21 +14,22 @@ use measure::{FOLDER, Measured, Sum, measure, models};
 /// Models, as the folder's own list has it.
 const MODELS: usize = 120;
 
-/// Chamfers all models by a width in percent of the extent; none, and loudly, without the folder.
-fn measured(percent: f32) -> Option<Vec<Measured>> {
-    let paths = models(Path::new(FOLDER));
-    if paths.is_empty() {
-        // Straight to the stream: what is printed is only shown for tests that fail.
-        let skipped = format!("SKIPPED: there are no models in {FOLDER}: nothing real was tried\n");
-        std::io::stderr().write_all(skipped.as_bytes()).unwrap();
-        return None;
-    }
-    assert_eq!(paths.len(), MODELS, "models in {FOLDER}");
+/// Chamfers all models by a width in percent of the extent: the real ones, or our own.
+fn measured(percent: f32) -> Vec<Measured> {
+    let real = Path::new(FOLDER);
+    let paths = if own_models::are_needed(real) {
+        let folder = format!("{}/own_models_{percent}", env!("CARGO_TARGET_TMPDIR"));
+        own_models::stand_in(Path::new(&folder), FOLDER)
+    } else {
+        let paths = models(real);
+        assert_eq!(paths.len(), MODELS, "models in {FOLDER}");
+        paths
+    };
     let meshes = |path: &std::path::PathBuf| {
         measure(path, percent, Verify::Full, |_, _| ())
             .unwrap_or_else(|error| panic!("{}: {error}", path.display()))
     };
-    Some(paths.iter().flat_map(meshes).collect())
+    paths.iter().flat_map(meshes).collect()
 }
 
 /// Passes if every model is sound.
@@ -48,7 +50,7 @@ fn assert_all_sound(meshes: &[Measured], percent: f32) {
 
 #[test]
 fn at_a_fifth_of_a_percent_all_are_sound_and_nearly_all_edges_chamfered() {
-    let Some(meshes) = measured(0.2) else { return };
+    let meshes = measured(0.2);
     assert_all_sound(&meshes, 0.2);
     let mut sum = Sum::default();
     sum.extend(&meshes);
@@ -57,16 +59,14 @@ fn at_a_fifth_of_a_percent_all_are_sound_and_nearly_all_edges_chamfered() {
 
 #[test]
 fn at_half_a_percent_all_are_sound() {
-    if let Some(meshes) = measured(0.5) {
-        assert_all_sound(&meshes, 0.5);
-    }
+    let meshes = measured(0.5);
+    assert_all_sound(&meshes, 0.5);
 }
 
 #[test]
 fn at_two_percent_all_are_sound() {
-    if let Some(meshes) = measured(2.0) {
-        assert_all_sound(&meshes, 2.0);
-    }
+    let meshes = measured(2.0);
+    assert_all_sound(&meshes, 2.0);
 }
 
 /// What `chamfer check` sees of two files, where nothing tells what came from what.

@@ -67,3 +67,42 @@ fn the_pipeline_page_has_a_section_for_each_stage() {
     }
     assert!(stages > 0, "no file in src is headed by its name");
 }
+
+/// The address of the project stands in Cargo.toml; the pages follow it.
+#[test]
+fn pages_name_the_address_of_the_project() {
+    let address = env!("CARGO_PKG_REPOSITORY");
+    for page in ["README.md", "python/README.md"] {
+        let path = Path::new(ROOT).join(page);
+        let text = fs::read_to_string(&path).unwrap();
+        let told = with_address(&text, address);
+        if std::env::var_os("CHAMFER_UPDATE_ADDRESS").is_some() {
+            fs::write(&path, &told).unwrap();
+        } else {
+            assert!(
+                told == text,
+                "{page} has another address: CHAMFER_UPDATE_ADDRESS=1 cargo test --test pages"
+            );
+        }
+    }
+}
+
+/// The page with this address in the place of all that end in /chamfer.
+fn with_address(page: &str, address: &str) -> String {
+    let mut parts = page.split("https://");
+    let first = parts.next().unwrap_or("").to_owned();
+    parts.fold(first, |told, part| {
+        let end = part.find(char::is_whitespace).unwrap_or(part.len());
+        match part[..end].split_once("/chamfer") {
+            Some((_, rest)) => told + address + rest + &part[end..],
+            None => told + "https://" + part,
+        }
+    })
+}
+
+#[test]
+fn an_address_is_found_where_it_stands() {
+    let page = "see https://example.org/x and https://a.org/b/chamfer.git#upm now";
+    let told = "see https://example.org/x and https://c.org/chamfer.git#upm now";
+    assert_eq!(with_address(page, "https://c.org/chamfer"), told);
+}

@@ -1,8 +1,10 @@
 //! The real models: unchanged, and with a triangle more in every primitive.
 
+#[path = "../../../tests/support/own_models.rs"]
+mod own_models;
+
 use std::fs;
-use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use chamfer::MeshBuffers;
 use chamfer_formats::{Document, encode};
@@ -13,13 +15,15 @@ use crate::support::{all_grown, folder, json_of, read, unchanged, write};
 /// The models live beside the repository and are no part of it.
 const CORPUS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared/corpus");
 
-fn corpus() -> Vec<PathBuf> {
-    let Ok(entries) = fs::read_dir(CORPUS) else {
-        // Not by eprintln, which the test runner keeps to itself.
-        let line = format!("SKIPPED: {CORPUS} is not there, so no real glTF model was tried\n");
-        std::io::stderr().write_all(line.as_bytes()).unwrap();
-        return Vec::new();
-    };
+/// The real models, or our own; each test has a folder for these.
+fn corpus(test: &str) -> Vec<PathBuf> {
+    let real = Path::new(CORPUS);
+    let own = folder(&format!("own_models_{test}"));
+    let is_own = own_models::are_needed(real);
+    if is_own {
+        own_models::stand_in(&own, CORPUS);
+    }
+    let entries = fs::read_dir(if is_own { &own } else { real }).unwrap();
     let is_gltf = |path: &PathBuf| path.extension().is_some_and(|e| e == "glb" || e == "gltf");
     let mut models: Vec<PathBuf> = entries.map(|e| e.unwrap().path()).filter(is_gltf).collect();
     models.sort();
@@ -29,7 +33,7 @@ fn corpus() -> Vec<PathBuf> {
 #[test]
 fn unchanged_real_models_go_out_byte_for_byte() {
     let out = folder("unchanged");
-    for model in corpus() {
+    for model in corpus("unchanged") {
         let document = read(&model).unwrap();
         let output = out.join(model.file_name().unwrap());
         let files = encode(&document, &output, &unchanged(&document)).unwrap().files;
@@ -42,7 +46,7 @@ fn unchanged_real_models_go_out_byte_for_byte() {
 #[test]
 fn changed_real_models_read_back_as_they_were_chamfered() {
     let out = folder("grown");
-    for model in corpus() {
+    for model in corpus("grown") {
         let document = read(&model).unwrap();
         let chamfered = all_grown(&document);
         let output = out.join(model.file_name().unwrap()).with_extension("glb");
@@ -63,7 +67,7 @@ fn corners(mesh: &MeshBuffers) -> Vec<[[f32; 3]; 2]> {
 
 #[test]
 fn changed_real_models_keep_all_but_their_geometry() {
-    for model in corpus() {
+    for model in corpus("kept") {
         let document = read(&model).unwrap();
         let output = folder("kept").join("model.gltf");
         let files = encode(&document, &output, &all_grown(&document)).unwrap().files;
