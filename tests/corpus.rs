@@ -5,7 +5,7 @@ mod measure;
 #[path = "support/own_models.rs"]
 mod own_models;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use chamfer::Verify;
 use chamfer::check::compare;
@@ -14,22 +14,25 @@ use measure::{FOLDER, Measured, Sum, measure, models};
 /// Models, as the folder's own list has it.
 const MODELS: usize = 120;
 
-/// Chamfers all models by a width in percent of the extent: the real ones, or our own.
-fn measured(percent: f32) -> Vec<Measured> {
+/// The real models, or our own where they are missing; each test has a folder for these.
+fn paths(test: &str) -> Vec<PathBuf> {
     let real = Path::new(FOLDER);
-    let paths = if own_models::are_needed(real) {
-        let folder = format!("{}/own_models_{percent}", env!("CARGO_TARGET_TMPDIR"));
-        own_models::stand_in(Path::new(&folder), FOLDER)
-    } else {
-        let paths = models(real);
-        assert_eq!(paths.len(), MODELS, "models in {FOLDER}");
-        paths
-    };
-    let meshes = |path: &std::path::PathBuf| {
+    if own_models::are_needed(real) {
+        let folder = format!("{}/own_models_{test}", env!("CARGO_TARGET_TMPDIR"));
+        return own_models::stand_in(Path::new(&folder), FOLDER);
+    }
+    let paths = models(real);
+    assert_eq!(paths.len(), MODELS, "models in {FOLDER}");
+    paths
+}
+
+/// Chamfers all models by a width in percent of the extent.
+fn measured(percent: f32) -> Vec<Measured> {
+    let meshes = |path: &PathBuf| {
         measure(path, percent, Verify::Full, |_, _| ())
             .unwrap_or_else(|error| panic!("{}: {error}", path.display()))
     };
-    paths.iter().flat_map(meshes).collect()
+    paths(&percent.to_string()).iter().flat_map(meshes).collect()
 }
 
 /// Passes if every model is sound.
@@ -72,7 +75,7 @@ fn at_two_percent_all_are_sound() {
 /// What `chamfer check` sees of two files, where nothing tells what came from what.
 #[test]
 fn all_are_sound_by_what_went_in_and_what_came_out_alone() {
-    for path in models(Path::new(FOLDER)) {
+    for path in paths("alone") {
         for percent in [0.5, 2.0] {
             let measured = measure(&path, percent, Verify::Full, |before, after| {
                 let found = compare(before, &after.mesh.as_mesh(), Verify::Full);
