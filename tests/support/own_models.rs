@@ -26,7 +26,7 @@ pub fn stand_in(folder: &Path, missing: &str) -> Vec<PathBuf> {
     let mut paths = Vec::new();
     for (name, mesh) in models() {
         let mut put = |ending: &str, bytes: Vec<u8>| {
-            let path = folder.join(format!("{name}.{ending}"));
+            let path = folder.join(format!("{name}_{ending}.{ending}"));
             fs::write(&path, bytes).unwrap();
             paths.push(path);
         };
