@@ -23,16 +23,19 @@ type Shown = (String, Vec<String>);
 /// Every command in the blocks `sh` and `console` of a page.
 fn commands(page: &str) -> Vec<Shown> {
     let mut shown: Vec<Shown> = Vec::new();
-    let mut block = "";
+    // What an example prints stands in a block without a command, which is of none before it.
+    let (mut block, mut first) = ("", 0);
     for line in page.lines() {
         match (line.strip_prefix("```"), block) {
-            (Some(language), "") => block = if language.is_empty() { "text" } else { language },
+            (Some(language), "") => {
+                block = if language.is_empty() { "text" } else { language };
+                first = shown.len();
+            }
             (Some(_), _) => block = "",
             (None, "sh") => shown.push((line.to_owned(), Vec::new())),
-            (None, "console") => match (line.strip_prefix("$ "), shown.last_mut()) {
+            (None, "console") => match (line.strip_prefix("$ "), shown[first..].last_mut()) {
                 (Some(command), _) => shown.push((command.to_owned(), Vec::new())),
                 (None, Some((_, printed))) => printed.push(line.to_owned()),
-                // What an example prints, whose command stands in the text.
                 (None, None) => {}
             },
             _ => {}
