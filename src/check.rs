@@ -49,7 +49,8 @@ pub fn check(before: &Mesh, after: &Chamfered, depth: Verify) -> Findings {
     verdicts::check_counts(before, after, &mut findings);
     if let Some(origins) = Origins::told(before, after, &mut findings) {
         check_geometry(&surfaces, &origins, depth, &mut findings);
-        verdicts::check_verdicts(&Ruler::new(&surfaces, &origins), after, &mut findings);
+        let ruler = Ruler::new(&surfaces, &origins).in_space_of(after);
+        verdicts::check_verdicts(&ruler, after, &mut findings);
     }
     findings
 }

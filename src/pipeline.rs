@@ -240,7 +240,8 @@ fn chamfer_shape(
     drop(offsets);
     let Shape { weld, .. } = shape;
     let output = output(space, &weld, &patches, &charts, attributes, options.chamfer_submesh);
-    Ok(Chamfered { verdicts, totals, largest_width, ..output })
+    let scale = space.scale.map(|_| options.scale);
+    Ok(Chamfered { verdicts, totals, largest_width, scale, ..output })
 }
 
 /// All that the output is put together from.

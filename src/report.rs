@@ -29,6 +29,8 @@ pub struct Chamfered {
     pub verdicts: Vec<EdgeVerdict>,
     /// The width asked for, in mesh units, or in those of [`Options::scale`](crate::Options::scale).
     pub width: f32,
+    /// [`Options::scale`](crate::Options::scale), where it was given: widths are those of that space.
+    pub scale: Option<[[f32; 3]; 3]>,
     /// The largest width asked for of any edge, with all factors, in mesh units: no vertex goes
     /// farther than three of these.
     pub largest_width: f32,

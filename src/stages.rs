@@ -8,7 +8,7 @@ use crate::edges::{Edges, edges};
 use crate::faces::{Faces, faces};
 use crate::ids::{IdVec, Sector};
 use crate::limits::{Limits, limits};
-use crate::mesh::MeshBuffers;
+use crate::mesh::{Mesh, MeshBuffers};
 use crate::offsets::{Offset, offsets};
 use crate::options::{Options, Verify, Width};
 use crate::patches::{Patches, patches};
@@ -43,8 +43,13 @@ pub fn stages_of(mesh: &MeshBuffers, width: f32) -> Stages<'_> {
 
 /// The stages of a sound mesh.
 pub fn stages_with<'a>(mesh: &'a MeshBuffers, options: &Options) -> Stages<'a> {
+    stages_of_mesh(mesh.as_mesh(), options)
+}
+
+/// The same with all that belongs to a mesh beside its streams.
+pub fn stages_of_mesh<'a>(mesh: Mesh<'a>, options: &Options) -> Stages<'a> {
     let threads = Threads::default();
-    let view = view(&mesh.as_mesh(), options).unwrap();
+    let view = view(&mesh, options).unwrap();
     let weld = weld(&view.mesh);
     let topology = topology(&view, &weld);
     let faces = faces(&view, &topology, &threads);

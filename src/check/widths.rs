@@ -1,11 +1,12 @@
 //! How wide chamfers are, measured on the mesh: how far the sides of each old edge were pulled.
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use super::origins::Origins;
 use super::rules::MeasuredEdge;
 use super::solids::Solids;
 use super::surface::{HalfEdge, Surface};
+use crate::report::Chamfered;
 
 /// The corners of a source mesh in the result.
 pub(super) struct Ruler<'a> {
@@ -13,12 +14,21 @@ pub(super) struct Ruler<'a> {
     after: &'a Surface<'a>,
     /// `#source corners`.
     corner_after: Vec<Option<u32>>,
+    /// To the space in which widths are measured.
+    to: DMat3,
 }
 
 impl<'a> Ruler<'a> {
     pub fn new([before, after]: &'a [Surface<'a>; 2], origins: &Origins) -> Self {
         let corner_after = origins.corners_after(before.mesh.indices.len());
-        Ruler { before, after, corner_after }
+        Ruler { before, after, corner_after, to: DMat3::IDENTITY }
+    }
+
+    /// The same in the space of [`Options::scale`](crate::Options::scale).
+    pub fn in_space_of(self, result: &Chamfered) -> Self {
+        let axes = result.scale.map(|axes| axes.map(|axis| DVec3::from(axis.map(f64::from))));
+        let to = axes.map_or(DMat3::IDENTITY, |[x, y, z]| DMat3::from_cols(x, y, z));
+        Ruler { to, ..self }
     }
 
     /// The hard edges, in the order of their first corners. Where more than two sides meet, as
@@ -43,7 +53,7 @@ impl<'a> Ruler<'a> {
     /// Measures an edge between two opposite half-edges of the source; none where one's triangle
     /// was not found.
     pub fn measure(&self, one: &HalfEdge, other: &HalfEdge) -> Option<MeasuredEdge> {
-        let ends = one.corners.map(|corner| self.before.position(corner));
+        let ends = one.corners.map(|corner| self.to * self.before.position(corner));
         let along = (ends[1] - ends[0]).normalize_or_zero();
         let distance = |point: DVec3| (point - ends[0]).cross(along).length() as f32;
         let mut measured = MeasuredEdge {
@@ -55,7 +65,7 @@ impl<'a> Ruler<'a> {
         for end in 0..2 {
             let corners = [one.corners[end], other.corners[1 - end]];
             let [a, b] = corners.map(|corner| self.corner_after[corner as usize]);
-            let points = [a?, b?].map(|corner| self.after.position(corner));
+            let points = [a?, b?].map(|corner| self.to * self.after.position(corner));
             measured.distances[end] = points.map(distance);
             measured.is_open[end] = points[0] != points[1];
         }
