@@ -57,6 +57,7 @@ namespace ChamferEditor
                 case EdgeReason.NoArea: return "a triangle beside has no area";
                 case EdgeReason.TooFine: return "the width is too small for the precision here";
                 case EdgeReason.Contact: return "something rests there, light would show behind a chamfer";
+                case EdgeReason.NotSelected: return "not selected";
                 default: return "no reason known";
             }
         }
