@@ -66,9 +66,8 @@ fn normals_are_one_below_the_hard_angle() {
         let length = leant.iter().map(|value| value * value).sum::<f32>().sqrt();
         normal.copy_from_slice(&leant.map(|value| value / length));
     }
-    let count = |hard_angle| {
-        verdicts(&cube.view(), &chamfer_options { hard_angle, ..options() }).len()
-    };
+    let count =
+        |hard_angle| verdicts(&cube.view(), &chamfer_options { hard_angle, ..options() }).len();
     assert_eq!([0.0, 1.0, 25.0, 35.0].map(count), [12, 12, 12, 0]);
 }
 
@@ -106,10 +105,15 @@ fn the_scale_stands_column_by_column() {
 
 #[test]
 fn each_submesh_has_a_factor() {
-    let (cube, factors) = (Cube::new(), [0.5, 0.0]);
+    let (cube, factors, none) = (Cube::new(), [0.5, 1.0], [0.0; 2]);
     let mesh = chamfer_mesh { submesh_factors: factors.as_ptr(), ..cube.view() };
-    // Between the first three faces, which are left, right and below, there are two edges.
-    assert_widths(&widths(&mesh, &fifth()), 2, 0.1);
+    // Between the last three faces, which are above, in front and behind, there are two edges.
+    let (half, whole): (Vec<f32>, _) =
+        widths(&mesh, &fifth()).into_iter().partition(|&width| width < 0.15);
+    assert_widths(&half, 10, 0.1);
+    assert_widths(&whole, 2, 0.2);
+    let mesh = chamfer_mesh { submesh_factors: none.as_ptr(), ..mesh };
+    assert_eq!(widths(&mesh, &fifth()).len(), 0);
 }
 
 #[test]
@@ -130,10 +134,11 @@ fn each_vertex_has_a_factor() {
 #[test]
 fn only_listed_edges_are_chamfered() {
     let cube = Cube::new();
-    let listed = [chamfer_edge_factor { vertices: [1, 0], factor: 2.0 }];
-    let mesh =
-        chamfer_mesh { edge_factor_count: 1, edge_factors: listed.as_ptr(), ..cube.view() };
-    assert_widths(&widths(&mesh, &fifth()), 1, 0.4);
+    // Around one face, in any direction.
+    let listed = [[0, 1], [1, 3], [2, 3], [2, 0]]
+        .map(|vertices| chamfer_edge_factor { vertices, factor: 2.0 });
+    let mesh = chamfer_mesh { edge_factor_count: 4, edge_factors: listed.as_ptr(), ..cube.view() };
+    assert_widths(&widths(&mesh, &fifth()), 4, 0.4);
     let result = run(&chamfer_mesh { edge_factor_count: 0, ..mesh }, &fifth());
     assert_eq!(mesh_of(&result).index_count, 3 * 44);
 }
