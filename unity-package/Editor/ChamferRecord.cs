@@ -38,7 +38,7 @@ namespace ChamferEditor
         {
             var record = CreateInstance<ChamferRecord>();
             record.name = "Chamfer Record";
-            record.settings = settings;
+            record.settings = settings.Copy();
             record.source = source;
             record.sourceKey = source != null ? MeshKeys.Of(source) : MeshKeys.Unknown;
             return record;

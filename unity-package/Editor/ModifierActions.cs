@@ -85,6 +85,7 @@ namespace ChamferEditor
                 sourceKey = MeshKeys.Of(result.Source),
                 report = result.Text,
                 placed = placed,
+                worldScale = slot.Holder.transform.lossyScale,
                 addedMaterials = MaterialSlots.Fill(slot, result.Source, result.Mesh, action)
             });
             SlotEditing.Changed(modifier);
