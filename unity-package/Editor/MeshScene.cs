@@ -56,6 +56,14 @@ namespace ChamferEditor
             return new MeshScene(mesh.name, new List<PlacedMesh> { new PlacedMesh(mesh, Matrix4x4.identity) });
         }
 
+        /// <summary>The source of a file, which stands nowhere any more, but is measured as it was.</summary>
+        internal static MeshScene Of(ChamferRecord record)
+        {
+            var one = new PlacedMesh(record.source, Matrix4x4.identity) { MaterialNames = record.materials };
+            if (record.worldScale.magnitude > 0) { one.WorldScale = record.worldScale; }
+            return new MeshScene(record.source.name, new List<PlacedMesh> { one });
+        }
+
         /// <summary>The same scene, of which only some meshes are chamfered.</summary>
         internal MeshScene Wanting(IEnumerable<Mesh> meshes)
         {
@@ -84,7 +92,7 @@ namespace ChamferEditor
                 foreach (float axis in new[] { scale.x, scale.y, scale.z }) { parts.Add(SettingsText.Number(axis)); }
             }
             if (!edges.HasMaterials) { return; }
-            var names = SceneArrays.NamesOf(one.Materials) ?? new string[0];
+            var names = one.MaterialNames ?? SceneArrays.NamesOf(one.Materials) ?? new string[0];
             parts.Add(names.Length.ToString());
             foreach (string name in names) { parts.Add(SettingsText.Number(edges.FactorOf(name))); }
         }

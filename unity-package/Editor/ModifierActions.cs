@@ -56,7 +56,7 @@ namespace ChamferEditor
                 AssetDatabase.CreateAsset(entry.chamfered, path);
                 // Undo would destroy the mesh, but not the file.
                 Undo.ClearUndo(entry.chamfered);
-                ChamferRecords.Write(entry.chamfered, ChamferRecord.Make(entry.original, entry.settings));
+                ChamferRecords.Write(entry.chamfered, ChamferRecord.Make(entry));
                 AssetDatabase.SaveAssetIfDirty(entry.chamfered);
                 paths.Add(path);
             }

@@ -34,6 +34,9 @@ namespace Chamfer
         /// </summary>
         public Material[] Materials { get; set; }
 
+        /// <summary>Those of <see cref="Materials"/>, where the materials themselves are not known.</summary>
+        internal string[] MaterialNames { get; set; }
+
         private static float Length(Matrix4x4 matrix, int first)
         {
             return new Vector3(matrix[first], matrix[first + 1], matrix[first + 2]).magnitude;

@@ -259,6 +259,7 @@ namespace Chamfer.Tests
             IsInset(0.05f, 0.2f, 0.2f, results[wide].Mesh);
             IsInset(0.1f, 0.2f, 0.2f, results[mirrored].Mesh);
             Check.Equal(4, results[plain].Report.Count(EdgeOutcome.Skipped, EdgeReason.Contact));
+            Check.Near(0.2f, Inset(results[plain].Mesh, p => p.x));
             Check.Near(0.2f, Inset(results[plain].Mesh, p => p.y));
             Check.Near(0.1f, 1 - results[open].Mesh.vertices.Max(p => p.x < 0.999f ? p.x : -1));
             Check.That(told.SequenceEqual(told.OrderBy(done => done)) && told.Last() == 1 && told.First() < 0.2f, "rises to 1");
@@ -354,6 +355,23 @@ namespace Chamfer.Tests
             IsInset(0.2f, 0.2f, 0.2f, Scene.MeshOf(stone));
         }
 
+        /// Its source has changed: the file is written anew, as wide as it was.
+        public static void Saved_files_keep_the_scale_and_the_materials()
+        {
+            var cube = Shapes.Cube();
+            AssetDatabase.paths[cube] = "Assets/Edges/Cube.asset";
+            var edges = Materials("Wood", 0.5f);
+            edges.worldWidth = true;
+            var modifier = Modifier(cube, Scale(2, 1, 1), edges);
+            var saved = Scene.MeshesIn(ModifierActions.Save(modifier, "Assets/Edges").Single()).Single();
+            UnityEngine.Object.DestroyImmediate(modifier);
+            cube.colors = cube.vertices.Select(p => new Color(1, 1, 1)).ToArray();
+            EditorUtility.SetDirty(cube);
+            ModifierMenu.RunInProject();
+            Check.That(saved.colors.Length > 0, "written anew");
+            IsInset(0.05f, 0.1f, 0.1f, saved);
+        }
+
         /// Structs that are copied share their lists.
         public static void A_list_that_changes_later_changes_nothing_that_was_made()
         {
@@ -384,6 +402,7 @@ namespace Chamfer.Tests
         {
             var modifier = Modifier(Shapes.Cube(), Scale(1, 1, 1), new EdgeSettings());
             EditorGUILayout.properties.Clear();
+            GUILayout.broken = false;
             new ModifierInspector { target = modifier, targets = new[] { modifier }, serializedObject = new SerializedObject(modifier) }.OnInspectorGUI();
             Check.Equal(1, EditorGUILayout.properties.Count(one => one == "settings.edges*"));
         }

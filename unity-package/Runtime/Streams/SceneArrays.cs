@@ -44,7 +44,7 @@ namespace Chamfer.Streams
                 Mesh = number,
                 Transform = item.Transform,
                 WorldScale = item.WorldScale,
-                Materials = NamesOf(item.Materials)
+                Materials = item.MaterialNames ?? NamesOf(item.Materials)
             });
         }
 
