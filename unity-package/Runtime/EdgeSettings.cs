@@ -88,7 +88,8 @@ namespace Chamfer
         {
             foreach (var one in materials ?? new MaterialFactor[0])
             {
-                if (one.material == material) { return one.factor; }
+                // A row that nobody has filled in yet is of no material, nor of one that is missing.
+                if (one.material == material && !string.IsNullOrEmpty(material)) { return one.factor; }
             }
             return 1;
         }

@@ -198,7 +198,7 @@ namespace Chamfer.Tests
             var half = MaterialWidths(Materials("Wood", 0.5f), "Wood");
             AllNear(0.1f, 10, half.Take(10));
             AllNear(0.2f, 2, half.Skip(10));
-            AllNear(0.2f, 12, MaterialWidths(Materials("Wood", 0f), null, "Stone"));
+            AllNear(0.2f, 12, MaterialWidths(Materials("", 0f), null, "Stone"));
             AllNear(0.2f, 12, Widths(TwoSubmeshes(), Materials("Wood", 0f)));
         }
 
