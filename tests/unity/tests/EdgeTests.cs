@@ -381,7 +381,10 @@ namespace Chamfer.Tests
             modifier.Preset = preset;
             ModifierActions.Chamfer(modifier);
             Check.That(!ModifierState.IsOutdated(modifier), "as it should be");
+            // A preview works on another thread meanwhile.
+            var effective = modifier.Effective;
             preset.Settings.edges.materials[0].factor = 9;
+            effective.edges.materials[0].factor = 9;
             Check.Equal(0.5f, preset.settings.edges.materials[0].factor);
             preset.settings.edges.materials[0].factor = 0.25f;
             Check.Equal(0.5f, modifier.meshes[0].settings.edges.materials[0].factor);
