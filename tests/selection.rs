@@ -2,6 +2,7 @@
 
 #[path = "support/prism.rs"]
 mod prism;
+#[allow(dead_code)] // Other tests use more of it.
 #[path = "support/random.rs"]
 mod random;
 #[path = "support/shaded.rs"]
