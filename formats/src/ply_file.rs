@@ -10,7 +10,7 @@ use ply_rs_bw::parser::{Parser, Reader};
 use ply_rs_bw::ply::{DefaultElement, Property};
 
 use crate::document::{
-    Document, Encoded, Format, NormalsRead, OutputFile, ReadOptions, SourceMesh,
+    Document, Encoded, Format, Normals, NormalsRead, OutputFile, ReadOptions, SourceMesh,
 };
 use crate::polygon::triangulate;
 use crate::{glb, weld};
@@ -54,8 +54,9 @@ pub fn decode(path: &Path, bytes: &[u8], options: &ReadOptions) -> Result<PlyDoc
         mesh.indices.extend(triangles.map(|corner| corners[corner]));
     }
     mesh.submesh_index_counts = vec![mesh.indices.len() as u32];
-    let normals = NormalsRead { computed: mesh.normals.is_empty(), ..NormalsRead::default() };
-    if mesh.normals.is_empty() {
+    let computed = mesh.normals.is_empty() || options.normals == Normals::Angle;
+    let normals = NormalsRead { computed, ..NormalsRead::default() };
+    if computed {
         split(&mut mesh, options.smoothing_angle);
     }
     let is_known = |name: &str| matches!(name, "vertex" | "face");

@@ -116,14 +116,19 @@ pub fn normals_read(geometry: &MeshGeometry, mesh: &MeshBuffers) -> NormalsRead 
     read
 }
 
-/// Says that normals of the file point nowhere; others were made.
-pub fn note(name: &str, geometry: &MeshGeometry, read: &NormalsRead) -> Option<String> {
+/// How many normals of blocks that have none with a direction.
+pub fn without_direction(geometry: &MeshGeometry) -> usize {
     let is_unread = |origin: &&Origin| {
         let block = &geometry.blocks[origin.block as usize];
         block.smoothed && block.attribute("NORMAL").is_some()
     };
+    geometry.origins.iter().filter(is_unread).count()
+}
+
+/// Says that normals of the file point nowhere; others were made.
+pub fn note(name: &str, without: usize, read: &NormalsRead) -> Option<String> {
     let filled = read.repaired.iter().filter(|(_, stored)| *stored == [0.0; 3]).count();
-    let count = filled + geometry.origins.iter().filter(is_unread).count();
+    let count = filled + without;
     (count > 0).then(|| {
         format!("mesh {name}: {count} normals have no direction: they were made from the faces")
     })

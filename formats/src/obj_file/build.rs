@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, HashMap};
 use anyhow::{Context, Result};
 use chamfer::{MeshBuffers, UvBuffer, split_by_angle};
 
-use crate::document::NormalsRead;
+use crate::document::{Normals, NormalsRead, ReadOptions};
 use crate::polygon::triangulate;
 
 use super::parse::{Corner, Item, Obj};
@@ -42,9 +42,9 @@ type Key = (u32, Option<[u32; 3]>, [u32; 3]);
 ///
 /// # Errors
 /// Where there are more triangles than 32-bit indices allow.
-pub fn build(obj: &Obj, smoothing_angle: f32) -> Result<Built> {
+pub fn build(obj: &Obj, options: &ReadOptions) -> Result<Built> {
     let Triangles { corners, counts, polygon_of, places } = triangles(obj)?;
-    let normals = normals(obj, &corners, &polygon_of, smoothing_angle);
+    let normals = normals(obj, &corners, &polygon_of, options);
     let mut builder = Builder::new(obj);
     for (corner, normal) in corners.iter().zip(normals) {
         builder.corner(corner, normal);
@@ -103,15 +103,18 @@ fn normals(
     obj: &Obj,
     corners: &[Corner],
     polygon_of: &[u32],
-    smoothing_angle: f32,
+    options: &ReadOptions,
 ) -> Vec<[f32; 3]> {
+    if options.normals == Normals::Angle {
+        return smoothed(obj, corners, options.smoothing_angle);
+    }
     let given = |corner: &Corner| unit(obj.normals[corner.normal? as usize]);
     if let Some(normals) = corners.iter().map(given).collect() {
         return normals;
     }
     let made = match obj.smoothing_groups.iter().any(|group| *group > 0) {
         true => grouped(obj, corners, polygon_of),
-        false => smoothed(obj, corners, smoothing_angle),
+        false => smoothed(obj, corners, options.smoothing_angle),
     };
     corners.iter().zip(made).map(|(corner, made)| given(corner).unwrap_or(made)).collect()
 }
@@ -260,7 +263,8 @@ mod tests {
     use crate::obj_file::parse::parse;
 
     fn built(text: &str) -> (MeshBuffers, Origin) {
-        let Built { mesh, origin, .. } = build(&parse(text.as_bytes()).unwrap(), 30.0).unwrap();
+        let Built { mesh, origin, .. } =
+            build(&parse(text.as_bytes()).unwrap(), &ReadOptions::default()).unwrap();
         (mesh, origin)
     }
 

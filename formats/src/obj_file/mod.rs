@@ -47,7 +47,7 @@ pub struct ObjDocument {
 pub fn decode(path: &Path, bytes: Vec<u8>, options: &ReadOptions) -> Result<ObjDocument> {
     let mut obj = parse::parse(&bytes)?;
     let welded = weld::weld(&mut obj.positions, options.weld);
-    let build::Built { mesh, origin, normals } = build::build(&obj, options.smoothing_angle)?;
+    let build::Built { mesh, origin, normals } = build::build(&obj, options)?;
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     Ok(ObjDocument {
         unchanged: mesh.indices.is_empty().then_some(bytes),
@@ -78,6 +78,10 @@ impl Document for ObjDocument {
             notes.push(format!("statements left out because nothing is known of them: {names}"));
         }
         notes
+    }
+
+    fn materials(&self) -> Vec<Vec<Option<String>>> {
+        vec![self.obj.materials_of_runs()]
     }
 
     fn looks(&self) -> Looks {
@@ -175,7 +179,8 @@ vn 0 0 1\nusemtl m\nf 1/1/1 2/2/1 3/1/1 4/2\nf 1 2 5\nf -1// -2/1 \\\n -3\nl 1 5
         let mut read = 0;
         for _ in 0..4000 {
             let Ok(obj) = parse::parse(&with_noise(&mut state)) else { continue };
-            let build::Built { mesh, origin, .. } = build::build(&obj, 30.0).unwrap();
+            let build::Built { mesh, origin, .. } =
+                build::build(&obj, &ReadOptions::default()).unwrap();
             let vertices = mesh.positions.len();
             assert_eq!(mesh.normals.len(), vertices);
             assert_eq!(mesh.uvs[0].values.len(), vertices * mesh.uvs[0].components as usize);
