@@ -145,11 +145,20 @@ fn pascal(name: &str) -> String {
 fn constants_are_those_of_the_header() {
     let settings = read("Runtime/ChamferSettings.cs");
     let verdict = read("Runtime/EdgeVerdict.cs");
+    let edges = read("Runtime/EdgeSettings.cs");
     let sources = [
         ("WIDTH_MESH_UNITS", &settings, "MeshUnits"),
         ("WIDTH_PERCENT", &settings, "PercentOfExtent"),
         ("VERIFY_FAST", &settings, "Fast"),
         ("VERIFY_FULL", &settings, "Full"),
+        ("VERIFY_SEEN", &settings, "Seen"),
+        ("WIDTH_OFFSET", &edges, "Offset"),
+        ("WIDTH_CHORD", &edges, "Chord"),
+        ("WIDTH_DEPTH", &edges, "Depth"),
+        ("WIDTH_RADIUS", &edges, "Radius"),
+        ("CONVEXITY_BOTH", &edges, "Both"),
+        ("CONVEXITY_CONVEX", &edges, "Convex"),
+        ("CONVEXITY_CONCAVE", &edges, "Concave"),
         ("SUBMESH_OWNER", &settings, "Owner"),
         ("SUBMESH_OWN", &settings, "Own"),
         ("SUBMESH_GIVEN", &settings, "Given"),

@@ -107,6 +107,10 @@ impl Memory {
             indices: mesh.indices.as_ptr(),
             held_count: 0,
             held: ptr::null(),
+            submesh_factors: ptr::null(),
+            vertex_factors: ptr::null(),
+            edge_factor_count: 0,
+            edge_factors: ptr::null(),
         }
     }
 

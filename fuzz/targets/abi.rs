@@ -13,6 +13,7 @@ use libfuzzer_sys::fuzz_target;
 struct Input {
     mesh: Spec,
     held: Vec<Held>,
+    factors: Factors,
     objects: Vec<Object>,
     pointers: Pointers,
     mesh_size: Size,
@@ -32,6 +33,7 @@ struct Pointers {
     streams: [Pointer; 6],
     uv: Pointer,
     held: Pointer,
+    factors: [Pointer; 3],
     meshes: Pointer,
     objects: Pointer,
 }
@@ -41,6 +43,16 @@ struct Pointers {
 struct Held {
     eighths: [i8; 7],
     any: Option<(u8, f32)>,
+}
+
+/// In eighths, with any number as one of the listed edges.
+#[derive(Arbitrary, Debug)]
+struct Factors {
+    submeshes: Option<[u8; 8]>,
+    /// Each vertex has one of these.
+    vertices: Option<[u8; 4]>,
+    edges: Vec<([u8; 2], u8)>,
+    any: Option<([u32; 2], f32)>,
 }
 
 /// Moved and scaled in eighths, with anything in one place of its transform.
@@ -57,6 +69,7 @@ const MOST_RESULTS: usize = 2;
 /// So that a scene does not take longer than a mesh.
 const MOST_HELD: usize = 8;
 const MOST_OBJECTS: usize = 4;
+const MOST_EDGES: usize = 64;
 
 fn raw_held(wish: &Held) -> chamfer_held {
     let mut values = wish.eighths.map(|eighths| f32::from(eighths) / 8.0);
@@ -65,6 +78,23 @@ fn raw_held(wish: &Held) -> chamfer_held {
     }
     let [a, b, c, d, e, f, radius] = values;
     chamfer_held { from: [a, b, c], to: [d, e, f], radius }
+}
+
+fn raw_edges(wish: &Factors) -> Vec<chamfer_edge_factor> {
+    let listed = wish.edges.iter().take(MOST_EDGES).map(|&(vertices, eighths)| {
+        chamfer_edge_factor { vertices: vertices.map(u32::from), factor: eighth(eighths) }
+    });
+    let any = wish.any.map(|(vertices, factor)| chamfer_edge_factor { vertices, factor });
+    listed.chain(any).collect()
+}
+
+fn eighth(count: u8) -> f32 {
+    f32::from(count) / 8.0
+}
+
+/// So many, one after the other and again from the first.
+fn repeated(eighths: &[u8], count: u32) -> Vec<f32> {
+    eighths.iter().copied().map(eighth).cycle().take(count as usize).collect()
 }
 
 fn raw_object(wish: &Object) -> chamfer_object {
@@ -113,10 +143,16 @@ enum Size {
 struct Options {
     width: f32,
     is_small: bool,
-    choices: [u8; 3],
+    choices: [u8; 5],
     submesh: u8,
     threads: u8,
     least_breadth: f32,
+    /// Least and largest in degrees, and the hard one.
+    angles: Option<[u8; 3]>,
+    any_angles: Option<[f32; 3]>,
+    /// In eighths.
+    scale: Option<[i8; 9]>,
+    any_scale: Option<(u8, f32)>,
 }
 
 #[derive(Arbitrary, Debug)]
@@ -199,6 +235,15 @@ fuzz_target!(|input: Input| {
     let held: Vec<_> = input.held.iter().take(MOST_HELD).map(raw_held).collect();
     mesh.held_count = held.len() as u32;
     mesh.held = wish.held.of(held.as_ptr());
+    let factors = &input.factors;
+    let submeshes = factors.submeshes.map(|eighths| repeated(&eighths, mesh.submesh_count));
+    let vertices = factors.vertices.map(|eighths| repeated(&eighths, mesh.vertex_count));
+    let edges = raw_edges(factors);
+    let start = |values: &Option<Vec<f32>>| values.as_ref().map_or(ptr::null(), Vec::as_ptr);
+    mesh.submesh_factors = wish.factors[0].of(start(&submeshes));
+    mesh.vertex_factors = wish.factors[1].of(start(&vertices));
+    mesh.edge_factor_count = edges.len() as u32;
+    mesh.edge_factors = wish.factors[2].of(edges.as_ptr());
     let mut mesh = Placed::new(&mesh, &input.mesh_size);
     let mesh = wish.mesh.of(mesh.pointer::<chamfer_mesh>().cast_const());
     let before = memory.hash();
@@ -255,7 +300,14 @@ fn split(input: &Input, mesh: *const chamfer_mesh) {
 }
 
 fn raw_options(wish: &Options) -> chamfer_options {
-    let [width_unit, verify, submesh_mode] = wish.choices.map(|choice| u32::from(choice % 4));
+    let [width_unit, verify, submesh_mode, width_mode, convexity] =
+        wish.choices.map(|choice| u32::from(choice % 5));
+    let degrees = wish.angles.map(|angles| angles.map(f32::from));
+    let [min_angle, max_angle, hard_angle] = wish.any_angles.or(degrees).unwrap_or_default();
+    let mut scale = wish.scale.map_or([0.0; 9], |axes| axes.map(|count| f32::from(count) / 8.0));
+    if let Some((place, value)) = wish.any_scale {
+        scale[usize::from(place) % 9] = value;
+    }
     chamfer_options {
         struct_size: 0,
         width: if wish.is_small { wish.width.abs() % 10.0 } else { wish.width },
@@ -265,6 +317,12 @@ fn raw_options(wish: &Options) -> chamfer_options {
         submesh: u32::from(wish.submesh % 4),
         threads: u32::from(wish.threads % 4),
         least_breadth: wish.least_breadth,
+        width_mode,
+        min_angle,
+        max_angle,
+        convexity,
+        hard_angle,
+        scale,
     }
 }
 

@@ -40,6 +40,8 @@ struct model {
 
 static struct model model;
 static chamfer_held held[2];
+static float submesh_factors[2], vertex_factors[VERTICES];
+static chamfer_edge_factor edge_factors[2];
 static chamfer_mesh mesh;
 static chamfer_options options;
 
@@ -70,6 +72,15 @@ static void reset(void) {
     }
     model.counts[0] = model.counts[1] = INDICES / 2;
     memset(held, 0, sizeof held);
+    submesh_factors[0] = submesh_factors[1] = 1.0f;
+    for (v = 0; v < VERTICES; ++v) {
+        vertex_factors[v] = 1.0f;
+    }
+    for (i = 0; i < 2; ++i) {
+        edge_factors[i].vertices[0] = (uint32_t)i;
+        edge_factors[i].vertices[1] = (uint32_t)i + 2;
+        edge_factors[i].factor = 1.0f;
+    }
 
     mesh.struct_size = sizeof mesh;
     CHECK(chamfer_mesh_init(&mesh) == CHAMFER_STATUS_OK);
@@ -90,6 +101,15 @@ static void reset(void) {
     mesh.held = held;
     options.struct_size = sizeof options;
     CHECK(chamfer_options_init(&options) == CHAMFER_STATUS_OK);
+}
+
+/* The same with factors of every kind. */
+static void reset_with_factors(void) {
+    reset();
+    mesh.submesh_factors = submesh_factors;
+    mesh.vertex_factors = vertex_factors;
+    mesh.edge_factor_count = 2;
+    mesh.edge_factors = edge_factors;
 }
 
 static chamfer_result *const garbage = (chamfer_result *)0x5A5A5A5A;
@@ -217,6 +237,9 @@ static void null_arrays(int32_t expected) {
     reset();
     mesh.held = NULL;
     both(expected);
+    reset_with_factors();
+    mesh.edge_factors = NULL;
+    both(expected);
     for (channel = 0; channel < CHANNELS; ++channel) {
         reset();
         mesh.uvs[channel].values = NULL;
@@ -230,6 +253,12 @@ static void null_of_nothing(int32_t expected) {
     run(expected, &empty, &options);
     split(expected, &empty, 30.0f);
     mesh.tangents = mesh.colors = NULL;
+    reset_with_factors();
+    mesh.edge_factor_count = 0;
+    mesh.edge_factors = NULL;
+    both(expected);
+    reset_with_factors();
+    mesh.submesh_factors = mesh.vertex_factors = NULL;
     both(expected);
 }
 
@@ -270,6 +299,15 @@ static void misaligned_arrays(int32_t expected) {
     both(expected);
     reset();
     mesh.held = (const chamfer_held *)(const void *)by_one;
+    both(expected);
+    reset_with_factors();
+    mesh.submesh_factors = floats;
+    both(expected);
+    reset_with_factors();
+    mesh.vertex_factors = floats;
+    both(expected);
+    reset_with_factors();
+    mesh.edge_factors = (const chamfer_edge_factor *)(const void *)by_one;
     both(expected);
     for (channel = 0; channel < CHANNELS; ++channel) {
         reset();
@@ -352,6 +390,16 @@ static void earlier_structs(int32_t expected) {
     mesh.held_count = 0xFFFFFFFF;
     mesh.held = (const chamfer_held *)(const void *)garbage;
     both(expected);
+    reset();
+    mesh.struct_size = offsetof(chamfer_mesh, submesh_factors);
+    mesh.submesh_factors = mesh.vertex_factors = (const float *)(const void *)garbage;
+    mesh.edge_factor_count = 0xFFFFFFFF;
+    both(expected);
+    reset();
+    options.struct_size = offsetof(chamfer_options, width_mode);
+    options.width_mode = options.convexity = 0xFFFFFFFF;
+    options.min_angle = options.max_angle = options.hard_angle = options.scale[4] = (float)NAN;
+    run(expected, &mesh, &options);
     memset(&error, 0x5A, sizeof error);
     error.struct_size = offsetof(chamfer_error, mesh);
     CHECK(chamfer_run(&mesh, NULL, NULL, NULL, &result, &error) == expected);
@@ -394,6 +442,12 @@ static void past_the_address_space(int32_t expected) {
     reset();
     mesh.held = (const chamfer_held *)near_the_end;
     both(expected);
+    reset();
+    mesh.vertex_factors = near_the_end;
+    both(expected);
+    reset_with_factors();
+    mesh.edge_factors = (const chamfer_edge_factor *)near_the_end;
+    both(expected);
 }
 
 static void unknown_choices(int32_t expected) {
@@ -414,6 +468,71 @@ static void wrong_breadths(int32_t expected) {
         options.least_breadth = wrong[i];
         run(expected, &mesh, &options);
     }
+}
+
+static void unknown_modes(int32_t expected) {
+    options.width_mode = 4;
+    run(expected, &mesh, &options);
+    reset();
+    options.convexity = 3;
+    run(expected, &mesh, &options);
+}
+
+static void wrong_ranges(int32_t expected) {
+    const float wrong[] = {-1e-30f, 180.001f, (float)NAN, (float)INFINITY, (float)-INFINITY};
+    size_t i;
+    for (i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
+        reset();
+        options.min_angle = wrong[i];
+        run(expected, &mesh, &options);
+        reset();
+        options.max_angle = wrong[i];
+        run(expected, &mesh, &options);
+        reset();
+        options.hard_angle = wrong[i];
+        run(expected, &mesh, &options);
+    }
+    reset();
+    options.hard_angle = 90.001f;
+    run(expected, &mesh, &options);
+    reset();
+    options.min_angle = 60.0f;
+    options.max_angle = 59.0f;
+    run(expected, &mesh, &options);
+}
+
+static void wrong_scales(int32_t expected) {
+    const float wrong[] = {0.0f, (float)NAN, (float)INFINITY};
+    size_t i;
+    for (i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
+        options.scale[4] = wrong[i];
+        run(expected, &mesh, &options);
+    }
+}
+
+static void wrong_factors(int32_t expected) {
+    const float wrong[] = {-1e-30f, (float)NAN, (float)INFINITY};
+    size_t i;
+    for (i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
+        reset_with_factors();
+        submesh_factors[1] = wrong[i];
+        run(expected, &mesh, &options);
+        reset_with_factors();
+        vertex_factors[VERTICES - 1] = wrong[i];
+        run(expected, &mesh, &options);
+        reset_with_factors();
+        edge_factors[1].factor = wrong[i];
+        run(expected, &mesh, &options);
+    }
+}
+
+static void edges_past_the_end(int32_t expected) {
+    reset_with_factors();
+    edge_factors[1].vertices[0] = VERTICES;
+    run(expected, &mesh, &options);
+    edge_factors[1].vertices[0] = 0;
+    edge_factors[0].vertices[1] = 0xFFFFFFFF;
+    run(expected, &mesh, &options);
 }
 
 static void wrong_widths(int32_t expected) {
@@ -779,8 +898,8 @@ static const struct row rows[] = {
     ROW("`mesh`, `out`, a getter's `result` or a place to write to is NULL", NULL_POINTER,
         null_structs),
     ROW("`options`, `progress`, `error` is NULL", OK, null_extras),
-    ROW("`positions`, `indices`, `submesh_index_counts`, `held`, or the values of a UV channel "
-        "with components, is NULL while its count is not 0",
+    ROW("`positions`, `indices`, `submesh_index_counts`, `held`, `edge_factors`, or the "
+        "values of a UV channel with components, is NULL while its count is not 0",
         NULL_POINTER, null_arrays),
     ROW("a NULL array whose count is 0, or a stream that may be absent", OK, null_of_nothing),
     ROW("`normals` is NULL", MISSING_NORMALS, no_normals),
@@ -799,6 +918,16 @@ static const struct row rows[] = {
     ROW("`width_unit`, `verify` or `submesh_mode` is none of its constants", BAD_OPTION,
         unknown_choices),
     ROW("`least_breadth` is negative, above 1 or NaN", BAD_OPTION, wrong_breadths),
+    ROW("`width_mode` or `convexity` is none of its constants", BAD_OPTION, unknown_modes),
+    ROW("`min_angle`, `max_angle` or `hard_angle` is out of its range, or the first above the "
+        "second",
+        BAD_OPTION, wrong_ranges),
+    ROW("`scale` is not finite, or flattens the mesh", BAD_OPTION, wrong_scales),
+    ROW("a factor of `submesh_factors`, `vertex_factors` or `edge_factors` is negative, infinite "
+        "or NaN",
+        BAD_FACTOR, wrong_factors),
+    ROW("an edge of `edge_factors` is of a vertex that does not exist", EDGE_RANGE,
+        edges_past_the_end),
     ROW("a negative, infinite or NaN width", BAD_WIDTH, wrong_widths),
     ROW("a width larger than the mesh, however large", OK, huge_widths),
     ROW("`CHAMFER_SUBMESH_GIVEN` with a submesh that the mesh lacks", SUBMESH_RANGE,

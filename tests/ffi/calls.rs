@@ -10,7 +10,7 @@ use crate::library::LIBRARY;
 use crate::types::*;
 
 /// A result that frees itself.
-struct Handle(*mut c_void);
+pub struct Handle(pub *mut c_void);
 
 impl Drop for Handle {
     fn drop(&mut self) {
@@ -19,7 +19,7 @@ impl Drop for Handle {
     }
 }
 
-fn run(mesh: &chamfer_mesh, options: &chamfer_options) -> Handle {
+pub fn run(mesh: &chamfer_mesh, options: &chamfer_options) -> Handle {
     let mut result = ptr::null_mut();
     // SAFETY: all pointers are valid or allowed to be NULL.
     let status = unsafe {
@@ -31,7 +31,7 @@ fn run(mesh: &chamfer_mesh, options: &chamfer_options) -> Handle {
     Handle(result)
 }
 
-fn mesh_of(result: &Handle) -> chamfer_mesh {
+pub fn mesh_of(result: &Handle) -> chamfer_mesh {
     let mut mesh = Cube::empty_view();
     // SAFETY: the result lives, and the struct states its size.
     let status = unsafe { (LIBRARY.chamfer_result_mesh)(result.0, &mut mesh) };
@@ -40,7 +40,7 @@ fn mesh_of(result: &Handle) -> chamfer_mesh {
 }
 
 /// Copies an array that one of the library's functions shows.
-fn array_of<T: Copy>(
+pub fn array_of<T: Copy>(
     result: &Handle,
     function: unsafe extern "C" fn(*const c_void, *mut *const T, *mut u32) -> i32,
 ) -> Vec<T> {
@@ -54,7 +54,7 @@ fn array_of<T: Copy>(
 
 /// # Safety
 /// The array has that many elements, or is NULL and has none.
-unsafe fn slice_or_empty<'a, T>(array: *const T, count: usize) -> &'a [T] {
+pub unsafe fn slice_or_empty<'a, T>(array: *const T, count: usize) -> &'a [T] {
     assert_eq!(array.is_null(), count == 0);
     // SAFETY: as this function's.
     if count == 0 { &[] } else { unsafe { slice::from_raw_parts(array, count) } }

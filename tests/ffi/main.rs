@@ -14,3 +14,4 @@ mod misuse;
 #[cfg(unix)]
 mod programs;
 mod scene;
+mod selection;

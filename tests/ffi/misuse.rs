@@ -16,10 +16,10 @@ const GARBAGE: *mut c_void = ptr::without_provenance_mut(0x5A5A);
 
 /// What a failed call told.
 #[derive(Debug)]
-struct Told {
-    status: i32,
-    element: u32,
-    message: String,
+pub struct Told {
+    pub status: i32,
+    pub element: u32,
+    pub message: String,
 }
 
 fn empty_error() -> chamfer_error {
@@ -42,7 +42,7 @@ fn fail(call: impl FnOnce(*mut *mut c_void, *mut chamfer_error) -> i32) -> Told 
     Told { status, element: error.element, message }
 }
 
-fn fail_run(mesh: *const chamfer_mesh, options: *const chamfer_options) -> Told {
+pub fn fail_run(mesh: *const chamfer_mesh, options: *const chamfer_options) -> Told {
     // SAFETY: what the tests get wrong is what the library checks.
     fail(|out, error| unsafe {
         (LIBRARY.chamfer_run)(mesh, options, None, ptr::null_mut(), out, error)

@@ -5,6 +5,7 @@ import ctypes
 from chamfer import _library
 
 RECORDS = {
+    "edge_factor": _library.EDGE_FACTOR,
     "edge_verdict": _library.VERDICT,
     "vertex_source": _library.VERTEX_SOURCE,
     "blend": _library.VERTEX_SOURCE["surface"],

@@ -13,5 +13,9 @@ def uses(positions: list[list[float]], triangles: np.ndarray[tuple[int, int], np
     chamfer.chamfer(mesh, widht=0.5)  # type: ignore[call-arg]
     chamfer.chamfer(mesh, verify="fully")  # type: ignore[arg-type]
     chamfer.chamfer(mesh, submesh=1, threads=0)
+    chamfer.chamfer(mesh, width_mode="chord", convexity="convex", min_angle=5, scale=np.eye(3))
+    chamfer.chamfer(mesh, width_mode="cord")  # type: ignore[arg-type]
+    chamfer.chamfer(mesh, max_angle="90")  # type: ignore[arg-type]
+    chamfer.Mesh(positions, None, [triangles], submesh_factors=[1], vertex_factors=[1], edges=[(0, 1, 0.5)])
     [again] = chamfer.chamfer_scene([result.mesh], [(0, np.eye(4))], verify="seen")
     return again.totals.mean_width

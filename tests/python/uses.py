@@ -158,6 +158,74 @@ says(ValueError, "objects[0] is of mesh -1", lambda: chamfer.chamfer_scene([roof
 one = roof(submeshes=np.array(submeshes).reshape(-1, 3))
 assert chamfer.chamfer(one).totals.hard_edges == 1 and len(one.submeshes) == 1
 
+# A chord at the right angle of the ridge is longer than the offset, by the root of two.
+def width(mesh=None, **options):
+    [verdict] = chamfer.chamfer(mesh or roof(), width=0.1, width_unit="mesh", **options).verdicts
+    return verdict["widths"].tolist() if verdict["outcome"] < 2 else chamfer.reason_name(verdict["reason"])
+
+
+def near(found, *wanted):
+    assert np.allclose(found, wanted, atol=1e-6), found
+
+
+near(width(width_mode="offset"), 0.1, 0.1)
+near(width(width_mode="chord"), 0.1 / 2**0.5, 0.1 / 2**0.5)
+near(width(width_mode="depth"), 0.1 * 2**0.5, 0.1 * 2**0.5)
+near(width(width_mode="radius"), 0.1, 0.1)
+near(width(min_angle=89, max_angle=91, convexity="convex"), 0.1, 0.1)
+assert width(min_angle=91) == width(max_angle=89) == width(max_angle=0) == "not_selected"
+assert width(convexity="concave") == "not_selected"
+assert chamfer.chamfer(roof(), hard_angle=89).totals.hard_edges == 1
+blunt = [left + [0, 2, 0]] * 4 + [right + [0, 2, 0]] * 4
+blunt /= np.linalg.norm(blunt, axis=1)[:, None]  # They differ by 30 degrees.
+assert chamfer.chamfer(roof(normals=blunt), hard_angle=25).totals.hard_edges == 1
+assert chamfer.chamfer(roof(normals=blunt), hard_angle=35).totals.hard_edges == 0
+
+# Twice as large in the scene, so half as wide in the mesh; and the matrix is multiplied from the left.
+ridge_x = lambda scale: np.abs(chamfer.chamfer(roof(), width=0.1, width_unit="mesh", scale=scale).mesh.positions[:, 0]).min()
+assert np.isclose(ridge_x(np.eye(3) * 2), 0.05 / 2**0.5)
+sheared, across = np.eye(3), np.eye(3)
+sheared[2, 0], across[0, 2] = 1, 1  # x leans along the ridge: the ridge stays, and what is across it.
+assert np.isclose(ridge_x(sheared), 0.1 / 2**0.5) and not np.isclose(ridge_x(across), 0.1 / 2**0.5)
+
+# Factors: of submeshes the smaller counts, of vertices the mean at each end.
+near(width(roof(submesh_factors=[0.5, 2])), 0.05, 0.05)
+assert width(roof(submesh_factors=[1, 0])) == "not_selected"
+near(width(roof(vertex_factors=[1, 1, 0.5, 1, 1, 0.5, 1, 1])), 0.05, 0.1)  # vertices 2 and 3
+near(width(roof(edges=[(5, 3, 0.5)])), 0.05, 0.05)
+near(width(roof(edges=np.array([[3, 2], [0, 1]]))), 0.1, 0.1)
+assert width(roof(edges=[(0, 1)])) == width(roof(edges=[])) == width(roof(edges=np.empty((0, 2)))) == "not_selected"
+assert chamfer.chamfer(roof(edges=[])).mesh.edges is None
+[flat_half, sharp] = chamfer.chamfer_scene([roof(submesh_factors=[0, 0]), roof()], [])
+assert (flat_half.totals.chamfered, sharp.totals.chamfered) == (0, 1)
+
+says(ValueError, "'cord': did you mean 'chord'?", lambda: width(width_mode="cord"))
+says(ValueError, "convexity cannot be 'in'", lambda: width(convexity="in"))
+says(TypeError, "convexity is one of both, convex, concave, not 1", lambda: width(convexity=1))
+says(ValueError, "min_angle is -1: give degrees from 0 to 180", lambda: width(min_angle=-1))
+says(ValueError, "max_angle is 181: give degrees from 0 to 180", lambda: width(max_angle=181))
+says(ValueError, "max_angle is nan: give degrees", lambda: width(max_angle=float("nan")))
+says(ValueError, "hard_angle is 0: give degrees above 0, up to 90", lambda: width(hard_angle=0))
+says(ValueError, "hard_angle is 91: give degrees above 0, up to 90", lambda: width(hard_angle=91))
+says(ValueError, "min_angle is 60, larger than max_angle, 30", lambda: width(max_angle=30, min_angle=60))
+says(TypeError, "min_angle is a number, not '9'", lambda: width(min_angle="9"))
+says(ValueError, "scale has the shape (4, 4): it is 3 by 3", lambda: width(scale=np.eye(4)))
+says(ValueError, "scale is all zeros", lambda: width(scale=np.zeros((3, 3))))
+says(ValueError, "scale flattens the mesh", lambda: width(scale=np.diag([1, 0, 1])))
+says(ValueError, "give finite numbers", lambda: width(scale=np.diag([1, np.inf, 1])))
+says(TypeError, "scale has values of type <U", lambda: width(scale=[["a"] * 3] * 3))
+refused(ValueError, "submesh_factors has the shape (3,): it is one factor for each submesh, (2,)", submesh_factors=[1, 1, 1])
+refused(ValueError, "submesh_factors[1] has the factor -0.5: give finite ones of at least 0", submesh_factors=[1, -0.5])
+refused(ValueError, "vertex_factors has the shape (7,): it is one factor for each vertex, (8,)", vertex_factors=[1] * 7)
+refused(ValueError, "vertex_factors[2] has the factor nan", vertex_factors=[1, 1, np.nan] + [1] * 5)
+refused(TypeError, "vertex_factors has values of type bool", vertex_factors=[True] * 8)
+refused(ValueError, "edges has the shape (1, 4): it is edges by 2, or by 3 with a factor each", edges=[[0, 1, 2, 3]])
+refused(ValueError, "edges[1]: there is no vertex 8 among 8", edges=[[0, 1], [2, 8]])
+refused(ValueError, "edges[0]: there is no vertex -1 among 8", edges=[[-1, 1]])
+refused(ValueError, "edges[0]: there is no vertex 0.5 among 8", edges=[[0.5, 1, 1]])
+refused(ValueError, "edges[0] has the factor inf", edges=[[0, 1, np.inf]])
+says(TypeError, "'vertex_factor': did you mean 'vertex_factors'?", lambda: roof(vertex_factor=[1] * 8))
+
 # Arrays of other types and layouts are copied, and never written.
 given = np.asfortranarray(positions.astype(np.float64))
 before = given.copy()

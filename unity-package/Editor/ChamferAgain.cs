@@ -66,7 +66,7 @@ namespace ChamferEditor
             var record = ChamferRecords.Of(mesh);
             if (record == null || record.source == null || record.sourceKey == MeshKeys.Of(record.source)) { return true; }
             var job = new ChamferJob();
-            if (!job.Run(new[] { MeshScene.Of(record.source) }, record.settings)) { return false; }
+            if (!job.Run(new[] { MeshScene.Of(record) }, record.settings)) { return false; }
             foreach (var result in job.Results.Values) { step.Rewrite(result, mesh); }
             summary.Add(job);
             return true;

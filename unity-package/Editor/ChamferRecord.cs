@@ -1,4 +1,5 @@
 using Chamfer;
+using Chamfer.Streams;
 using UnityEngine;
 
 namespace ChamferEditor
@@ -24,6 +25,12 @@ namespace ChamferEditor
         /// <summary>The prefab whose stage the mesh was made in, as its GUID; empty where there are others, too.</summary>
         [SerializeField] internal string owner = "";
 
+        /// <summary>How the source was scaled in the world; zeros if that is not known.</summary>
+        [SerializeField] internal Vector3 worldScale;
+
+        /// <summary>The names of its materials, where the settings know some.</summary>
+        [SerializeField] internal string[] materials = new string[0];
+
         /// <summary>In a model: what came of it, in words.</summary>
         [SerializeField] internal string report;
 
@@ -38,9 +45,20 @@ namespace ChamferEditor
         {
             var record = CreateInstance<ChamferRecord>();
             record.name = "Chamfer Record";
-            record.settings = settings;
+            record.settings = settings.Copy();
             record.source = source;
             record.sourceKey = source != null ? MeshKeys.Of(source) : MeshKeys.Unknown;
+            return record;
+        }
+
+        /// <summary>Of a mesh that was chamfered where it stands, so that it can be chamfered again without that.</summary>
+        internal static ChamferRecord Make(ChamferedMesh entry)
+        {
+            var record = Make(entry.original, entry.settings);
+            record.worldScale = entry.worldScale;
+            var renderer = entry.holder != null ? MeshSlot.Of(entry.holder).Renderer : null;
+            bool hasMaterials = renderer != null && entry.settings.edges.HasMaterials;
+            if (hasMaterials) { record.materials = SceneArrays.NamesOf(renderer.sharedMaterials); }
             return record;
         }
     }

@@ -10,7 +10,7 @@ namespace ChamferEditor
     public static class ChamferTools
     {
         /// <summary>The settings of Project Settings > Chamfer.</summary>
-        public static ChamferSettings ProjectSettings => ChamferProjectSettings.instance.settings;
+        public static ChamferSettings ProjectSettings => ChamferProjectSettings.instance.settings.Copy();
 
         /// <summary>
         /// Chamfers objects, prefabs and mesh assets, as Tools > Chamfer Selected does: objects get a modifier, mesh

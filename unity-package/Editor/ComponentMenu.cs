@@ -20,7 +20,7 @@ namespace ChamferEditor
             if (modifier == null)
             {
                 modifier = Undo.AddComponent<ChamferModifier>(holder.gameObject);
-                modifier.settings = ChamferProjectSettings.instance.settings;
+                modifier.settings = ChamferProjectSettings.instance.settings.Copy();
                 modifier.LeaveOutOfBuilds();
             }
             foreach (string failure in ModifierActions.Chamfer(modifier)) { Debug.LogWarning(failure, holder); }

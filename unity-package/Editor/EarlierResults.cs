@@ -26,7 +26,7 @@ namespace ChamferEditor
         {
             var record = ChamferRecords.Of(earlier);
             string now = MeshKeys.Of(result.Source);
-            return now != MeshKeys.Unknown && record.sourceKey == now && record.settings.Equals(result.Settings);
+            return now != MeshKeys.Unknown && record.sourceKey == now && SettingsText.Of(record.settings) == SettingsText.Of(result.Settings);
         }
 
         /// <summary>By source; of several, the first by name.</summary>

@@ -20,7 +20,7 @@ namespace ChamferEditor
             output = result.Output;
             output.Mesh.Name = result.Mesh.name + Suffix;
             Source = result.Mesh;
-            Settings = settings;
+            Settings = settings.Copy();
             Key = key;
             Text = ReportText.Of(result.Output.Report);
             // A preview keeps them only if somebody looks at them.
@@ -33,7 +33,7 @@ namespace ChamferEditor
         {
             Source = shared.original;
             Mesh = shared.chamfered;
-            Settings = shared.settings;
+            Settings = shared.settings.Copy();
             Key = shared.key;
             Text = shared.report;
         }

@@ -32,7 +32,8 @@ namespace ChamferEditor
         {
             if (entry.settings.unit == WidthUnit.PercentOfExtent) { return entry.settings.width / 100; }
             var size = entry.original.bounds.size;
-            float side = Mathf.Max(size.x, Mathf.Max(size.y, size.z));
+            var scale = entry.settings.edges.worldWidth ? entry.worldScale : new Vector3(1, 1, 1);
+            float side = Mathf.Max(size.x * Mathf.Abs(scale.x), Mathf.Max(size.y * Mathf.Abs(scale.y), size.z * Mathf.Abs(scale.z)));
             return side > 0 ? entry.settings.width / side : 1;
         }
     }

@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using Chamfer;
+using Chamfer.Streams;
 using UnityEngine;
 
 namespace ChamferEditor
@@ -35,14 +36,32 @@ namespace ChamferEditor
         internal static MeshScene Of(Transform root, IEnumerable<MeshSlot> slots, Func<MeshSlot, Mesh> meshOf)
         {
             var objects = new List<PlacedMesh>();
-            foreach (var slot in slots) { objects.Add(new PlacedMesh(meshOf(slot), Place(root, slot.Holder))); }
+            foreach (var slot in slots) { objects.Add(ObjectOf(root, slot, meshOf(slot))); }
             return new MeshScene(root.name, objects);
+        }
+
+        private static PlacedMesh ObjectOf(Transform root, MeshSlot slot, Mesh mesh)
+        {
+            var renderer = slot.Renderer;
+            return new PlacedMesh(mesh, Place(root, slot.Holder))
+            {
+                WorldScale = slot.Holder.transform.lossyScale,
+                Materials = renderer != null ? renderer.sharedMaterials : null
+            };
         }
 
         /// <summary>A mesh that stands nowhere.</summary>
         internal static MeshScene Of(Mesh mesh)
         {
             return new MeshScene(mesh.name, new List<PlacedMesh> { new PlacedMesh(mesh, Matrix4x4.identity) });
+        }
+
+        /// <summary>The source of a file, which stands nowhere any more, but is measured as it was.</summary>
+        internal static MeshScene Of(ChamferRecord record)
+        {
+            var one = new PlacedMesh(record.source, Matrix4x4.identity) { MaterialNames = record.materials };
+            if (record.worldScale.magnitude > 0) { one.WorldScale = record.worldScale; }
+            return new MeshScene(record.source.name, new List<PlacedMesh> { one });
         }
 
         /// <summary>The same scene, of which only some meshes are chamfered.</summary>
@@ -59,7 +78,23 @@ namespace ChamferEditor
         internal string KeyOf(Mesh mesh, ChamferSettings settings)
         {
             if (surroundings == null) { surroundings = Surroundings(); }
-            return MeshKeys.Join(MeshKeys.Of(mesh), SettingsText.Of(settings), surroundings);
+            var parts = new List<string> { MeshKeys.Of(mesh), SettingsText.Of(settings), surroundings };
+            foreach (var one in Objects) { AddMeasures(parts, one, settings.edges); }
+            return MeshKeys.Join(parts.ToArray());
+        }
+
+        /// <summary>Adds what the settings take from an object: nothing, unless they ask for it.</summary>
+        private static void AddMeasures(List<string> parts, PlacedMesh one, EdgeSettings edges)
+        {
+            if (edges.worldWidth)
+            {
+                var scale = one.WorldScale;
+                foreach (float axis in new[] { scale.x, scale.y, scale.z }) { parts.Add(SettingsText.Number(axis)); }
+            }
+            if (!edges.HasMaterials) { return; }
+            var names = one.MaterialNames ?? SceneArrays.NamesOf(one.Materials) ?? new string[0];
+            parts.Add(names.Length.ToString());
+            foreach (string name in names) { parts.Add(SettingsText.Number(edges.FactorOf(name))); }
         }
 
         /// <summary>A mesh that stands alone is the same wherever it stands.</summary>

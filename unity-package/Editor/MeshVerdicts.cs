@@ -10,8 +10,8 @@ namespace ChamferEditor
     internal sealed class MeshVerdicts
     {
         private readonly Vector3[] positions;
-        private readonly int[][] ends = new int[ChamferReport.OutcomeSlots][];
-        private readonly Vector3[][] segments = new Vector3[ChamferReport.OutcomeSlots][];
+        private readonly Dictionary<EdgeMark, int[]> ends = new Dictionary<EdgeMark, int[]>();
+        private readonly Dictionary<EdgeMark, Vector3[]> segments = new Dictionary<EdgeMark, Vector3[]>();
 
         /// <param name="source">What the edges are of; it need not be readable any more.</param>
         /// <param name="report">About the source's edges.</param>
@@ -32,25 +32,41 @@ namespace ChamferEditor
         /// <summary>The source's bone weights; null if it has none.</summary>
         internal Skin Skin { get; }
 
-        /// <summary>Two points for each edge with that outcome.</summary>
-        internal Vector3[] Segments(EdgeOutcome outcome)
+        /// <summary>Two points for each edge with that mark.</summary>
+        internal Vector3[] Segments(EdgeMark mark)
         {
-            int slot = (int)outcome;
-            return segments[slot] ?? (segments[slot] = Array.ConvertAll(Ends(outcome), vertex => positions[vertex]));
+            Vector3[] found;
+            if (!segments.TryGetValue(mark, out found))
+            {
+                segments[mark] = found = Array.ConvertAll(Ends(mark), vertex => positions[vertex]);
+            }
+            return found;
         }
 
         /// <summary>As <see cref="Segments"/>, as vertices of the source.</summary>
-        internal int[] Ends(EdgeOutcome outcome)
+        internal int[] Ends(EdgeMark mark)
         {
-            return ends[(int)outcome] ?? (ends[(int)outcome] = EndsOf(Report.Verdicts, outcome));
+            int[] found;
+            if (!ends.TryGetValue(mark, out found)) { ends[mark] = found = EndsOf(Report.Verdicts, mark); }
+            return found;
         }
 
-        private static int[] EndsOf(IReadOnlyList<EdgeVerdict> verdicts, EdgeOutcome outcome)
+        private static EdgeMark MarkOf(EdgeVerdict verdict)
+        {
+            switch (verdict.Outcome)
+            {
+                case EdgeOutcome.Full: return EdgeMark.Full;
+                case EdgeOutcome.Narrowed: return EdgeMark.Narrowed;
+                default: return verdict.Reason == EdgeReason.NotSelected ? EdgeMark.NotSelected : EdgeMark.Skipped;
+            }
+        }
+
+        private static int[] EndsOf(IReadOnlyList<EdgeVerdict> verdicts, EdgeMark mark)
         {
             var vertices = new List<int>();
             foreach (var verdict in verdicts)
             {
-                if (verdict.Outcome != outcome) { continue; }
+                if (MarkOf(verdict) != mark) { continue; }
                 vertices.Add(verdict.FirstVertex);
                 vertices.Add(verdict.SecondVertex);
             }

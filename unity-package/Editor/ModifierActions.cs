@@ -56,7 +56,7 @@ namespace ChamferEditor
                 AssetDatabase.CreateAsset(entry.chamfered, path);
                 // Undo would destroy the mesh, but not the file.
                 Undo.ClearUndo(entry.chamfered);
-                ChamferRecords.Write(entry.chamfered, ChamferRecord.Make(entry.original, entry.settings));
+                ChamferRecords.Write(entry.chamfered, ChamferRecord.Make(entry));
                 AssetDatabase.SaveAssetIfDirty(entry.chamfered);
                 paths.Add(path);
             }
@@ -85,6 +85,7 @@ namespace ChamferEditor
                 sourceKey = MeshKeys.Of(result.Source),
                 report = result.Text,
                 placed = placed,
+                worldScale = slot.Holder.transform.lossyScale,
                 addedMaterials = MaterialSlots.Fill(slot, result.Source, result.Mesh, action)
             });
             SlotEditing.Changed(modifier);

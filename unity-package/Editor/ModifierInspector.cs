@@ -45,13 +45,14 @@ namespace ChamferEditor
             Draw("settings.width", "settings.unit", "settings.verify", "settings.leastBreadth", "settings.submeshMode");
             var mode = serializedObject.FindProperty("settings.submeshMode");
             if (mode.intValue == (int)ChamferSubmesh.Given) { Draw("settings.submesh"); }
+            Draw("settings.edges");
         }
 
         private void Draw(params string[] properties)
         {
             foreach (string property in properties)
             {
-                EditorGUILayout.PropertyField(serializedObject.FindProperty(property));
+                EditorGUILayout.PropertyField(serializedObject.FindProperty(property), true);
             }
         }
 

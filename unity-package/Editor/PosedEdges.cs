@@ -7,16 +7,16 @@ namespace ChamferEditor
     /// <summary>Where the edges of a mesh with bones are now.</summary>
     internal static class PosedEdges
     {
-        /// <summary>Two points in the world for each edge with an outcome; null where bones do not move it.</summary>
-        internal static Vector3[] Of(MeshVerdicts verdicts, EdgeOutcome outcome, Component holder)
+        /// <summary>Two points in the world for each edge with a mark; null where bones do not move it.</summary>
+        internal static Vector3[] Of(MeshVerdicts verdicts, EdgeMark mark, Component holder)
         {
             var renderer = holder as SkinnedMeshRenderer;
             var skin = verdicts.Skin;
             if (renderer == null || skin == null || renderer.bones.Length == 0) { return null; }
             var matrices = Matrices(renderer, skin.Bindposes);
             int[] first = FirstWeights(skin);
-            var rest = verdicts.Segments(outcome);
-            var vertices = verdicts.Ends(outcome);
+            var rest = verdicts.Segments(mark);
+            var vertices = verdicts.Ends(mark);
             var posed = new Vector3[rest.Length];
             for (int i = 0; i < posed.Length; i++) { posed[i] = Posed(rest[i], vertices[i], skin, first, matrices); }
             return posed;

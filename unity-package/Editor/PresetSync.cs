@@ -13,12 +13,12 @@ namespace ChamferEditor
         /// <summary>Copies what presets say now.</summary>
         internal static void Copy(ChamferProjectSettings project)
         {
-            if (project.preset != null) { project.settings = project.preset.settings; }
+            if (project.preset != null) { project.settings = project.preset.settings.Copy(); }
             for (int i = 0; i < project.rules.Count; i++)
             {
                 var rule = project.rules[i];
                 if (rule.preset == null) { continue; }
-                rule.settings = rule.preset.settings;
+                rule.settings = rule.preset.settings.Copy();
                 project.rules[i] = rule;
             }
         }

@@ -8,7 +8,7 @@ namespace ChamferEditor
     /// <summary>What the inspector says about the meshes of a modifier.</summary>
     internal static class ReportText
     {
-        internal const string OutOfDate = "Out of date: a source mesh or the preset has changed since. Press Chamfer, or "
+        internal const string OutOfDate = "Out of date: a source mesh, its scale or the preset has changed since. Press Chamfer, or "
             + "choose Tools > Chamfer All Again in Open Scenes";
 
         internal const string EdgesUnknown = "The edges are not known any more: press Chamfer to see them";
@@ -57,6 +57,7 @@ namespace ChamferEditor
                 case EdgeReason.NoArea: return "a triangle beside has no area";
                 case EdgeReason.TooFine: return "the width is too small for the precision here";
                 case EdgeReason.Contact: return "something rests there, light would show behind a chamfer";
+                case EdgeReason.NotSelected: return "not selected by the settings under Edges";
                 default: return "no reason known";
             }
         }

@@ -44,7 +44,7 @@ namespace ChamferEditor
             SlotEditing.Rewrite(result, earlier, Action);
             var record = ChamferRecords.Of(earlier);
             Undo.RecordObject(record, Action);
-            record.settings = result.Settings;
+            record.settings = result.Settings.Copy();
             record.sourceKey = MeshKeys.Of(result.Source);
             EditorUtility.SetDirty(record);
             touched.Add(earlier);

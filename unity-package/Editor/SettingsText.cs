@@ -9,14 +9,30 @@ namespace ChamferEditor
         internal static string Of(ChamferSettings settings)
         {
             return Number(settings.width) + " " + settings.unit + " " + settings.verify + " " + settings.submeshMode + " "
-                + settings.submesh + " " + Number(settings.leastBreadth);
+                + settings.submesh + " " + Number(settings.leastBreadth) + Of(settings.edges);
         }
+
+        /// <summary>Nothing where nothing is asked for: texts of an earlier version are still equal.</summary>
+        private static string Of(EdgeSettings edges)
+        {
+            string text = " " + edges.widthMode + " " + edges.worldWidth + " " + Number(edges.minAngle) + " "
+                + Number(edges.maxAngle) + " " + edges.convexity + " " + Number(edges.hardAngle) + " " + edges.mask;
+            foreach (var one in edges.materials ?? new MaterialFactor[0])
+            {
+                string name = one.material ?? "";
+                text += " " + name.Length + ":" + name + "=" + Number(one.factor);
+            }
+            return text == Usual ? "" : text;
+        }
+
+        /// <summary>Of settings that ask for no edges in particular.</summary>
+        private const string Usual = " Offset False 0 0 Both 0 None";
 
         /// <summary>For users.</summary>
         internal static string Words(ChamferSettings settings)
         {
             string unit = settings.unit == WidthUnit.PercentOfExtent ? " percent, " : " units, ";
-            return Number(settings.width) + unit + settings.verify;
+            return Number(settings.width) + unit + settings.verify + (Of(settings.edges).Length > 0 ? ", chosen edges" : "");
         }
 
         /// <summary>As it is written on every machine, to the last bit.</summary>

@@ -74,7 +74,7 @@ namespace ChamferEditor
             bool isTaken = root.GetComponent<ChamferModifier>() != null;
             var modifier = Undo.AddComponent<ChamferModifier>(isTaken ? slot.Holder.gameObject : root);
             modifier.isFromMenu = true;
-            modifier.settings = settings;
+            modifier.settings = settings.Copy();
             modifier.includeChildren = !isTaken && group.Slots.Any(other => IsBelow(group, other, root));
             modifier.LeaveOutOfBuilds();
             SlotEditing.Changed(modifier);

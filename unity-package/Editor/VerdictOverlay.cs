@@ -11,7 +11,10 @@ namespace ChamferEditor
         /// <summary>Enough to find an edge on the far side, without taking it for one on this side.</summary>
         private const float Faint = 0.15f;
 
-        private static readonly EdgeOutcome[] outcomes = { EdgeOutcome.Full, EdgeOutcome.Narrowed, EdgeOutcome.Skipped };
+        private static readonly EdgeMark[] marks =
+        {
+            EdgeMark.NotSelected, EdgeMark.Full, EdgeMark.Narrowed, EdgeMark.Skipped
+        };
 
         internal static void Draw(ChamferModifier modifier)
         {
@@ -27,11 +30,11 @@ namespace ChamferEditor
         {
             var verdicts = VerdictCache.Of(entry);
             if (verdicts == null || entry.holder == null) { return; }
-            foreach (var outcome in outcomes)
+            foreach (var mark in marks)
             {
-                var posed = PosedEdges.Of(verdicts, outcome, entry.holder);
+                var posed = PosedEdges.Of(verdicts, mark, entry.holder);
                 var place = posed != null ? Matrix4x4.identity : entry.holder.transform.localToWorldMatrix;
-                Draw(posed ?? verdicts.Segments(outcome), place, ColorOf(outcome));
+                Draw(posed ?? verdicts.Segments(mark), place, ColorOf(mark));
             }
         }
 
@@ -51,12 +54,13 @@ namespace ChamferEditor
             }
         }
 
-        private static Color ColorOf(EdgeOutcome outcome)
+        private static Color ColorOf(EdgeMark mark)
         {
-            switch (outcome)
+            switch (mark)
             {
-                case EdgeOutcome.Full: return Color.green;
-                case EdgeOutcome.Narrowed: return Color.yellow;
+                case EdgeMark.Full: return Color.green;
+                case EdgeMark.Narrowed: return Color.yellow;
+                case EdgeMark.NotSelected: return Color.gray;
                 default: return Color.red;
             }
         }

@@ -28,8 +28,8 @@ namespace Chamfer
         /// <summary>How the meshes are chamfered, the next time that they are.</summary>
         public ChamferSettings Settings
         {
-            get { return settings; }
-            set { settings = value; }
+            get { return settings.Copy(); }
+            set { settings = value.Copy(); }
         }
 
         /// <summary>Whether the meshes of children are chamfered, too, but for those of modifiers below.</summary>
@@ -65,7 +65,7 @@ namespace Chamfer
         }
 
         /// <summary>Those of the preset, if there is one.</summary>
-        internal ChamferSettings Effective => preset != null ? preset.settings : settings;
+        internal ChamferSettings Effective => (preset != null ? preset.settings : settings).Copy();
 
         // The originals are for the editor only: a player would carry every mesh twice.
         [SerializeField] internal List<ChamferedMesh> meshes = new List<ChamferedMesh>();
@@ -127,6 +127,9 @@ namespace Chamfer
 
         /// <summary>Where the mesh stood then, from the modifier; zeros if that is not known.</summary>
         public Matrix4x4 placed;
+
+        /// <summary>How it was scaled in the world then; zeros if that is not known.</summary>
+        public Vector3 worldScale;
 
         /// <summary>What became of its edges, in words.</summary>
         public string report;

@@ -12,8 +12,8 @@ namespace Chamfer
         /// <summary>How meshes are chamfered.</summary>
         public ChamferSettings Settings
         {
-            get { return settings; }
-            set { settings = value; }
+            get { return settings.Copy(); }
+            set { settings = value.Copy(); }
         }
     }
 }

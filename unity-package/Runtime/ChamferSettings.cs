@@ -6,7 +6,7 @@ namespace Chamfer
     /// <summary>What a width is measured in.</summary>
     public enum WidthUnit
     {
-        /// <summary>Units of the mesh, before its transform.</summary>
+        /// <summary>Units of the mesh, before its transform; with World Width, units of the world.</summary>
         MeshUnits = 0,
         /// <summary>Percent of the largest side of the mesh's box.</summary>
         PercentOfExtent = 1
@@ -59,6 +59,9 @@ namespace Chamfer
         [Tooltip("How much of the breadth of each face stays between its chamfers, as a share; 0 for the usual fifth.")]
         [Range(0, 1)] public float leastBreadth;
 
+        [Tooltip("Which edges are chamfered, what the width measures, and where it differs.")]
+        public EdgeSettings edges;
+
         /// <summary>One percent of the extent, fully verified, in the submesh of the face beside it.</summary>
         public static ChamferSettings Default => new ChamferSettings
         {
@@ -66,5 +69,13 @@ namespace Chamfer
             unit = WidthUnit.PercentOfExtent,
             verify = VerifyMode.Full
         };
+
+        /// <summary>The same with a list of its own: a copy of a struct shares it.</summary>
+        internal ChamferSettings Copy()
+        {
+            var copy = this;
+            copy.edges.materials = edges.HasMaterials ? (MaterialFactor[])edges.materials.Clone() : null;
+            return copy;
+        }
     }
 }

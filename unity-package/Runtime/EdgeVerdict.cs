@@ -33,7 +33,9 @@ namespace Chamfer
         /// <summary>The width is too small for the precision of the positions here.</summary>
         TooFine = 8,
         /// <summary>Something rests on the edge, or right beside it: light would show behind a chamfer.</summary>
-        Contact = 9
+        Contact = 9,
+        /// <summary>The settings leave it out: its angle, the way its faces meet, its material or the mask.</summary>
+        NotSelected = 10
     }
 
     /// <summary>What became of one hard edge.</summary>

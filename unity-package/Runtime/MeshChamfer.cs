@@ -10,7 +10,10 @@ namespace Chamfer
     /// <summary>Softens all hard edges of meshes.</summary>
     public static class MeshChamfer
     {
-        /// <summary>Chamfers a mesh into a new one; the source is not changed. Call it on the main thread.</summary>
+        /// <summary>
+        /// Chamfers a mesh into a new one; the source is not changed. Call it on the main thread. It knows of no materials
+        /// and of no scale in the world: <see cref="RunScene"/> does.
+        /// </summary>
         /// <param name="source">Readable; in the editor, any mesh.</param>
         /// <param name="settings">How; begin with <see cref="ChamferSettings.Default"/>.</param>
         /// <param name="progress">Told the share done, 0 to 1, on the calling thread.</param>

@@ -32,6 +32,9 @@ VERTEX_SOURCE = np.dtype(
 #: corner at the source vertex `index`.
 TRIANGLE_SOURCE = np.dtype([("kind", "u4"), ("index", "u4")])
 
+#: A listed edge, as the library reads it.
+EDGE_FACTOR = np.dtype([("vertices", "u4", 2), ("factor", "f4")])
+
 
 class COptions(ctypes.Structure):
     _fields_ = [
@@ -43,6 +46,12 @@ class COptions(ctypes.Structure):
         ("submesh", c_uint32),
         ("threads", c_uint32),
         ("least_breadth", c_float),
+        ("width_mode", c_uint32),
+        ("min_angle", c_float),
+        ("max_angle", c_float),
+        ("convexity", c_uint32),
+        ("hard_angle", c_float),
+        ("scale", c_float * 9),
     ]
 
 
@@ -65,6 +74,10 @@ class CMesh(ctypes.Structure):
         ("indices", POINTER(c_uint32)),
         ("held_count", c_uint32),
         ("held", POINTER(c_float)),
+        ("submesh_factors", POINTER(c_float)),
+        ("vertex_factors", POINTER(c_float)),
+        ("edge_factor_count", c_uint32),
+        ("edge_factors", c_void_p),
     ]
 
 

@@ -10,9 +10,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._errors import meant
-from ._library import UV_CHANNELS, CMesh, sized
+from ._library import EDGE_FACTOR, UV_CHANNELS, CMesh, sized
 
-_STREAMS = ("positions", "normals", "submeshes", "tangents", "colors", "uvs", "held")
+_FACTORS = ("submesh_factors", "vertex_factors", "edges")
+_STREAMS = ("positions", "normals", "submeshes", "tangents", "colors", "uvs", "held") + _FACTORS
 
 
 class Mesh:
@@ -25,6 +26,11 @@ class Mesh:
     - `colors`: vertices by 4: red, green, blue, alpha
     - `uvs`: for each channel (0 to 7) that there is, vertices by 2 to 4
     - `held`: places by 7: from, to and radius of what rests on the mesh from outside
+    - `submesh_factors`: for each submesh, how many times the width its chamfers get; 0 for none
+    - `vertex_factors`: the same for each vertex: a mask
+    - `edges`: the only ones that are chamfered: by 2, the vertices at their ends, or by 3, with a factor
+
+    Results have no factors and nothing held.
 
     Anything that numpy takes for an array will do. It is checked when the mesh is chamfered.
     """
@@ -36,6 +42,9 @@ class Mesh:
     colors: Any
     uvs: Any
     held: Any
+    submesh_factors: Any
+    vertex_factors: Any
+    edges: Any
 
     def __init__(
         self,
@@ -47,6 +56,9 @@ class Mesh:
         colors: Optional[ArrayLike] = None,
         uvs: Optional[Mapping[int, ArrayLike]] = None,
         held: Optional[ArrayLike] = None,
+        submesh_factors: Optional[ArrayLike] = None,
+        vertex_factors: Optional[ArrayLike] = None,
+        edges: Optional[ArrayLike] = None,
         **unknown: Any,
     ):
         for name in unknown:
@@ -56,6 +68,7 @@ class Mesh:
         self.submeshes = [submeshes] if isinstance(submeshes, np.ndarray) and submeshes.ndim == 2 else submeshes
         self.tangents, self.colors = tangents, colors
         self.uvs, self.held = {} if uvs is None else uvs, held
+        self.submesh_factors, self.vertex_factors, self.edges = submesh_factors, vertex_factors, edges
 
     @property
     def triangles(self) -> NDArray[np.uint32]:
@@ -87,6 +100,7 @@ class View:
         if mesh.held is not None and len(mesh.held):
             self.mesh.held_count = len(mesh.held)
             self.mesh.held = self._rows("held", mesh.held, len(mesh.held), (7,), "places")
+        self._set_factors(mesh)
 
     def _set_uvs(self, uvs: Any) -> None:
         if not isinstance(uvs, Mapping):
@@ -105,6 +119,18 @@ class View:
         self.mesh.submesh_index_counts = self._pointer(np.array(counts, np.uint32), c_uint32)
         joined = np.concatenate(checked, axis=None) if checked else np.empty(0)
         self.mesh.indices = self._pointer(joined.astype(np.uint32), c_uint32)
+
+    def _set_factors(self, mesh: Mesh) -> None:
+        counts = {"submesh": self.mesh.submesh_count, "vertex": self._vertices}
+        for what, count in counts.items():
+            name = f"{what}_factors"
+            values = getattr(mesh, name)
+            if values is not None:
+                setattr(self.mesh, name, self._pointer(_factors(name, values, count, what), c_float))
+        if mesh.edges is not None:
+            listed = _edges(mesh.edges, self._vertices)
+            self._arrays.append(listed)
+            self.mesh.edge_factor_count, self.mesh.edge_factors = len(listed), listed.ctypes.data
 
     def _stream(self, name: str, values: Any, widths: tuple[int, ...]) -> Any:
         return self._rows(name, values, self._vertices, widths, "vertices")
@@ -155,6 +181,47 @@ def _indices(number: int, part: Any, vertices: int) -> NDArray[Any]:
             f"{name}, triangle {triangle}: there is no vertex {indices[triangle, corner]} among {vertices}"
         )
     return indices
+
+
+def _factors(name: str, values: Any, count: int, what: str) -> NDArray[Any]:
+    """How many times the width: one for each of what there is."""
+    shape = _shape(name, values)
+    if shape != (count,):
+        raise ValueError(f"{name} has the shape {shape}: it is one factor for each {what}, ({count},)")
+    return _checked(name, np.asarray(values))
+
+
+def _checked(name: str, factors: NDArray[Any]) -> NDArray[Any]:
+    if factors.dtype.kind not in "fiu":
+        raise TypeError(f"{name} has values of type {factors.dtype}: they are numbers")
+    with np.errstate(over="ignore"):
+        single = factors.astype(np.float32)
+    wrong = np.flatnonzero(~(np.isfinite(single) & (single >= 0)))
+    if len(wrong):
+        raise ValueError(f"{name}[{wrong[0]}] has the factor {factors[wrong[0]]}: give finite ones of at least 0")
+    return single
+
+
+def _edges(values: Any, vertices: int) -> NDArray[Any]:
+    """The listed edges, as the library reads them."""
+    shape = _shape("edges", values)
+    if shape == (0,):
+        # Of a list of none, none is chamfered: to the library, there would be no list.
+        return np.zeros(min(vertices, 1), EDGE_FACTOR)
+    if len(shape) != 2 or shape[1] not in (2, 3):
+        raise ValueError(f"edges has the shape {shape}: it is edges by 2, or by 3 with a factor each")
+    rows = np.asarray(values)
+    listed = np.zeros(max(len(rows), min(vertices, 1)), EDGE_FACTOR)
+    listed["factor"][: len(rows)] = _checked("edges", rows[:, 2]) if shape[1] == 3 else 1
+    ends = rows[:, :2]
+    if ends.dtype.kind not in "fiu":
+        raise TypeError(f"edges has values of type {ends.dtype}: they are numbers")
+    wrong = np.argwhere(~((ends >= 0) & (ends < vertices) & (ends == np.floor(ends))))
+    if len(wrong):
+        edge, end = wrong[0]
+        raise ValueError(f"edges[{edge}]: there is no vertex {ends[edge, end]} among {vertices}")
+    listed["vertices"][: len(rows)] = ends
+    return listed
 
 
 def _hint(shape: tuple[int, ...]) -> str:

@@ -5,12 +5,27 @@ from __future__ import annotations
 import numbers
 from typing import Any, Literal, Mapping, TypedDict, Union
 
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
 from ._errors import meant
 
 _WIDTH_UNITS = {"mesh": 0, "percent": 1}
 _VERIFY = {"fast": 0, "full": 1, "seen": 2}
 _SUBMESH_MODES, _SUBMESH_GIVEN = {"owner": 0, "own": 1}, 2
+_WIDTH_MODES = {"offset": 0, "chord": 1, "depth": 2, "radius": 3}
+_CONVEXITIES = {"both": 0, "convex": 1, "concave": 2}
+_CHOICES = {
+    "width_unit": _WIDTH_UNITS,
+    "verify": _VERIFY,
+    "width_mode": _WIDTH_MODES,
+    "convexity": _CONVEXITIES,
+}
+#: The largest of each, in degrees.
+_ANGLES = {"min_angle": 180.0, "max_angle": 180.0, "hard_angle": 90.0}
 _MOST = 0xFFFFFFFF
+# To the library, nothing is the default; this little is nothing.
+_NOTHING = 1e-9
 
 
 class Options(TypedDict, total=False):
@@ -25,6 +40,17 @@ class Options(TypedDict, total=False):
     #: where chamfers go: "owner", to the face beside them; "own", to a new submesh; or a submesh's number
     submesh: Union[Literal["owner", "own"], int]
     threads: int  #: 1; 0 for as many as there are cores; the result is the same
+    #: what the width measures: "offset", from the old edge to the pulled one; "chord", across the chamfer;
+    #: "depth", straight down from the old edge; "radius", of the circle that touches both faces
+    width_mode: Literal["offset", "chord", "depth", "radius"]
+    min_angle: float  #: degrees (0 to 180) by which the faces of an edge turn at least; 0, a flat surface
+    max_angle: float  #: the same at most; 180, one folded back on itself
+    #: "convex": only edges whose faces meet as those of a cube; "concave": as a wall and the floor
+    convexity: Literal["both", "convex", "concave"]
+    hard_angle: float  #: normals that differ by less are one: degrees up to 90, and above 0; 1
+    #: 3 by 3, multiplied from the left: the space in which widths and angles are measured, such as
+    #: a matrix from mesh to scene
+    scale: ArrayLike
 
 
 def fill(struct: Any, options: Mapping[str, Any]) -> None:
@@ -37,12 +63,19 @@ def fill(struct: Any, options: Mapping[str, Any]) -> None:
         elif name == "width":
             struct.width = number(name, value)
         elif name == "least_breadth":
-            # To the library, nothing is the default; this little is nothing.
-            struct.least_breadth = number(name, value) or 1e-9
+            struct.least_breadth = number(name, value) or _NOTHING
+        elif name == "scale":
+            struct.scale[:] = _columns(name, value)
+        elif name in _ANGLES:
+            setattr(struct, name, _angle(name, value))
         elif name == "threads":
             struct.threads = _count(name, value)
         else:
-            setattr(struct, name, _choice(name, value, _WIDTH_UNITS if name == "width_unit" else _VERIFY))
+            setattr(struct, name, _choice(name, value, _CHOICES[name]))
+    if struct.min_angle > struct.max_angle:
+        raise ValueError(
+            f"min_angle is {struct.min_angle:g}, larger than max_angle, {struct.max_angle:g}: no edge could be chamfered"
+        )
 
 
 def _submesh(value: Any) -> tuple[int, int]:
@@ -55,6 +88,39 @@ def number(name: str, value: Any) -> float:
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
         raise TypeError(f"{name} is a number, not {value!r}")
     return float(value)
+
+
+def _angle(name: str, value: Any) -> float:
+    degrees, most = number(name, value), _ANGLES[name]
+    if not 0 <= degrees <= most or (name == "hard_angle" and degrees == 0):
+        least = "above 0, up to" if name == "hard_angle" else "from 0 to"
+        raise ValueError(f"{name} is {degrees:g}: give degrees {least} {most:g}")
+    return degrees or (0.0 if name == "min_angle" else _NOTHING)
+
+
+def _columns(name: str, value: Any) -> list[float]:
+    """A matrix as the library has it, column by column."""
+    matrix = _numbers(name, value)
+    if matrix.shape != (3, 3):
+        raise ValueError(f"{name} has the shape {matrix.shape}: it is 3 by 3")
+    with np.errstate(over="ignore"):
+        columns = matrix.astype(np.float32).T.ravel()
+    if not np.isfinite(columns).all():
+        raise ValueError(f"{name} is {matrix.tolist()}: give finite numbers")
+    if not columns.any():  # To the library, zeros are the default.
+        raise ValueError(f"{name} is all zeros, which flattens the mesh: give a matrix that can be inverted")
+    return [float(entry) for entry in columns]
+
+
+def _numbers(name: str, value: Any) -> NDArray[Any]:
+    """What numpy makes of it, where that is numbers."""
+    try:
+        array = np.asarray(value)
+    except ValueError:
+        raise ValueError(f"{name} has rows of different lengths") from None
+    if array.dtype.kind not in "fiu":
+        raise TypeError(f"{name} has values of type {array.dtype}: they are numbers")
+    return array
 
 
 def _count(name: str, value: Any) -> int:

@@ -109,6 +109,8 @@ namespace UnityEditor
     {
         public int intValue { get; set; }
         public bool boolValue { get; set; }
+        /// Such as "settings.width".
+        public string propertyPath { get; set; }
     }
 
     /// Knows by name what the package changes so: of meshes, what Unity has no other way to change.
@@ -116,9 +118,11 @@ namespace UnityEditor
     {
         private readonly Dictionary<string, SerializedProperty> flags = new Dictionary<string, SerializedProperty>();
         private readonly Mesh mesh;
+        private readonly UnityEngine.Object target;
 
         public SerializedObject(UnityEngine.Object target)
         {
+            this.target = target;
             mesh = target as Mesh;
             if (ReferenceEquals(mesh, null)) { return; }
             flags["m_IsReadable"] = new SerializedProperty { boolValue = mesh.readable };
@@ -130,7 +134,21 @@ namespace UnityEditor
         {
             SerializedProperty flag;
             if (flags.TryGetValue(path, out flag)) { return flag; }
-            return ReferenceEquals(mesh, null) ? new SerializedProperty() : null;
+            return ReferenceEquals(mesh, null) && IsField(path) ? new SerializedProperty { propertyPath = path } : null;
+        }
+
+        /// Whether the object has what a path names: Unity knows no other.
+        private bool IsField(string path)
+        {
+            var type = target.GetType();
+            foreach (string name in path.Split('.'))
+            {
+                var all = System.Reflection.BindingFlags.Instance | System.Reflection.BindingFlags.Public | System.Reflection.BindingFlags.NonPublic;
+                var field = type.GetField(name, all);
+                if (field == null) { return false; }
+                type = field.FieldType;
+            }
+            return true;
         }
 
         public bool ApplyModifiedPropertiesWithoutUndo()
@@ -155,8 +173,14 @@ namespace UnityEditor
 
     public static class EditorGUILayout
     {
-        public static bool PropertyField(SerializedProperty property, params GUILayoutOption[] options) { return GUILayout.Lay(false); }
-        public static bool PropertyField(SerializedProperty property, bool children, params GUILayoutOption[] options) { return GUILayout.Lay(false); }
+        /// What was drawn, with a star for all that is in it.
+        public static readonly List<string> properties = new List<string>();
+        public static bool PropertyField(SerializedProperty property, params GUILayoutOption[] options) { return PropertyField(property, false); }
+        public static bool PropertyField(SerializedProperty property, bool children, params GUILayoutOption[] options)
+        {
+            properties.Add(property.propertyPath + (children ? "*" : ""));
+            return GUILayout.Lay(false);
+        }
         public static readonly List<string> boxes = new List<string>();
         public static void HelpBox(string text, MessageType type) { GUILayout.Lay(true); boxes.Add(text); }
         public static Vector2 BeginScrollView(Vector2 place, params GUILayoutOption[] options) { GUILayout.depth++; return GUILayout.Lay(place); }

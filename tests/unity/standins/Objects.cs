@@ -78,6 +78,7 @@ namespace UnityEngine
 
     public static class Mathf
     {
+        public static float Abs(float value) { return Math.Abs(value); }
         public static float Max(float a, float b) { return Math.Max(a, b); }
         public static int Max(int a, int b) { return Math.Max(a, b); }
         public static float Clamp(float value, float least, float most) { return Math.Max(least, Math.Min(most, value)); }
@@ -121,6 +122,15 @@ namespace UnityEngine
 
         public Transform root { get { return parent != null ? parent.root : this; } }
         public Transform() { localScale = new Vector3(1, 1, 1); }
+
+        public Vector3 lossyScale
+        {
+            get
+            {
+                var above = parent != null ? parent.lossyScale : new Vector3(1, 1, 1);
+                return new Vector3(above.x * localScale.x, above.y * localScale.y, above.z * localScale.z);
+            }
+        }
 
         public Matrix4x4 localToWorldMatrix
         {

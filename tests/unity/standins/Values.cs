@@ -40,6 +40,7 @@ namespace UnityEngine
         public Color(float r, float g, float b, float a = 1) { this.r = r; this.g = g; this.b = b; this.a = a; }
         public static Color red { get { return new Color(1, 0, 0); } }
         public static Color green { get { return new Color(0, 1, 0); } }
+        public static Color gray { get { return new Color(0.5f, 0.5f, 0.5f); } }
         public static Color yellow { get { return new Color(1, 0.92f, 0.016f); } }
     }
 

@@ -63,6 +63,15 @@ namespace Chamfer.Tests
             Check.That(Find("Assets/Props/Fine/a.fbx", null, out settings) && settings.width == 0.25f, "nearer folder");
         }
 
+        /// By the names that its renderers give them.
+        public static void Models_know_their_materials()
+        {
+            var cube = Shapes.Cube();
+            var wood = new[] { new MaterialFactor { material = "Wood", factor = 3 } };
+            With(project => project.settings.edges.materials = wood, () => Import(cube, "Chamfer=0.1"));
+            Check.Near(0.3f, 1 - cube.vertices.Max(p => System.Math.Min(System.Math.Abs(p.x), System.Math.Abs(p.y))));
+        }
+
         public static void A_folder_without_a_width_takes_the_common_settings()
         {
             ChamferSettings settings;

@@ -157,7 +157,7 @@ namespace Chamfer.Tests
             Check.Equal(24, Handles.drawn[Color.green]);
             Check.Equal(UnityEngine.Rendering.CompareFunction.LessEqual, Handles.tested[Color.green]);
             Check.That(Handles.tested.All(one => one.Key.a == 1 || one.Value == UnityEngine.Rendering.CompareFunction.Greater), "faint behind");
-            Check.Equal(6, Handles.tested.Count);
+            Check.Equal(8, Handles.tested.Count);
             Check.Equal(UnityEngine.Rendering.CompareFunction.Always, Handles.zTest);
         }
 

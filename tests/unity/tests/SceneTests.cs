@@ -38,7 +38,7 @@ namespace Chamfer.Tests
 
         private static int Held(ChamferReport report)
         {
-            return report.Count(EdgeOutcome.Skipped, EdgeReason.Contact);
+            return report.Count(EdgeOutcome.Skipped, EdgeReason.Contact) + report.Count(EdgeOutcome.Narrowed, EdgeReason.Contact);
         }
 
         private static int HeldAt(float distance, VerifyMode verify)

@@ -20,6 +20,10 @@ namespace Chamfer.Interop
         public IntPtr Indices;
         public uint HeldCount;
         public IntPtr Held;
+        public IntPtr SubmeshFactors;
+        public IntPtr VertexFactors;
+        public uint EdgeFactorCount;
+        public IntPtr EdgeFactors;
 
         internal static NativeMesh Empty()
         {

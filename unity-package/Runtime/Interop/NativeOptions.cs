@@ -4,7 +4,7 @@ namespace Chamfer.Interop
 {
     /// <summary><c>chamfer_options</c></summary>
     [StructLayout(LayoutKind.Sequential)]
-    internal struct NativeOptions
+    internal unsafe struct NativeOptions
     {
         public uint StructSize;
         public float Width;
@@ -14,5 +14,11 @@ namespace Chamfer.Interop
         public uint Submesh;
         public uint Threads;
         public float LeastBreadth;
+        public uint WidthMode;
+        public float MinAngle;
+        public float MaxAngle;
+        public uint Convexity;
+        public float HardAngle;
+        public fixed float Scale[9];
     }
 }

@@ -65,7 +65,7 @@ namespace Chamfer.Streams
             using (var pins = new PinnedArrays())
             using (var relay = new ProgressRelay(progress, cancellation))
             {
-                var mesh = NativeInput.Mesh(source, pins);
+                var mesh = NativeInput.Mesh(source, pins, MeshFactors.Of(source, settings.edges, null));
                 var options = NativeInput.Options(settings);
                 var error = NativeError.Empty();
                 ResultHandle result;

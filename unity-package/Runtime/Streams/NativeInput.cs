@@ -7,9 +7,12 @@ namespace Chamfer.Streams
     /// <summary>Shows arrays and settings to the native library.</summary>
     internal static class NativeInput
     {
-        internal static unsafe NativeOptions Options(ChamferSettings settings)
+        /// <param name="settings">How to chamfer.</param>
+        /// <param name="scale">In which the mesh is measured; zeros for the mesh as it is.</param>
+        internal static unsafe NativeOptions Options(ChamferSettings settings, Vector3 scale = default(Vector3))
         {
-            return new NativeOptions
+            var edges = settings.edges;
+            var options = new NativeOptions
             {
                 StructSize = (uint)sizeof(NativeOptions),
                 Width = settings.width,
@@ -18,12 +21,21 @@ namespace Chamfer.Streams
                 SubmeshMode = (uint)settings.submeshMode,
                 Submesh = (uint)settings.submesh,
                 Threads = 1,
-                LeastBreadth = settings.leastBreadth
+                LeastBreadth = settings.leastBreadth,
+                WidthMode = (uint)edges.widthMode,
+                MinAngle = edges.minAngle,
+                MaxAngle = edges.maxAngle,
+                Convexity = (uint)edges.convexity,
+                HardAngle = edges.hardAngle
             };
+            options.Scale[0] = scale.x;
+            options.Scale[4] = scale.y;
+            options.Scale[8] = scale.z;
+            return options;
         }
 
         /// <summary>A view that holds as long as the pins. Submeshes of other topologies are empty in it.</summary>
-        internal static NativeMesh Mesh(MeshArrays source, PinnedArrays pins)
+        internal static NativeMesh Mesh(MeshArrays source, PinnedArrays pins, MeshFactors factors = default(MeshFactors))
         {
             var mesh = NativeMesh.Empty();
             mesh.VertexCount = (uint)source.Positions.Length;
@@ -36,6 +48,8 @@ namespace Chamfer.Streams
                 mesh.Uvs[channel] = Uv(source.Uvs[channel], pins);
             }
             PinIndices(ref mesh, source, pins);
+            mesh.SubmeshFactors = pins.Pin(factors.Submeshes);
+            mesh.VertexFactors = pins.Pin(factors.Vertices);
             return mesh;
         }
 

@@ -39,7 +39,19 @@ namespace Chamfer.Streams
                 meshes.Add(item.Mesh);
                 numbers.Add(item.Mesh, number);
             }
-            placed.Add(new PlacedArrays { Mesh = number, Transform = item.Transform });
+            placed.Add(new PlacedArrays
+            {
+                Mesh = number,
+                Transform = item.Transform,
+                WorldScale = item.WorldScale,
+                Materials = item.MaterialNames ?? NamesOf(item.Materials)
+            });
+        }
+
+        /// <summary>The names of materials, which only the main thread may ask for.</summary>
+        internal static string[] NamesOf(Material[] materials)
+        {
+            return materials == null ? null : Array.ConvertAll(materials, one => one != null ? one.name : "");
         }
 
         /// <summary>Takes a mesh out of the scene, and all that follow move up.</summary>
