@@ -218,6 +218,8 @@ pub fn text(choices: &Choices) -> String {
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeSet;
+
     use super::*;
 
     fn words(text: &str) -> Result<String, String> {
@@ -274,6 +276,69 @@ mod tests {
             assert_eq!(text(&again.choices), printed);
             assert_eq!(again.choices.wish(1).core, args(&line).choices.wish(1).core);
         }
+    }
+
+    const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
+
+    /// What stands between two places of a file.
+    fn part(file: &str, from: &str, to: &str) -> String {
+        let text = fs::read_to_string(Path::new(ROOT).join(file)).unwrap();
+        let (_, rest) = text.split_once(from).unwrap_or_else(|| panic!("{file} has no {from}"));
+        rest.split_once(to).map_or(rest, |(part, _)| part).to_owned()
+    }
+
+    /// The last word of each line that ends with `end`, but for comments, calls and what is computed.
+    fn fields(text: &str, end: &str) -> BTreeSet<String> {
+        let lines = text.lines().map(str::trim).filter(|line| !line.starts_with(['*', '/', '[']));
+        let lines = lines.filter_map(|line| line.strip_suffix(end));
+        let last = |line: &str| line.split(' ').next_back().unwrap_or_default().to_owned();
+        let is_field = |line: &&str| !line.contains(['(', '=']);
+        lines.filter(is_field).map(|line| last(line.split('[').next().unwrap_or(line))).collect()
+    }
+
+    /// The names of Unity's settings in one of its files.
+    fn settings(file: &str, name: &str) -> BTreeSet<String> {
+        let text = part(
+            &format!("unity-package/Runtime/{file}"),
+            &format!("struct {name}"),
+            "public static",
+        );
+        let declared = text.lines().filter_map(|line| line.split_once("public ").map(|(_, of)| of));
+        fields(&declared.map(|line| line.replace("[]", "") + "\n").collect::<String>(), ";")
+    }
+
+    #[test]
+    fn the_table_of_options_has_the_names_of_all_ways_in() {
+        let table = part("docs/options.md", "|---|---|---|---|---|---|\n", "\n\n");
+        let column = |number: usize| -> BTreeSet<String> {
+            let cells = table.lines().filter_map(|row| row.split('|').nth(number + 1));
+            cells.flat_map(|cell| cell.split('`').skip(1).step_by(2)).map(str::to_owned).collect()
+        };
+        let set = |names: Vec<String>| names.into_iter().collect::<BTreeSet<_>>();
+        assert_eq!(column(0), set(KEYS.iter().map(|(key, _)| (*key).to_owned()).collect()));
+
+        let command = <Choices as clap::Args>::augment_args(clap::Command::new("chamfer"));
+        let flags = command.get_arguments().filter_map(|argument| argument.get_long());
+        assert_eq!(column(1), set(flags.map(|flag| format!("--{flag}")).collect()));
+
+        let mut header =
+            fields(&part("include/chamfer.h", "typedef struct chamfer_options {", "}"), ";");
+        assert!(header.remove("struct_size"));
+        assert_eq!(column(2), header);
+
+        let keywords = part(
+            "python/src/chamfer/_options.py",
+            "class Options(TypedDict, total=False):",
+            "\n\n\n",
+        );
+        let keywords = keywords.lines().filter_map(|line| line.trim().split_once(':'));
+        let keywords = keywords.filter(|(word, _)| !word.starts_with('#') && !word.contains(' '));
+        assert_eq!(column(3), keywords.map(|(word, _)| word.to_owned()).collect());
+
+        let mut unity = settings("ChamferSettings.cs", "ChamferSettings");
+        assert!(unity.remove("edges"), "these stand beside it");
+        unity.extend(settings("EdgeSettings.cs", "EdgeSettings"));
+        assert_eq!(column(4), unity);
     }
 
     #[test]

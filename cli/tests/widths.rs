@@ -282,10 +282,13 @@ fn materials_have_widths_of_their_own() {
     let [four, eight] = [4, 8].map(|count| move |width: i64| vec![width; count]);
     let metal = "--width 0.1 --material-width Metal=0.05";
     assert_eq!(widths(metal), [eight(50), four(100)].concat(), "between two, the smaller");
-    assert_eq!(widths("--width 0.1 --material-width Metal=0"), [eight(0), four(100)].concat());
     let both = "--width 0 --material-width Metal=5% --material-width Wood=0.05";
     assert_eq!(widths(both), vec![50; 12]);
-    assert_eq!(widths("--width 0 --material-width Wood=0.05"), [eight(0), four(50)].concat());
+    for none in ["--width 0.1 --material-width Metal=0", "--width 0 --material-width Wood=0.05"] {
+        let left =
+            totals(&folder, &format!("a.obj -o b.obj {none}"))["skipped"]["not_selected"].clone();
+        assert_eq!(left, 8, "{none}");
+    }
     let told = folder.run("a.obj -o b.obj --material-width Steel=1").exits(0).err();
     assert!(
         told.contains("--material-width Steel: its materials are \"Metal\", \"Wood\""),

@@ -111,6 +111,11 @@ pub struct NormalsRead {
     pub repaired: Vec<(u32, [f32; 3])>,
 }
 
+/// Says that normals point nowhere; others were made.
+pub fn no_direction(count: usize) -> Option<String> {
+    (count > 0).then(|| format!("{count} normals have no direction: they were made from the faces"))
+}
+
 /// What the meshes of a file look like, as far as pictures of them show it.
 #[derive(Clone, Debug, Default)]
 pub struct Looks {

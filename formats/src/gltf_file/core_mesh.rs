@@ -3,7 +3,7 @@
 use chamfer::{MeshBuffers, UV_CHANNELS, UvBuffer, split_by_angle};
 use glam::Vec3;
 
-use crate::document::NormalsRead;
+use crate::document::{NormalsRead, no_direction};
 
 use super::geometry::{Block, MeshGeometry, Origin, has_no_direction};
 
@@ -129,9 +129,7 @@ pub fn without_direction(geometry: &MeshGeometry) -> usize {
 pub fn note(name: &str, without: usize, read: &NormalsRead) -> Option<String> {
     let filled = read.repaired.iter().filter(|(_, stored)| *stored == [0.0; 3]).count();
     let count = filled + without;
-    (count > 0).then(|| {
-        format!("mesh {name}: {count} normals have no direction: they were made from the faces")
-    })
+    no_direction(count).map(|note| format!("mesh {name}: {note}"))
 }
 
 /// Tangents of a block without normals count for nothing, so the specification says.

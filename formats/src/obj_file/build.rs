@@ -32,6 +32,8 @@ pub struct Built {
     pub mesh: MeshBuffers,
     pub origin: Origin,
     pub normals: NormalsRead,
+    /// How many corners have a normal that is none.
+    pub without_direction: usize,
 }
 
 /// What tells two vertices apart. Equal values under different numbers are one value.
@@ -52,8 +54,11 @@ pub fn build(obj: &Obj, options: &ReadOptions) -> Result<Built> {
     builder.mesh.submesh_index_counts = counts;
     let Builder { mesh, origin, .. } = builder;
     let origin = Origin { polygon_of, places, ..origin };
-    let normals = normals_read(obj, &corners, &mesh.indices);
-    Ok(Built { mesh, origin, normals })
+    let (normals, without_direction) = match options.normals {
+        Normals::Keep => (normals_read(obj, &corners, &mesh.indices), zero_normals(obj, &corners)),
+        Normals::Angle => (NormalsRead { computed: true, ..NormalsRead::default() }, 0),
+    };
+    Ok(Built { mesh, origin, normals, without_direction })
 }
 
 /// The triangles of all polygons, one polygon after the other.
@@ -200,6 +205,11 @@ fn normals_read(obj: &Obj, corners: &[Corner], indices: &[u32]) -> NormalsRead {
         read.repaired.extend(stored.filter(is_wrong).map(|normal| (index, normal)));
     }
     read
+}
+
+fn zero_normals(obj: &Obj, corners: &[Corner]) -> usize {
+    let stored = corners.iter().filter_map(|corner| corner.normal);
+    stored.filter(|&number| obj.normals[number as usize] == [0.0; 3]).count()
 }
 
 fn length(vector: [f32; 3]) -> f64 {

@@ -16,6 +16,7 @@ use chamfer::Chamfered;
 
 use crate::document::{
     Document, Encoded, Format, Look, Looks, NormalsRead, OutputFile, ReadOptions, SourceMesh,
+    no_direction,
 };
 use crate::glb;
 use crate::weld;
@@ -35,6 +36,8 @@ pub struct ObjDocument {
     origin: Origin,
     /// How many positions were moved onto others.
     welded: usize,
+    /// How many corners have a normal that is none.
+    without_direction: usize,
     /// The file as it was, where there is no face to change.
     unchanged: Option<Vec<u8>>,
 }
@@ -47,7 +50,7 @@ pub struct ObjDocument {
 pub fn decode(path: &Path, bytes: Vec<u8>, options: &ReadOptions) -> Result<ObjDocument> {
     let mut obj = parse::parse(&bytes)?;
     let welded = weld::weld(&mut obj.positions, options.weld);
-    let build::Built { mesh, origin, normals } = build::build(&obj, options)?;
+    let build::Built { mesh, origin, normals, without_direction } = build::build(&obj, options)?;
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     Ok(ObjDocument {
         unchanged: mesh.indices.is_empty().then_some(bytes),
@@ -57,6 +60,7 @@ pub fn decode(path: &Path, bytes: Vec<u8>, options: &ReadOptions) -> Result<ObjD
         obj,
         origin,
         welded,
+        without_direction,
     })
 }
 
@@ -72,6 +76,7 @@ impl Document for ObjDocument {
     fn notes(&self) -> Vec<String> {
         let mut notes = self.obj.slips.notes();
         notes.extend(weld::note(self.welded));
+        notes.extend(no_direction(self.without_direction));
         if !self.obj.dropped.is_empty() {
             let names: Vec<&str> = self.obj.dropped.iter().map(String::as_str).collect();
             let names = names.join(", ");
