@@ -1,6 +1,6 @@
 //! One file from reading to writing.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
@@ -45,7 +45,7 @@ pub struct Processed {
     pub document: Box<dyn Document + Send>,
     /// `#meshes`.
     pub chamfered: Vec<Chamfered>,
-    /// `#meshes`.
+    /// For each mesh that is written.
     pub reports: Vec<MeshReport>,
     /// What the user should know.
     pub notes: Vec<String>,
@@ -83,6 +83,9 @@ pub fn process(job: &Job, settings: &Settings, progress: &dyn Fn(f32)) -> Result
     }
     let Encoded { files, notes: lost } = encoded;
     notes.extend(lost);
+    // What is said of a mesh is said of its copies too.
+    let mut told = BTreeSet::new();
+    notes.retain(|note| told.insert(note.clone()));
     settings.taken.claim(job, &files)?;
     let written = write::model(&files)?;
     Ok(Processed { document, chamfered, reports, notes, written })
@@ -165,7 +168,10 @@ fn chamfer_all(
         let report = MeshReport::new(name, mesh, result, time, extent);
         if settings.report_edges { report.with_edges(mesh, result) } else { report }
     };
-    let reports = document.meshes().iter().zip(&scene.meshes).map(report).collect();
+    let is_written = document.are_written(&scene.meshes);
+    let meshes = document.meshes().iter().zip(&scene.meshes).zip(is_written);
+    let reports =
+        meshes.filter(|(_, is_written)| *is_written).map(|(mesh, _)| report(mesh)).collect();
     Ok((scene.meshes, reports))
 }
 

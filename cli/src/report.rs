@@ -139,7 +139,8 @@ pub struct EdgeReport {
     pub outcome: &'static str,
     /// Why it is not at full width, or "none".
     pub reason: &'static str,
-    /// At each end, the distance from the old edge to the pulled ones, in mesh units.
+    /// At each end, the distance from the old edge to the pulled ones, in mesh units; where the mesh
+    /// stands stretched, on the mean of its axes.
     pub widths: [f32; 2],
 }
 

@@ -210,6 +210,8 @@ fn a_mesh_without_hard_edges_gets_no_copies() {
     assert_eq!(meshes, [0, 0, 1, 2]);
     assert_eq!(out["meshes"].as_array().unwrap().len(), 3);
     folder.run("check a.gltf b.gltf --width 0.01 --no-see-through").exits(3);
+    folder.run("a.gltf -o c.gltf --width 0.01 --verify full --report r.json").exits(0);
+    assert_eq!(folder.json("r.json")["totals"]["meshes"], 3, "what is written");
 }
 
 /// A cube as .obj; its top and bottom are of metal.

@@ -169,6 +169,12 @@ pub trait Document {
     /// own, behind all meshes. Nothing where the format has no objects: then there is one of each.
     fn give_own(&mut self, _objects: &[usize]) {}
 
+    /// `#meshes`: whether each is in the file that is written. A copy that came out as its original is
+    /// not.
+    fn are_written(&self, chamfered: &[Chamfered]) -> Vec<bool> {
+        vec![true; chamfered.len()]
+    }
+
     /// What its meshes look like; nothing where the format does not say.
     fn looks(&self) -> Looks {
         Looks::default()

@@ -95,6 +95,10 @@ impl Document for FbxDocument {
         self.gltf.give_own(objects);
     }
 
+    fn are_written(&self, chamfered: &[Chamfered]) -> Vec<bool> {
+        self.gltf.are_written(chamfered)
+    }
+
     fn notes(&self) -> Vec<String> {
         [self.notes.clone(), self.gltf.notes()].concat()
     }

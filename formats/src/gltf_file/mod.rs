@@ -184,6 +184,11 @@ impl GltfDocument {
             || new.uvs != old.uvs
     }
 
+    fn are_changed(&self, chamfered: &[Chamfered]) -> Vec<bool> {
+        let is_changed = |(mesh, result)| self.is_changed(mesh, result);
+        chamfered.iter().enumerate().map(is_changed).collect()
+    }
+
     /// The file as it was, and the files it refers to if it goes to another folder.
     fn encode_unchanged(&self, output: &Path) -> Result<Vec<OutputFile>> {
         let mut files = vec![OutputFile { path: output.to_owned(), bytes: self.bytes.clone() }];
@@ -199,8 +204,7 @@ impl GltfDocument {
 
     /// The file with all chamfered meshes in it.
     fn rewritten(&self, chamfered: &[Chamfered]) -> Result<Rewritten> {
-        let is_changed = |(mesh, result)| self.is_changed(mesh, result);
-        let is_changed: Vec<bool> = chamfered.iter().enumerate().map(is_changed).collect();
+        let is_changed = self.are_changed(chamfered);
         let numbers = copies::numbers(&self.copied, &is_changed);
         let mut json = copies::without_needless(&self.json, &self.objects, &numbers);
         let mentions = Mentions::of(&json);
@@ -343,6 +347,12 @@ impl Document for GltfDocument {
         self.geometries.push(self.geometries[mesh].clone());
         self.normals.push(self.normals[mesh].clone());
         self.copied.push(self.copied[mesh]);
+    }
+
+    fn are_written(&self, chamfered: &[Chamfered]) -> Vec<bool> {
+        let numbers = copies::numbers(&self.copied, &self.are_changed(chamfered));
+        let is_written = |(mesh, number)| mesh == self.copied[mesh] || number != self.copied[mesh];
+        numbers.into_iter().enumerate().map(is_written).collect()
     }
 
     fn notes(&self) -> Vec<String> {
