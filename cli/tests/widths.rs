@@ -371,6 +371,9 @@ fn options_come_from_a_file_and_the_command_line_wins() {
     ];
     assert_eq!(told, [&json!(3.0), &json!("percent"), &json!("full"), &json!("2%")]);
 
+    let left = folder.json("r.json")["totals"]["skipped"]["not_selected"].clone();
+    assert_eq!(left, Value::Null, "of one material the last width counts");
+
     let printed = folder.run("--print-options --options o.toml --max-angle 100").exits(0).out();
     fs::write(folder.path("again.toml"), &printed).unwrap();
     assert!(
