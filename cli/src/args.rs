@@ -2,10 +2,12 @@
 
 use std::path::PathBuf;
 
-use chamfer::{ChamferSubmesh, Options, Verify, Width};
+use chamfer::Verify;
 use chamfer_formats::{ReadOptions, Weld};
 use clap::{Parser, Subcommand, ValueEnum};
 
+use crate::choices::{Choices, NormalsArg, angle, number, weld};
+use crate::length::Length;
 use crate::report::Asked;
 
 const ABOUT: &str = "\
@@ -29,14 +31,12 @@ With -o an .obj can go out as .glb too, and .glb and .gltf as each other.
 
 Examples:
   chamfer chair.glb
-  chamfer chair.glb -o soft/chair.glb --width 0.005 --preview chair.png
+  chamfer chair.glb -o soft/chair.glb --width 5mm --preview chair.png
+  chamfer crate.glb --width 4mm --material-width Metal=1mm --min-angle 20
   chamfer models -o chamfered --width-percent 0.5 --report report.json
   chamfer bolt.stl -o bolt.glb --smoothing-angle 40
   chamfer check chair.glb chair.chamfered.glb
   chamfer demo";
-
-/// More than any machine has, and few enough to start.
-const MOST_THREADS: i64 = 1024;
 
 /// The whole command line.
 #[derive(Debug, Parser)]
@@ -56,32 +56,12 @@ pub struct Args {
     pub command: Option<Command>,
 
     /// Models, or folders to search for models [a model named "check" or "demo": ./demo]
-    #[arg(value_name = "INPUT", required = true)]
+    #[arg(value_name = "INPUT", required_unless_present = "print_options")]
     pub inputs: Vec<PathBuf>,
 
     /// Where results go: a file for one model, a folder for several
     #[arg(short, long, value_name = "OUTPUT|DIR")]
     pub output: Option<PathBuf>,
-
-    /// Distance between an old edge and the pulled one, in mesh units
-    #[arg(long, value_name = "W", value_parser = width, allow_negative_numbers = true)]
-    #[arg(conflicts_with = "width_percent")]
-    pub width: Option<f32>,
-
-    /// The same in percent of each mesh's largest side
-    #[arg(long, value_name = "P", value_parser = width, allow_negative_numbers = true)]
-    #[arg(default_value = "1")]
-    pub width_percent: f32,
-
-    /// How much of the breadth of each face has to stay between its chamfers, in percent; narrow
-    /// faces get narrower chamfers for it
-    #[arg(long, value_name = "P", value_parser = percent, allow_negative_numbers = true)]
-    #[arg(default_value = "20")]
-    pub least_breadth: f32,
-
-    /// How thoroughly results are checked
-    #[arg(long, value_enum, default_value = "seen")]
-    pub verify: VerifyArg,
 
     /// Write what became of every mesh to this file
     #[arg(long, value_name = "FILE.json")]
@@ -121,35 +101,27 @@ pub struct Args {
     #[arg(value_parser = clap::value_parser!(u32).range(32..=2048))]
     pub preview_size: Option<u32>,
 
-    /// Draw these widths beside each other: in percent, or in mesh units with --width. What is
+    /// Draw these widths beside each other: with units, or in that of the width asked for. What is
     /// written has the width of --width or --width-percent all the same
     #[arg(long, value_name = "W,W,..", requires = "preview", value_delimiter = ',')]
-    #[arg(value_parser = width, num_args = 1, conflicts_with = "preview_verdicts")]
-    pub preview_widths: Vec<f32>,
+    #[arg(value_parser = Length::parse, num_args = 1, conflicts_with = "preview_verdicts")]
+    pub preview_widths: Vec<Length>,
 
     /// Draw the corner at which most hard edges meet, too, five times as large
     #[arg(long, requires = "preview")]
     pub preview_close_up: bool,
 
-    /// How many threads work [default: one a core]; results do not depend on it
-    #[arg(long, value_name = "N", default_value = "0", hide_default_value = true)]
-    #[arg(value_parser = clap::value_parser!(u32).range(..=MOST_THREADS))]
-    pub threads: u32,
+    /// Take options from this file, as --print-options writes it; those of the command line win
+    #[arg(long, value_name = "FILE.toml")]
+    pub options: Option<PathBuf>,
 
-    /// For models without normals: faces that meet at up to this angle shade as one surface
-    #[arg(long, value_name = "DEG", value_parser = angle, allow_negative_numbers = true)]
-    #[arg(default_value = "30")]
-    pub smoothing_angle: f32,
+    /// Print all options as such a file, and do nothing else
+    #[arg(long)]
+    pub print_options: bool,
 
-    /// Join vertices that are at most so far from each other, in mesh units; "auto": those that only
-    /// rounding may have set apart [default: those at the same place]
-    #[arg(long, value_name = "DISTANCE|auto", value_parser = weld, allow_negative_numbers = true)]
-    pub weld: Option<Weld>,
-
-    /// Submesh (material) of the new triangles: that of the face each chamfer continues, a new
-    /// one, or the one of this number
-    #[arg(long, value_name = "owner|own|N", value_parser = submesh, default_value = "owner")]
-    pub chamfer_submesh: ChamferSubmesh,
+    /// How to chamfer.
+    #[command(flatten)]
+    pub choices: Choices,
 }
 
 /// What can stand in place of inputs.
@@ -193,14 +165,18 @@ pub struct CheckArgs {
     #[arg(long, value_name = "FILE.json")]
     pub report: Option<PathBuf>,
 
-    /// The width that was asked for, in mesh units
-    #[arg(long, value_name = "W", value_parser = width, allow_negative_numbers = true)]
+    /// The width that was asked for, as it was given
+    #[arg(long, value_name = "W", value_parser = Length::parse, allow_negative_numbers = true)]
     #[arg(conflicts_with = "width_percent")]
-    pub width: Option<f32>,
+    pub width: Option<Length>,
 
-    /// The same in percent of each mesh's largest side
-    #[arg(long, value_name = "P", value_parser = width, allow_negative_numbers = true)]
+    /// The same in percent of the largest side of the whole model
+    #[arg(long, value_name = "P", value_parser = number, allow_negative_numbers = true)]
     pub width_percent: Option<f32>,
+
+    /// The width was that of each mesh by itself
+    #[arg(long)]
+    pub per_mesh: bool,
 
     /// Draw the worst places where light shows to this file, before and after; without any, the
     /// whole model
@@ -215,6 +191,10 @@ pub struct CheckArgs {
     #[arg(long, value_enum, default_value = "full")]
     pub verify: CheckDepth,
 
+    /// Which normals of the model before counted
+    #[arg(long, value_enum, default_value = "keep")]
+    pub normals: NormalsArg,
+
     /// For models without normals: faces that meet at up to this angle shade as one surface
     #[arg(long, value_name = "DEG", value_parser = angle, allow_negative_numbers = true)]
     #[arg(default_value = "30")]
@@ -228,13 +208,22 @@ pub struct CheckArgs {
 
 impl CheckArgs {
     /// The width that was asked for, if that is known.
-    pub fn width(&self) -> Option<Width> {
-        self.width.map(Width::Units).or(self.width_percent.map(Width::PercentOfExtent))
+    pub fn width(&self) -> Option<Length> {
+        self.width.or(self.width_percent.map(Length::percent))
     }
 
-    /// What to ask of the readers.
+    /// What to ask of the readers for the model after.
     pub fn read_options(&self) -> ReadOptions {
-        ReadOptions { smoothing_angle: self.smoothing_angle, weld: self.weld.unwrap_or_default() }
+        ReadOptions {
+            smoothing_angle: self.smoothing_angle,
+            weld: self.weld.unwrap_or_default(),
+            ..ReadOptions::default()
+        }
+    }
+
+    /// The same for the model before. The result has the normals that were made for it.
+    pub fn read_options_before(&self) -> ReadOptions {
+        ReadOptions { normals: self.normals.into(), ..self.read_options() }
     }
 }
 
@@ -271,117 +260,18 @@ pub enum Compression {
     Meshopt,
 }
 
-/// [`Verify`] as an argument.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum VerifyArg {
-    /// As "full", and no light shows through the model where none did before.
-    Seen,
-    /// Nothing opens, flips, degenerates or newly cuts through itself.
-    Full,
-    /// Nothing opens, flips or degenerates.
-    Fast,
-}
-
-impl From<VerifyArg> for Verify {
-    fn from(verify: VerifyArg) -> Verify {
-        match verify {
-            VerifyArg::Seen => Verify::Seen,
-            VerifyArg::Full => Verify::Full,
-            VerifyArg::Fast => Verify::Fast,
-        }
-    }
-}
-
 impl Args {
-    /// What to ask of the core, with this many threads for one mesh.
-    pub fn options(&self, threads: u32) -> Options {
-        Options::default()
-            .with_width(self.width.map_or(Width::PercentOfExtent(self.width_percent), Width::Units))
-            .with_least_breadth(self.least_breadth / 100.0)
-            .with_verify(self.verify.into())
-            .with_chamfer_submesh(self.chamfer_submesh)
-            .with_threads(threads)
-    }
-
-    /// The same and more, for the report.
+    /// What was asked for, for the report.
     pub fn asked(&self) -> Asked {
-        let (width, width_unit) = match self.width {
-            Some(width) => (width, "mesh"),
-            None => (self.width_percent, "percent"),
-        };
-        Asked {
-            width,
-            width_unit,
-            least_breadth: self.least_breadth,
-            verify: match self.verify {
-                VerifyArg::Seen => "seen",
-                VerifyArg::Full => "full",
-                VerifyArg::Fast => "fast",
-            },
-            chamfer_submesh: match self.chamfer_submesh {
-                ChamferSubmesh::Owner => "owner".into(),
-                ChamferSubmesh::Own => "own".into(),
-                ChamferSubmesh::Given(number) => number.to_string(),
-                _ => "other".into(),
-            },
-            smoothing_angle: self.smoothing_angle,
-            weld: self.weld.map(|weld| match weld {
-                Weld::Equal => "0".into(),
-                Weld::Within(distance) => distance.to_string(),
-                Weld::Auto => "auto".into(),
-            }),
-            compress: self.compress.map(|Compression::Meshopt| "meshopt"),
-        }
-    }
-
-    /// What to ask of the readers.
-    pub fn read_options(&self) -> ReadOptions {
-        ReadOptions { smoothing_angle: self.smoothing_angle, weld: self.weld.unwrap_or_default() }
-    }
-}
-
-fn width(text: &str) -> Result<f32, String> {
-    match text.parse::<f32>() {
-        Ok(width) if width.is_finite() && width >= 0.0 => Ok(width),
-        _ => Err("give a number of at least 0".into()),
-    }
-}
-
-fn weld(text: &str) -> Result<Weld, String> {
-    match text {
-        "auto" => Ok(Weld::Auto),
-        distance => width(distance).map(Weld::Within).map_err(|error| format!("{error}, or auto")),
-    }
-}
-
-fn percent(text: &str) -> Result<f32, String> {
-    match text.parse::<f32>() {
-        Ok(percent) if (0.0..=100.0).contains(&percent) => Ok(percent),
-        _ => Err("give percent from 0 to 100".into()),
-    }
-}
-
-fn angle(text: &str) -> Result<f32, String> {
-    match text.parse::<f32>() {
-        Ok(angle) if (0.0..=180.0).contains(&angle) => Ok(angle),
-        _ => Err("give degrees from 0 to 180".into()),
-    }
-}
-
-fn submesh(text: &str) -> Result<ChamferSubmesh, String> {
-    match text {
-        "owner" => Ok(ChamferSubmesh::Owner),
-        "own" => Ok(ChamferSubmesh::Own),
-        number => number
-            .parse()
-            .map(ChamferSubmesh::Given)
-            .map_err(|_| "give owner, own or the number of a submesh".into()),
+        let compress = self.compress.map(|Compression::Meshopt| "meshopt");
+        Asked { compress, ..self.choices.asked() }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use chamfer::{ChamferSubmesh, Options};
     use clap::CommandFactory;
 
     fn parse(line: &str) -> Result<Args, clap::Error> {
@@ -395,14 +285,16 @@ mod tests {
 
     #[test]
     fn files_are_looked_at_and_all_else_is_as_the_core_has_it() {
-        let options = parse("chamfer a.glb").unwrap().options(1);
-        assert_eq!(options, Options::default().with_verify(Verify::Seen));
+        let wish = parse("chamfer a.glb").unwrap().choices.wish(1);
+        assert_eq!(wish.core, Options::default().with_verify(Verify::Seen));
+        assert_eq!(wish.width, Length::percent(1.0));
     }
 
     #[test]
     fn a_width_in_units_wins_over_the_default_percentage() {
-        let options = parse("chamfer a.glb --width 0.25").unwrap().options(1);
-        assert_eq!(options.width, Width::Units(0.25));
+        let width = |line| parse(line).unwrap().choices.length();
+        assert_eq!(width("chamfer a.glb --width 0.25"), Length::parse("0.25").unwrap());
+        assert_eq!(width("chamfer a.glb --width 2%"), width("chamfer a.glb --width-percent 2"));
     }
 
     #[test]
@@ -419,7 +311,7 @@ mod tests {
 
     #[test]
     fn welding_is_off_unless_asked_for() {
-        let weld = |line| parse(line).unwrap().read_options().weld;
+        let weld = |line| parse(line).unwrap().choices.read_options().weld;
         assert_eq!(weld("chamfer a.glb"), Weld::Equal);
         assert_eq!(weld("chamfer a.glb --weld 0.5"), Weld::Within(0.5));
         assert_eq!(weld("chamfer a.glb --weld auto"), Weld::Auto);
@@ -428,7 +320,7 @@ mod tests {
 
     #[test]
     fn a_breadth_is_a_percentage() {
-        let options = parse("chamfer a.glb --least-breadth 50").unwrap().options(1);
+        let options = parse("chamfer a.glb --least-breadth 50").unwrap().choices.wish(1).core;
         assert_eq!(options.least_breadth, 0.5);
         assert!(parse("chamfer a.glb --least-breadth 101").is_err());
         assert!(parse("chamfer a.glb --least-breadth NaN").is_err());
@@ -436,7 +328,7 @@ mod tests {
 
     #[test]
     fn a_submesh_is_named_or_numbered() {
-        let submesh = |line| parse(line).unwrap().chamfer_submesh;
+        let submesh = |line| parse(line).unwrap().choices.chamfer_submesh;
         assert_eq!(submesh("chamfer a.glb --chamfer-submesh own"), ChamferSubmesh::Own);
         assert_eq!(submesh("chamfer a.glb --chamfer-submesh 3"), ChamferSubmesh::Given(3));
         assert!(parse("chamfer a.glb --chamfer-submesh -3").is_err());
@@ -458,7 +350,7 @@ mod tests {
         };
         assert_eq!(check("chamfer check a.glb b.glb").width(), None);
         let width = check("chamfer check a.glb b.glb --width-percent 2").width();
-        assert_eq!(width, Some(Width::PercentOfExtent(2.0)));
+        assert_eq!(width, Some(Length::percent(2.0)));
         assert!(parse("chamfer check a.glb").is_err());
         assert!(parse("chamfer check a.glb b.glb --width 1 --width-percent 2").is_err());
     }

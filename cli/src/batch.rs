@@ -79,11 +79,11 @@ pub fn run(args: &Args) -> ExitCode {
 fn share<'a>(args: &Args, plan: &'a Plan) -> (Shared<'a>, usize) {
     let jobs = &plan.jobs[..];
     let cores = thread::available_parallelism().map_or(1, usize::from);
-    let threads = if args.threads == 0 { cores } else { args.threads as usize };
+    let threads = if args.choices.threads == 0 { cores } else { args.choices.threads as usize };
     let workers = threads.min(jobs.len());
     let settings = Settings {
-        read: args.read_options(),
-        core: args.options((threads / workers) as u32),
+        read: args.choices.read_options(),
+        wish: args.choices.wish((threads / workers) as u32),
         report_edges: args.report_edges,
         compresses: args.compress.is_some(),
         taken: Taken::new(jobs),

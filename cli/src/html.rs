@@ -57,13 +57,17 @@ const COLUMNS: [&str; 9] = [
 fn summary(report: &Report) -> String {
     let totals = &report.totals;
     let options = &report.options;
-    let unit = if options.width_unit == "percent" { " %" } else { " units" };
+    let unit = match options.width_unit {
+        "percent" => "%",
+        "scene" | "mesh" => "units",
+        measure => measure,
+    };
     let interrupted =
         if report.interrupted { "<p class=\"failed\">The run was interrupted.</p>\n" } else { "" };
     let notes: String =
         report.notes.iter().map(|note| format!("<p class=\"note\">{}</p>\n", text(note))).collect();
     format!(
-        "{interrupted}{notes}<p>{} files, {} failed; width {}{unit}, verified: {}; version {}; \
+        "{interrupted}{notes}<p>{} files, {} failed; width {} {unit}, verified: {}; version {}; \
          {:.1} s of work.</p>\n<div class=\"figures\"><section><h2>What became of {} hard edges</h2>\
          {}</section><section><h2>Widths of chamfers, in shares of the width asked for</h2>{}\
          </section></div>\n",

@@ -42,6 +42,7 @@ struct Found {
 /// # Errors
 /// Where the arguments leave that open, or results would overwrite inputs or each other.
 pub fn plan(args: &Args) -> Result<Plan> {
+    args.choices.check()?;
     let single = args.inputs.len() == 1 && !args.inputs[0].is_dir();
     let plan = if single {
         let input = args.inputs[0].clone();

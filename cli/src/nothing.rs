@@ -28,8 +28,8 @@ pub fn no_hard_edges(document: &dyn Document, smoothing_angle: f32) -> Option<St
              --smoothing-angle under that, {smoothing_angle} is too much"
         ),
         false => "all its normals are smooth there. Chamfers go where the normals of two faces \
-                  differ: shade it flat, or mark its sharp edges, before it is exported; or export \
-                  it without normals, and they are made by --smoothing-angle"
+                  differ: shade it flat, or mark its sharp edges, before it is exported; or have \
+                  its normals made anew, by --normals angle and --smoothing-angle"
             .into(),
     })
     .map(|why: String| at + &why)

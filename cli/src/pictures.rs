@@ -4,14 +4,16 @@ use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Error, Result};
-use chamfer::{Chamfered, MeshBuffers, Options, Width};
+use chamfer::{Chamfered, MeshBuffers};
 use chamfer_formats::Document;
 use image::{ImageFormat, RgbImage};
 
 use crate::args::Args;
 use crate::busiest::busiest_corner;
 use crate::coats::Decoded;
+use crate::fit::Wish;
 use crate::html::Pictures;
+use crate::length::{Length, Unit};
 use crate::preview::{
     LARGE_TILE, Line, Panel, SMALL_TILE, Surface, before_after, sheet, stacked, tiles,
 };
@@ -29,8 +31,8 @@ pub struct Studio {
     tile: Option<u32>,
     verdicts: bool,
     close_up: bool,
-    /// Options for each of several widths, and what they are called.
-    widths: Vec<(String, Options)>,
+    /// What is asked for with each of several widths, and what these are called.
+    widths: Vec<(String, Wish)>,
     /// Whether there is a page.
     page: bool,
 }
@@ -56,19 +58,18 @@ impl Studio {
         let tile = if models == 1 { LARGE_TILE } else { SMALL_TILE };
         let tile = args.preview.as_ref().map(|_| args.preview_size.unwrap_or(tile));
         let page = args.html.is_some();
-        let options = |width: &f32| match args.width {
-            Some(_) => (format!("{width}"), args.options(1).with_width(Width::Units(*width))),
-            None => {
-                let options = args.options(1).with_width(Width::PercentOfExtent(*width));
-                (format!("{width} %"), options)
-            }
+        let wish = args.choices.wish(1);
+        let with = |width: &Length| {
+            let unit = if width.unit == Unit::File { wish.width.unit } else { width.unit };
+            let width = Length { unit, ..*width };
+            (width.to_string(), Wish { width, ..wish.clone() })
         };
         let is_used = tile.is_some() || page;
         is_used.then(|| Studio {
             tile,
             verdicts: args.preview_verdicts,
             close_up: args.preview_close_up,
-            widths: args.preview_widths.iter().map(options).collect(),
+            widths: args.preview_widths.iter().map(with).collect(),
             page,
         })
     }
@@ -105,8 +106,8 @@ impl Studio {
         document: &dyn Document,
         chamfered: &[Chamfered],
     ) -> Result<Portrait> {
-        let run = |options: &Options| chamfer_document(document, options, &|_| ());
-        let several = self.widths.iter().map(|(_, options)| Ok(run(options)?.meshes));
+        let run = |wish: &Wish| chamfer_document(document, wish, &|_| ());
+        let several = self.widths.iter().map(|(_, wish)| Ok(run(wish)?.meshes));
         let several: Vec<Vec<Chamfered>> = several.collect::<Result<_>>()?;
         let several = self.widths.iter().zip(&several);
         let mut named = several

@@ -1,6 +1,6 @@
 //! One file from reading to writing.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
@@ -18,17 +18,19 @@ use chamfer_formats::weld;
 use chamfer_formats::{Document, Encoded, OutputFile, ReadOptions, SourceMesh};
 use glam::{Mat4, Vec3};
 
+use crate::fit::{Wish, fit, unmet};
 use crate::jobs::Job;
 use crate::nothing;
 use crate::report::MeshReport;
+use crate::stretch;
 use crate::write::{self, Written};
 
 /// What is the same for every file of a run.
 pub struct Settings {
     /// For the readers.
     pub read: ReadOptions,
-    /// For the core.
-    pub core: Options,
+    /// What is asked of the meshes.
+    pub wish: Wish,
     /// Whether the report lists every hard edge.
     pub report_edges: bool,
     /// Whether results are compressed.
@@ -43,7 +45,7 @@ pub struct Processed {
     pub document: Box<dyn Document + Send>,
     /// `#meshes`.
     pub chamfered: Vec<Chamfered>,
-    /// `#meshes`.
+    /// For each mesh that is written.
     pub reports: Vec<MeshReport>,
     /// What the user should know.
     pub notes: Vec<String>,
@@ -56,8 +58,12 @@ pub struct Processed {
 /// # Errors
 /// Whatever is wrong with the file, the options or the place of the result.
 pub fn process(job: &Job, settings: &Settings, progress: &dyn Fn(f32)) -> Result<Processed> {
-    let document = formats::read(&job.input, &settings.read)?;
+    let mut document = formats::read(&job.input, &settings.read)?;
     let mut notes = document.notes();
+    notes.extend(unmet(&*document, &settings.wish));
+    if !settings.wish.per_mesh {
+        notes.extend(stretch::part(&mut *document));
+    }
     if document.meshes().iter().all(|mesh| mesh.mesh.indices.is_empty()) {
         notes.push("there are no triangles in it: nothing was chamfered".into());
     }
@@ -77,6 +83,9 @@ pub fn process(job: &Job, settings: &Settings, progress: &dyn Fn(f32)) -> Result
     }
     let Encoded { files, notes: lost } = encoded;
     notes.extend(lost);
+    // What is said of a mesh is said of its copies too.
+    let mut told = BTreeSet::new();
+    notes.retain(|note| told.insert(note.clone()));
     settings.taken.claim(job, &files)?;
     let written = write::model(&files)?;
     Ok(Processed { document, chamfered, reports, notes, written })
@@ -144,7 +153,7 @@ fn chamfer_all(
     notes: &mut Vec<String>,
 ) -> Result<(Vec<Chamfered>, Vec<MeshReport>)> {
     let start = Instant::now();
-    let scene = chamfer_document(document, &settings.core, progress)?;
+    let scene = chamfer_document(document, &settings.wish, progress)?;
     if !scene.leaks.is_empty() {
         notes.push(format!(
             "light still shows in {} places after {} tries: see \"chamfer check\"",
@@ -159,7 +168,10 @@ fn chamfer_all(
         let report = MeshReport::new(name, mesh, result, time, extent);
         if settings.report_edges { report.with_edges(mesh, result) } else { report }
     };
-    let reports = document.meshes().iter().zip(&scene.meshes).map(report).collect();
+    let is_written = document.are_written(&scene.meshes);
+    let meshes = document.meshes().iter().zip(&scene.meshes).zip(is_written);
+    let reports =
+        meshes.filter(|(_, is_written)| *is_written).map(|(mesh, _)| report(mesh)).collect();
     Ok((scene.meshes, reports))
 }
 
@@ -179,17 +191,15 @@ fn extent(positions: &[[f32; 3]]) -> f64 {
 /// Whatever is wrong with a mesh or the options.
 pub fn chamfer_document(
     document: &dyn Document,
-    options: &Options,
+    wish: &Wish,
     progress: &dyn Fn(f32),
 ) -> Result<ChamferedScene> {
-    let meshes: Vec<Mesh> = document.meshes().iter().map(|mesh| mesh.mesh.as_mesh()).collect();
-    let eyes =
-        (options.verify == Verify::Seen).then(|| Eyes::default().with_threads(options.threads));
+    let fit = fit(document, wish)?;
+    let meshes = fit.meshes(document);
+    let Options { verify, threads, .. } = wish.core;
+    let eyes = (verify == Verify::Seen).then(|| Eyes::default().with_threads(threads));
     // The scene looks through all meshes together.
-    let each = match options.verify {
-        Verify::Seen => options.with_verify(Verify::Full),
-        _ => *options,
-    };
+    let each = if verify == Verify::Seen { Verify::Full } else { verify };
     let total: usize = meshes.iter().map(|mesh| mesh.indices.len()).sum();
     let mut done = 0;
     let mut run = |number: usize, mesh: &Mesh| {
@@ -198,7 +208,8 @@ pub fn chamfer_document(
             progress((corners / total.max(1) as f32).min(1.0));
             ControlFlow::Continue(())
         };
-        let result = chamfer_with_progress(mesh, &each, &mut tell)
+        let options = fit.options[number].with_verify(each);
+        let result = chamfer_with_progress(mesh, &options, &mut tell)
             .with_context(|| format!("mesh {}", document.meshes()[number].name))?;
         done += mesh.indices.len();
         Ok(result)

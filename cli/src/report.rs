@@ -1,5 +1,6 @@
 //! What became of each file and mesh, for the terminal and as JSON.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::time::Duration;
 
@@ -30,14 +31,35 @@ pub struct Report {
 pub struct Asked {
     /// The width, in the unit of `width_unit`.
     pub width: f32,
-    /// "mesh" for the units of each mesh, "percent" of its largest side.
+    /// "scene" for the units of the scene, "mesh" for those of each mesh, "percent" of the largest side
+    /// of the model or of each mesh, or a measure.
     pub width_unit: &'static str,
+    /// Whether widths are those of each mesh by itself.
+    pub per_mesh: bool,
+    /// "offset", "chord", "depth" or "radius".
+    pub width_mode: String,
+    /// Widths at materials.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub material_width: BTreeMap<String, String>,
+    /// "r", "g", "b" or "a", or absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mask: Option<String>,
+    /// In degrees.
+    pub min_angle: f32,
+    /// In degrees.
+    pub max_angle: f32,
+    /// "both", "convex" or "concave".
+    pub convexity: String,
+    /// In degrees.
+    pub hard_angle: f32,
     /// What stays of the breadth of each face, in percent.
     pub least_breadth: f32,
     /// "seen", "full" or "fast".
-    pub verify: &'static str,
+    pub verify: String,
     /// "owner", "own" or a number.
     pub chamfer_submesh: String,
+    /// "keep" or "angle".
+    pub normals: String,
     /// In degrees.
     pub smoothing_angle: f32,
     /// A distance in mesh units, or "auto"; absent where only equal positions are one.
@@ -77,7 +99,7 @@ pub struct MeshReport {
     pub counts: Counts,
     /// Mean width as a share (0 to 1) of the width asked for, weighted by edge length.
     pub mean_width: f32,
-    /// The width asked for, in mesh units.
+    /// The width asked for, in mesh units; where the mesh stands stretched, on the mean of its axes.
     pub width: f32,
     /// Time in the core and for looking at the scene: its share of what the file took.
     pub milliseconds: f64,
@@ -117,7 +139,8 @@ pub struct EdgeReport {
     pub outcome: &'static str,
     /// Why it is not at full width, or "none".
     pub reason: &'static str,
-    /// At each end, the distance from the old edge to the pulled ones, in mesh units.
+    /// At each end, the distance from the old edge to the pulled ones, in mesh units; where the mesh
+    /// stands stretched, on the mean of its axes.
     pub widths: [f32; 2],
 }
 

@@ -79,7 +79,7 @@ fn reports_are_what_the_schema_says() {
     let options = &folder.json("full.json")["options"];
     let option = |name: &str| options[name].as_str().unwrap().to_owned();
     assert_eq!(options["width"], 0.1);
-    assert_eq!((option("width_unit"), option("verify")), ("mesh".into(), "fast".into()));
+    assert_eq!((option("width_unit"), option("verify")), ("scene".into(), "fast".into()));
     assert_eq!((option("weld"), option("chamfer_submesh")), ("auto".into(), "0".into()));
     assert_eq!(folder.json("plain.json")["options"]["width_unit"], "percent");
     assert_eq!(folder.json("plain.json")["chamfer"], env!("CARGO_PKG_VERSION"));

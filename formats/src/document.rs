@@ -24,6 +24,7 @@ pub enum Format {
 }
 
 /// One mesh of a file, in the layout of the core.
+#[derive(Clone)]
 pub struct SourceMesh {
     /// As the file calls it, or its kind and number.
     pub name: String,
@@ -69,11 +70,13 @@ pub struct ReadOptions {
     pub smoothing_angle: f32,
     /// Which vertices become one; by default those at the very same place.
     pub weld: Weld,
+    /// Which normals count; by default those of the file.
+    pub normals: Normals,
 }
 
 impl Default for ReadOptions {
     fn default() -> Self {
-        ReadOptions { smoothing_angle: 30.0, weld: Weld::Equal }
+        ReadOptions { smoothing_angle: 30.0, weld: Weld::Equal, normals: Normals::Keep }
     }
 }
 
@@ -89,6 +92,16 @@ pub enum Weld {
     Auto,
 }
 
+/// Which normals of a file count.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Normals {
+    /// Those that it has; the others are made by the smoothing angle.
+    #[default]
+    Keep,
+    /// None: all are made by the smoothing angle.
+    Angle,
+}
+
 /// What reading did to the normals of a mesh.
 #[derive(Clone, Debug, Default)]
 pub struct NormalsRead {
@@ -96,6 +109,11 @@ pub struct NormalsRead {
     pub computed: bool,
     /// Those in the file that are plainly not unit length, by vertex. The mesh has others there.
     pub repaired: Vec<(u32, [f32; 3])>,
+}
+
+/// Says that normals point nowhere; others were made.
+pub fn no_direction(count: usize) -> Option<String> {
+    (count > 0).then(|| format!("{count} normals have no direction: they were made from the faces"))
 }
 
 /// What the meshes of a file look like, as far as pictures of them show it.
@@ -135,6 +153,26 @@ pub trait Document {
     /// Where the meshes stand in the scene: each once and where it is, if the format has none.
     fn instances(&self) -> Vec<Instance> {
         (0..self.meshes().len()).map(|mesh| Instance { mesh, transform: IDENTITY }).collect()
+    }
+
+    /// `#meshes by #submeshes`: the names of their materials; nothing where the format has none.
+    fn materials(&self) -> Vec<Vec<Option<String>>> {
+        Vec::new()
+    }
+
+    /// Whether its units are metres; most formats do not say what theirs are.
+    fn counts_metres(&self) -> bool {
+        false
+    }
+
+    /// Gives some objects of one mesh, by their numbers among the instances, a copy of it of their
+    /// own, behind all meshes. Nothing where the format has no objects: then there is one of each.
+    fn give_own(&mut self, _objects: &[usize]) {}
+
+    /// `#meshes`: whether each is in the file that is written. A copy that came out as its original is
+    /// not.
+    fn are_written(&self, chamfered: &[Chamfered]) -> Vec<bool> {
+        vec![true; chamfered.len()]
     }
 
     /// What its meshes look like; nothing where the format does not say.

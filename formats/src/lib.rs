@@ -27,7 +27,7 @@ pub mod stl_file;
 pub mod weld;
 
 pub use document::{
-    Document, Encoded, Format, IDENTITY, Instance, Look, Looks, NormalsRead, OutputFile,
+    Document, Encoded, Format, IDENTITY, Instance, Look, Looks, Normals, NormalsRead, OutputFile,
     ReadOptions, SourceMesh, Weld,
 };
 pub use gltf_file::compress;

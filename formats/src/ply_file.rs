@@ -10,7 +10,8 @@ use ply_rs_bw::parser::{Parser, Reader};
 use ply_rs_bw::ply::{DefaultElement, Property};
 
 use crate::document::{
-    Document, Encoded, Format, NormalsRead, OutputFile, ReadOptions, SourceMesh,
+    Document, Encoded, Format, Normals, NormalsRead, OutputFile, ReadOptions, SourceMesh,
+    no_direction,
 };
 use crate::polygon::triangulate;
 use crate::{glb, weld};
@@ -20,6 +21,8 @@ pub struct PlyDocument {
     mesh: SourceMesh,
     normals: NormalsRead,
     welded: usize,
+    /// How many normals were none.
+    without_direction: usize,
     /// Elements that do not go along.
     left_out: Vec<String>,
 }
@@ -54,14 +57,29 @@ pub fn decode(path: &Path, bytes: &[u8], options: &ReadOptions) -> Result<PlyDoc
         mesh.indices.extend(triangles.map(|corner| corners[corner]));
     }
     mesh.submesh_index_counts = vec![mesh.indices.len() as u32];
-    let normals = NormalsRead { computed: mesh.normals.is_empty(), ..NormalsRead::default() };
-    if mesh.normals.is_empty() {
+    let without_direction = match options.normals {
+        Normals::Keep => zero_normals(&mesh),
+        Normals::Angle => Vec::new(),
+    };
+    let is_without = !mesh.normals.is_empty() && without_direction.len() == mesh.normals.len();
+    let computed = mesh.normals.is_empty() || is_without || options.normals == Normals::Angle;
+    let normals = NormalsRead { computed, ..NormalsRead::default() };
+    if computed {
         split(&mut mesh, options.smoothing_angle)?;
+    } else {
+        fill_in(&mut mesh, &without_direction)?;
     }
+    let without_direction = without_direction.len();
     let is_known = |name: &str| matches!(name, "vertex" | "face");
     let left_out = header.elements.keys().filter(|name| !is_known(name)).cloned().collect();
     let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    Ok(PlyDocument { mesh: SourceMesh { name, mesh }, normals, welded, left_out })
+    Ok(PlyDocument {
+        mesh: SourceMesh { name, mesh },
+        normals,
+        welded,
+        without_direction,
+        left_out,
+    })
 }
 
 /// What the vertices have, by the names that most programs use.
@@ -86,7 +104,7 @@ fn streams(vertices: &[DefaultElement]) -> Result<MeshBuffers> {
         vertices.iter().map(move |v| names.map(|name| number_of(v, name).unwrap_or_default()))
     };
     if has(&["nx", "ny", "nz"]) {
-        let unit = |normal: [f32; 3]| Vec3::from(normal).try_normalize().unwrap_or(Vec3::Z);
+        let unit = |normal: [f32; 3]| Vec3::from(normal).normalize_or_zero();
         mesh.normals = all(["nx", "ny", "nz"]).map(|normal| unit(normal).to_array()).collect();
     }
     if has(&["red", "green", "blue"]) {
@@ -126,6 +144,28 @@ fn corners(face: &DefaultElement, count: usize) -> Result<Vec<u32>> {
     Ok(if corners.len() < 3 { Vec::new() } else { corners })
 }
 
+/// The vertices whose normal is none.
+fn zero_normals(mesh: &MeshBuffers) -> Vec<usize> {
+    let is_zero = |vertex: &usize| mesh.normals[*vertex] == [0.0; 3];
+    (0..mesh.normals.len()).filter(is_zero).collect()
+}
+
+/// Gives vertices the mean normal of the faces around their places, or any where there is none.
+fn fill_in(mesh: &mut MeshBuffers, vertices: &[usize]) -> Result<()> {
+    if vertices.is_empty() {
+        return Ok(());
+    }
+    let made = split_by_angle(&mesh.positions, &mesh.indices, ALL_FACES)?;
+    for &vertex in vertices {
+        let normal = Vec3::from(made.normals[vertex]).try_normalize().unwrap_or(Vec3::Z);
+        mesh.normals[vertex] = normal.to_array();
+    }
+    Ok(())
+}
+
+/// The angle at which all faces around a place shade as one.
+const ALL_FACES: f32 = 180.0;
+
 /// Gives all vertices normals, and each as many copies as it needs for that.
 fn split(mesh: &mut MeshBuffers, angle: f32) -> Result<()> {
     let smoothed = split_by_angle(&mesh.positions, &mesh.indices, angle)?;
@@ -154,7 +194,7 @@ impl Document for PlyDocument {
     fn notes(&self) -> Vec<String> {
         let left_out = self.left_out.iter();
         let notes = left_out.map(|name| format!("its elements {name:?} do not go along"));
-        notes.chain(weld::note(self.welded)).collect()
+        notes.chain(weld::note(self.welded)).chain(no_direction(self.without_direction)).collect()
     }
 
     fn encode(&self, _: Format, output: &Path, chamfered: &[Chamfered]) -> Result<Encoded> {
@@ -217,6 +257,29 @@ mod tests {
         for length in 0..bytes.len() {
             assert!(read(&bytes[..length]).is_err(), "{length} bytes");
         }
+    }
+
+    #[test]
+    fn normals_without_a_direction_are_made() {
+        let file = |normals: [&str; 3]| {
+            let places = ["0 0 0", "1 0 0", "0 1 0"];
+            let vertices =
+                places.iter().zip(normals).map(|(at, normal)| format!("{at} {normal}\n"));
+            format!(
+                "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n\
+                 property float z\nproperty float nx\nproperty float ny\nproperty float nz\n\
+                 element face 1\nproperty list uchar int vertex_indices\nend_header\n{}3 0 1 2\n",
+                vertices.collect::<String>()
+            )
+        };
+        let some = read(file(["1 0 0", "0 0 0", "1 0 0"]).as_bytes()).unwrap();
+        let (up, side) = ([0.0, 0.0, 1.0], [1.0, 0.0, 0.0]);
+        assert_eq!(some.meshes()[0].mesh.normals, [side, up, side]);
+        let note = "1 normals have no direction: they were made from the faces";
+        assert_eq!((some.notes(), some.normals()[0].computed), (vec![note.to_owned()], false));
+        let all = read(file(["0 0 0"; 3]).as_bytes()).unwrap();
+        assert_eq!(all.meshes()[0].mesh.normals, [up; 3]);
+        assert!(all.normals()[0].computed && all.notes()[0].starts_with("3 normals"));
     }
 
     #[test]

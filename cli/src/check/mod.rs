@@ -5,6 +5,7 @@ mod pairs;
 mod report;
 mod table;
 
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -18,6 +19,7 @@ use chamfer_formats::{Document, NormalsRead, ReadOptions};
 use crate::args::{CheckArgs, CheckDepth};
 use crate::batch::{USAGE, name_of, one_line};
 use crate::console::{say, warn};
+use crate::fit::Wish;
 use crate::process::chamfer_document;
 use crate::scene::largest_length;
 use crate::write;
@@ -39,8 +41,9 @@ pub fn run(args: &CheckArgs) -> ExitCode {
 /// Says what was found.
 fn check(args: &CheckArgs) -> Result<Verdict> {
     refuse_to_overwrite(args)?;
-    let [before, after] = [&args.before, &args.after].map(|path| read(path, &args.read_options()));
-    let (before, after) = (before?, after?);
+    let mut before = read(&args.before, &args.read_options_before())?;
+    let after = read(&args.after, &args.read_options())?;
+    part(&mut *before, &*after);
     let pairs = Pairs::new(before.meshes(), after.meshes());
     let expected = expected(&*before, args)?;
     let checks = pairs.both.iter().map(|&[source, result]| {
@@ -54,7 +57,7 @@ fn check(args: &CheckArgs) -> Result<Verdict> {
         [&args.before, &args.after],
         missing(&*before, &pairs),
         pairs.added.iter().map(|&mesh| after.meshes()[mesh].name.clone()).collect(),
-        see_through(args, documents, &pairs, &checks),
+        see_through(args, documents, &pairs, &checks, &expected),
         checks,
     );
     say(table::table(&report));
@@ -88,12 +91,16 @@ fn see_through(
     documents: [&dyn Document; 2],
     pairs: &Pairs,
     checks: &[MeshCheck],
+    expected: &[Chamfered],
 ) -> SeeThrough {
     if args.no_see_through {
         return SeeThrough::not_checked("left out by --no-see-through");
     }
     let check_of = |mesh: usize| pairs.both.iter().position(|[source, _]| *source == mesh);
-    let width = |mesh: usize| checks[check_of(mesh)?].width;
+    let width = |mesh: usize| match expected.get(mesh) {
+        Some(expected) => Some(expected.largest_width),
+        None => checks[check_of(mesh)?].width,
+    };
     light::look(documents, largest_length(documents[0], width))
 }
 
@@ -131,8 +138,30 @@ impl Side<'_> {
 fn expected(before: &dyn Document, args: &CheckArgs) -> Result<Vec<Chamfered>> {
     let Some(width) = args.width() else { return Ok(Vec::new()) };
     let verify = if args.no_see_through { args.verify.into() } else { Verify::Seen };
-    let options = Options::default().with_width(width).with_verify(verify);
-    Ok(chamfer_document(before, &options, &|_| ())?.meshes)
+    let wish = Wish {
+        core: Options::default().with_verify(verify),
+        width,
+        per_mesh: args.per_mesh,
+        material_widths: Vec::new(),
+        mask: None,
+    };
+    Ok(chamfer_document(before, &wish, &|_| ())?.meshes)
+}
+
+/// Gives objects of one mesh copies of it where the result has several for them, as it has where they
+/// stand with different scales.
+fn part(before: &mut dyn Document, after: &dyn Document) {
+    let known = before.meshes().len();
+    let [old, new] = [before.instances(), after.instances()];
+    if old.len() != new.len() || after.meshes().len() <= known {
+        return;
+    }
+    let mut objects: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for (number, instance) in new.iter().enumerate().filter(|(_, object)| object.mesh >= known) {
+        objects.entry(instance.mesh).or_default().push(number);
+    }
+    let is_of_one = |of: &&Vec<usize>| of.iter().all(|&k| old[k].mesh == old[of[0]].mesh);
+    objects.values().take_while(is_of_one).for_each(|of| before.give_own(of));
 }
 
 fn check_pair(

@@ -83,6 +83,22 @@ impl Document for FbxDocument {
         self.gltf.instances()
     }
 
+    fn materials(&self) -> Vec<Vec<Option<String>>> {
+        self.gltf.materials()
+    }
+
+    fn counts_metres(&self) -> bool {
+        true
+    }
+
+    fn give_own(&mut self, objects: &[usize]) {
+        self.gltf.give_own(objects);
+    }
+
+    fn are_written(&self, chamfered: &[Chamfered]) -> Vec<bool> {
+        self.gltf.are_written(chamfered)
+    }
+
     fn notes(&self) -> Vec<String> {
         [self.notes.clone(), self.gltf.notes()].concat()
     }

@@ -3,7 +3,7 @@
 use chamfer::{Error, MeshBuffers, UV_CHANNELS, UvBuffer, split_by_angle};
 use glam::Vec3;
 
-use crate::document::NormalsRead;
+use crate::document::{NormalsRead, no_direction};
 
 use super::geometry::{Block, MeshGeometry, Origin, has_no_direction};
 
@@ -125,17 +125,20 @@ pub fn normals_read(geometry: &MeshGeometry, mesh: &MeshBuffers) -> NormalsRead 
     read
 }
 
-/// Says that normals of the file point nowhere; others were made.
-pub fn note(name: &str, geometry: &MeshGeometry, read: &NormalsRead) -> Option<String> {
+/// How many normals of blocks that have none with a direction.
+pub fn without_direction(geometry: &MeshGeometry) -> usize {
     let is_unread = |origin: &&Origin| {
         let block = &geometry.blocks[origin.block as usize];
         block.smoothed && block.attribute("NORMAL").is_some()
     };
+    geometry.origins.iter().filter(is_unread).count()
+}
+
+/// Says that normals of the file point nowhere; others were made.
+pub fn note(name: &str, without: usize, read: &NormalsRead) -> Option<String> {
     let filled = read.repaired.iter().filter(|(_, stored)| *stored == [0.0; 3]).count();
-    let count = filled + geometry.origins.iter().filter(is_unread).count();
-    (count > 0).then(|| {
-        format!("mesh {name}: {count} normals have no direction: they were made from the faces")
-    })
+    let count = filled + without;
+    no_direction(count).map(|note| format!("mesh {name}: {note}"))
 }
 
 /// Tangents of a block without normals count for nothing, so the specification says.

@@ -110,7 +110,7 @@ impl Shape {
     pub const VEC4: Shape = Shape { name: "VEC4", columns: 1, rows: 4 };
     const MAT2: Shape = Shape { name: "MAT2", columns: 2, rows: 2 };
     const MAT3: Shape = Shape { name: "MAT3", columns: 3, rows: 3 };
-    const MAT4: Shape = Shape { name: "MAT4", columns: 4, rows: 4 };
+    pub const MAT4: Shape = Shape { name: "MAT4", columns: 4, rows: 4 };
     const ALL: [Shape; 7] = [
         Shape::SCALAR,
         Shape::VEC2,

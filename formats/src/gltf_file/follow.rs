@@ -6,9 +6,8 @@ use std::collections::BTreeMap;
 use chamfer::{Blend, VertexSource, VertexSources};
 
 use super::element::{ElementType, Stream};
-use super::geometry::{MeshGeometry, SourceStreams};
+use super::geometry::{Block, MeshGeometry, SourceStreams};
 use super::names::is_carried_by_core;
-use super::skin;
 
 /// The least and the most of each component.
 type Range = Vec<[f64; 2]>;
@@ -27,7 +26,7 @@ pub struct Follower<'a> {
 impl<'a> Follower<'a> {
     /// Looks once at what all blocks have.
     pub fn new(geometry: &'a MeshGeometry, sources: &'a VertexSources) -> Follower<'a> {
-        let skin_sets = geometry.blocks.iter().map(skin::set_count).collect();
+        let skin_sets = geometry.blocks.iter().map(Block::skin_sets).collect();
         Follower { geometry, sources, skin_sets, color_ranges: color_ranges(geometry) }
     }
 

@@ -9,6 +9,7 @@ use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
 use anyhow::{Context, Result, bail, ensure};
+use glam::Mat4;
 use serde_json::Value;
 
 use super::accessor::Accessors;
@@ -21,7 +22,7 @@ use crate::document::Weld;
 use crate::weld;
 
 /// How a core mesh lies in the primitives of a glTF mesh.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub struct MeshGeometry {
     /// Sets of primitives that share their vertices.
     pub blocks: Vec<Block>,
@@ -34,6 +35,7 @@ pub struct MeshGeometry {
 }
 
 /// Primitives with the same attributes and morph targets.
+#[derive(Clone)]
 pub struct Block {
     /// In the order of the file.
     pub attributes: Vec<Attribute>,
@@ -44,6 +46,7 @@ pub struct Block {
 }
 
 /// A named accessor of a primitive.
+#[derive(Clone)]
 pub struct Attribute {
     pub name: String,
     pub accessor: usize,
@@ -52,6 +55,7 @@ pub struct Attribute {
 }
 
 /// A primitive that is a submesh of the core mesh.
+#[derive(Clone)]
 pub struct Submesh {
     /// Its number in the mesh.
     pub primitive: usize,
@@ -76,6 +80,12 @@ impl Block {
         self.find(None, name)
     }
 
+    /// How many whole sets of influences of joints it has.
+    pub fn skin_sets(&self) -> usize {
+        let has = |kind: &str, set: usize| self.attribute(&format!("{kind}_{set}")).is_some();
+        (0..).take_while(|set| has("JOINTS", *set) && has("WEIGHTS", *set)).count()
+    }
+
     fn find(&self, target: Option<usize>, name: &str) -> Option<&Attribute> {
         let attributes = match target {
             Some(target) => self.targets.get(target)?,
@@ -98,6 +108,11 @@ impl MeshGeometry {
     /// `#submeshes`: how many of the indices belong to each.
     pub fn submesh_index_counts(&self) -> Vec<u32> {
         self.submeshes.iter().map(|submesh| submesh.index_count as u32).collect()
+    }
+
+    /// Forgets the normals of the file: others will be made.
+    pub fn drop_normals(&mut self) {
+        self.blocks.iter_mut().for_each(|block| block.smoothed = true);
     }
 
     /// Moves vertices onto those that they are to be one with; how many.
@@ -215,6 +230,14 @@ impl<'a> GeometryReader<'a> {
     pub fn new(json: &'a Value, buffers: &'a [Vec<u8>], budget: &'a Budget) -> GeometryReader<'a> {
         let accessors = Accessors::new(json, buffers, budget);
         GeometryReader { json, accessors, shared: shared_positions(json), budget }
+    }
+
+    /// The first matrix of an accessor, if it has one that can be read.
+    pub fn first_matrix(&self, accessor: usize) -> Option<Mat4> {
+        let stream = self.accessors.read(accessor).ok()?;
+        let numbers: [f64; 16] = stream.values.get(..16)?.try_into().ok()?;
+        (stream.element.shape == Shape::MAT4)
+            .then(|| Mat4::from_cols_array(&numbers.map(|number| number as f32)))
     }
 
     /// What was read otherwise than it stands in the file.

@@ -18,6 +18,7 @@ mod budget;
 pub mod buffers;
 mod compressed;
 mod container;
+mod copies;
 mod core_mesh;
 #[cfg(feature = "draco")]
 mod draco_mesh;
@@ -32,6 +33,7 @@ mod geometry;
 mod json;
 mod labels;
 mod looks;
+mod materials;
 #[cfg(feature = "meshopt")]
 mod meshopt_codec;
 #[cfg(feature = "meshopt")]
@@ -60,7 +62,8 @@ use chamfer::Chamfered;
 use serde_json::Value;
 
 use crate::document::{
-    Document, Encoded, Format, Instance, Looks, NormalsRead, OutputFile, ReadOptions, SourceMesh,
+    Document, Encoded, Format, Instance, Looks, Normals, NormalsRead, OutputFile, ReadOptions,
+    SourceMesh,
 };
 use crate::weld;
 use accessor_writer::AccessorWriter;
@@ -72,6 +75,7 @@ use geometry::{GeometryReader, MeshGeometry};
 use quantized::OnGrid;
 use references::Replaced;
 use rewrite::Rewrite;
+use scene::Object;
 use uri::Target;
 
 pub(crate) use container::write_glb;
@@ -92,7 +96,9 @@ pub struct GltfDocument {
     geometries: Vec<MeshGeometry>,
     /// `#meshes`
     normals: Vec<NormalsRead>,
-    instances: Vec<Instance>,
+    objects: Vec<Object>,
+    /// `#meshes`: those of the file, then copies: the mesh that each is like.
+    copied: Vec<usize>,
     /// The URIs of the buffers of the file, before any was unpacked.
     buffer_uris: Vec<Option<String>>,
     /// The extensions that it was compressed with.
@@ -133,20 +139,23 @@ impl GltfDocument {
         let Plain { json, buffers, dropped } = compressed::plain(json, buffers)?;
         extensions::refuse_unreadable(&json)?;
         let mut notes = Vec::new();
-        let instances = scene::instances(&json, &mut notes)?;
         let size = bytes.len() + buffers.iter().map(Vec::len).sum::<usize>();
         let budget = Budget::of_file(size);
         let reader = GeometryReader::new(&json, &buffers, &budget);
+        let objects = scene::objects(&json, &|accessor| reader.first_matrix(accessor), &mut notes)?;
         let (mut meshes, mut geometries, mut normals) = (Vec::new(), Vec::new(), Vec::new());
         let mut welded = 0;
         for (index, value) in json::list(&json, "meshes").iter().enumerate() {
             let mut geometry = reader.read(index)?;
             welded += geometry.weld(options.weld);
+            let without = core_mesh::without_direction(&geometry);
+            if options.normals == Normals::Angle {
+                geometry.drop_normals();
+            }
             let mesh = core_mesh::build(&mut geometry, options.smoothing_angle)?;
             let read = core_mesh::normals_read(&geometry, &mesh);
-            let name = value.get("name").and_then(Value::as_str);
-            let name = name.map_or_else(|| format!("mesh {index}"), str::to_owned);
-            notes.extend(core_mesh::note(&name, &geometry, &read));
+            let name = name_of(value, index);
+            notes.extend(core_mesh::note(&name, without, &read));
             normals.push(read);
             geometry.forget_core_streams();
             meshes.push(SourceMesh { name, mesh });
@@ -157,12 +166,13 @@ impl GltfDocument {
         Ok(GltfDocument {
             path: path.to_owned(),
             format,
+            copied: (0..meshes.len()).collect(),
             json,
             buffers,
             meshes,
             geometries,
             normals,
-            instances,
+            objects,
             buffer_uris,
             compressions: dropped,
             notes,
@@ -184,6 +194,11 @@ impl GltfDocument {
             || new.uvs != old.uvs
     }
 
+    fn are_changed(&self, chamfered: &[Chamfered]) -> Vec<bool> {
+        let is_changed = |(mesh, result)| self.is_changed(mesh, result);
+        chamfered.iter().enumerate().map(is_changed).collect()
+    }
+
     /// The file as it was, and the files it refers to if it goes to another folder.
     fn encode_unchanged(&self, output: &Path) -> Result<Vec<OutputFile>> {
         let mut files = vec![OutputFile { path: output.to_owned(), bytes: self.bytes.clone() }];
@@ -199,14 +214,16 @@ impl GltfDocument {
 
     /// The file with all chamfered meshes in it.
     fn rewritten(&self, chamfered: &[Chamfered]) -> Result<Rewritten> {
-        let mut json = self.json.clone();
+        let is_changed = self.are_changed(chamfered);
+        let numbers = copies::numbers(&self.copied, &is_changed);
+        let mut json = copies::without_needless(&self.json, &self.objects, &numbers);
         let mentions = Mentions::of(&json);
-        let freed = references::freed(&json, &self.replaced(chamfered), &mentions)?;
+        let freed = references::freed(&json, &self.replaced(&is_changed, &numbers), &mentions)?;
         let mut writer = AccessorWriter::new(&json, freed);
         let note = |name| format!("it was compressed ({name}), {WRITTEN_WITHOUT}");
         let mut notes: Vec<String> = self.compressions.iter().map(note).collect();
         for (index, result) in chamfered.iter().enumerate() {
-            if !self.is_changed(index, result) {
+            if !is_changed[index] {
                 continue;
             }
             let (geometry, source) = (&self.geometries[index], &self.meshes[index]);
@@ -220,7 +237,7 @@ impl GltfDocument {
             }
             let rewrite = Rewrite::new(geometry, on_grid.result().unwrap_or(result));
             rewrite
-                .and_then(|rewrite| rewrite.write(&mut json["meshes"][index], &mut writer))
+                .and_then(|rewrite| rewrite.write(&mut json["meshes"][numbers[index]], &mut writer))
                 .with_context(|| format!("mesh {:?}", self.meshes[index].name))?;
         }
         let needed_quantization = extensions::needs_quantization(&self.json)?;
@@ -232,13 +249,12 @@ impl GltfDocument {
         Ok(Rewritten { json, buffer: bytes, notes })
     }
 
-    fn replaced(&self, chamfered: &[Chamfered]) -> BTreeSet<Replaced> {
+    fn replaced(&self, is_changed: &[bool], numbers: &[usize]) -> BTreeSet<Replaced> {
         let mut replaced = BTreeSet::new();
-        for (mesh, result) in chamfered.iter().enumerate() {
-            let geometry = &self.geometries[mesh];
-            if self.is_changed(mesh, result) {
+        for (mesh, geometry) in self.geometries.iter().enumerate() {
+            if is_changed[mesh] {
                 replaced.extend(geometry.submeshes.iter().map(|submesh| Replaced {
-                    mesh,
+                    mesh: numbers[mesh],
                     primitive: submesh.primitive,
                     drops_tangents: geometry.blocks[submesh.block].smoothed,
                 }));
@@ -317,8 +333,36 @@ impl Document for GltfDocument {
     }
 
     fn instances(&self) -> Vec<Instance> {
-        let copy = |placed: &Instance| Instance { mesh: placed.mesh, transform: placed.transform };
-        self.instances.iter().map(copy).collect()
+        self.objects.iter().map(|object| object.instance).collect()
+    }
+
+    fn materials(&self) -> Vec<Vec<Option<String>>> {
+        materials::names(&self.json, &self.geometries)
+    }
+
+    fn counts_metres(&self) -> bool {
+        true
+    }
+
+    fn give_own(&mut self, objects: &[usize]) {
+        let Some(first) = objects.first() else { return };
+        let (mesh, copy) = (self.objects[*first].instance.mesh, self.meshes.len());
+        copies::add(&mut self.json, mesh);
+        for &object in objects {
+            self.objects[object].instance.mesh = copy;
+            copies::set_mesh(&mut self.json, &self.objects[object], copy);
+        }
+        let name = name_of(&self.json["meshes"][copy], copy);
+        self.meshes.push(SourceMesh { name, ..self.meshes[mesh].clone() });
+        self.geometries.push(self.geometries[mesh].clone());
+        self.normals.push(self.normals[mesh].clone());
+        self.copied.push(self.copied[mesh]);
+    }
+
+    fn are_written(&self, chamfered: &[Chamfered]) -> Vec<bool> {
+        let numbers = copies::numbers(&self.copied, &self.are_changed(chamfered));
+        let is_written = |(mesh, number)| mesh == self.copied[mesh] || number != self.copied[mesh];
+        numbers.into_iter().enumerate().map(is_written).collect()
     }
 
     fn notes(&self) -> Vec<String> {
@@ -353,6 +397,12 @@ impl Document for GltfDocument {
         files.extend(images);
         Ok(Encoded { files, notes })
     }
+}
+
+/// As the file calls a mesh, or its number.
+fn name_of(mesh: &Value, number: usize) -> String {
+    let name = mesh.get("name").and_then(Value::as_str);
+    name.map_or_else(|| format!("mesh {number}"), str::to_owned)
 }
 
 fn buffer_uris(json: &Value) -> Vec<Option<String>> {

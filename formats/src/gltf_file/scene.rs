@@ -7,13 +7,23 @@ use serde_json::Value;
 use super::json;
 use crate::document::Instance;
 
+/// A placed mesh, and the node that places it, if there is one.
+pub struct Object {
+    pub instance: Instance,
+    pub node: Option<usize>,
+}
+
 /// The placed meshes of the default scene, or of all root nodes where the file has no scene; each
 /// mesh once at the origin where nothing is placed. A sentence for `notes` where a rule was broken
 /// that does not matter.
 ///
 /// # Errors
 /// Where the nodes are no forest, or a transform is not finite.
-pub fn instances(json: &Value, notes: &mut Vec<String>) -> Result<Vec<Instance>> {
+pub fn objects(
+    json: &Value,
+    inverse_bind: &dyn Fn(usize) -> Option<Mat4>,
+    notes: &mut Vec<String>,
+) -> Result<Vec<Object>> {
     let parents = parents(json)?;
     refuse_cycles(&parents)?;
     let mut open: Vec<(usize, Mat4)> = roots(json, &parents, notes)?
@@ -21,7 +31,7 @@ pub fn instances(json: &Value, notes: &mut Vec<String>) -> Result<Vec<Instance>>
         .rev()
         .map(|root| (root, Mat4::IDENTITY))
         .collect();
-    let mut instances = Vec::new();
+    let mut objects = Vec::new();
     while let Some((node, above)) = open.pop() {
         let path = format!("nodes[{node}]");
         let value = json::item(json, "nodes", node)?;
@@ -29,19 +39,52 @@ pub fn instances(json: &Value, notes: &mut Vec<String>) -> Result<Vec<Instance>>
         ensure!(global.is_finite(), "{path} stands at infinity: repair its transform");
         if let Some(mesh) = json::optional(value, "mesh", &path)? {
             json::item(json, "meshes", mesh)?;
-            instances.push(Instance { mesh, transform: global.to_cols_array_2d() });
+            let bound = match json::optional(value, "skin", &path)? {
+                Some(skin) => Some(bound(json, skin, &parents, inverse_bind)?),
+                None => None,
+            };
+            let transform = bound.unwrap_or(global).to_cols_array_2d();
+            objects.push(Object { instance: Instance { mesh, transform }, node: Some(node) });
         }
         open.extend(children(value, &path)?.into_iter().rev().map(|child| (child, global)));
     }
-    if instances.is_empty() {
-        instances = unplaced(json);
+    if objects.is_empty() {
+        objects = unplaced(json);
     }
-    Ok(instances)
+    Ok(objects)
 }
 
-fn unplaced(json: &Value) -> Vec<Instance> {
+fn unplaced(json: &Value) -> Vec<Object> {
     let transform = Mat4::IDENTITY.to_cols_array_2d();
-    (0..json::list(json, "meshes").len()).map(|mesh| Instance { mesh, transform }).collect()
+    let object = |mesh| Object { instance: Instance { mesh, transform }, node: None };
+    (0..json::list(json, "meshes").len()).map(object).collect()
+}
+
+/// Where the bind pose of a skin stands: with its first joint, as the node of a skinned mesh counts
+/// for nothing. At the origin where that cannot be told, or lies flat.
+fn bound(
+    json: &Value,
+    skin: usize,
+    parents: &[Option<usize>],
+    inverse_bind: &dyn Fn(usize) -> Option<Mat4>,
+) -> Result<Mat4> {
+    let path = format!("skins[{skin}]");
+    let skin = json::item(json, "skins", skin)?;
+    let Some(&first) = indices(skin, "joints", &path)?.first() else { return Ok(Mat4::IDENTITY) };
+    let mut joint = Some(first);
+    let mut global = Mat4::IDENTITY;
+    while let Some(node) = joint {
+        let path = format!("nodes[{node}]");
+        global = local(json::item(json, "nodes", node)?, &path)? * global;
+        joint = parents[node];
+    }
+    let inverse = match json::optional(skin, "inverseBindMatrices", &path)? {
+        Some(accessor) => inverse_bind(accessor).unwrap_or(global.inverse()),
+        None => Mat4::IDENTITY,
+    };
+    let bound = global * inverse;
+    let is_sound = bound.is_finite() && bound.determinant() != 0.0;
+    Ok(if is_sound { bound } else { Mat4::IDENTITY })
 }
 
 fn children(node: &Value, path: &str) -> Result<Vec<usize>> {
@@ -149,9 +192,9 @@ mod tests {
     /// Where meshes stand in a file in which all rules are kept.
     fn placed(json: &Value) -> Vec<Instance> {
         let mut notes = Vec::new();
-        let instances = instances(json, &mut notes).unwrap();
+        let objects = objects(json, &|_| None, &mut notes).unwrap();
         assert_eq!(notes, [""; 0]);
-        instances
+        objects.into_iter().map(|object| object.instance).collect()
     }
 
     //  0 - 1 - 2, of which a scene lists some
@@ -170,8 +213,8 @@ mod tests {
         };
         let places = |listed: Value| {
             let mut notes = Vec::new();
-            let instances = instances(&json(listed), &mut notes).unwrap();
-            let places = instances.iter().map(|instance| instance.transform[3]);
+            let objects = objects(&json(listed), &|_| None, &mut notes).unwrap();
+            let places = objects.iter().map(|object| object.instance.transform[3]);
             (places.collect::<Vec<_>>(), notes.join(" "))
         };
         let (found, note) = places(json!([1]));
@@ -225,14 +268,39 @@ mod tests {
         let shared = json!({"nodes": [{"children": [2]}, {"children": [2]}, {}]});
         let missing = json!({"nodes": [{"children": [7]}]});
         for json in [cycle, itself, shared, missing] {
-            assert!(instances(&json, &mut Vec::new()).is_err(), "{json}");
+            assert!(objects(&json, &|_| None, &mut Vec::new()).is_err(), "{json}");
         }
     }
 
     #[test]
     fn an_infinite_transform_is_refused() {
-        assert!(
-            instances(&json!({"nodes": [{"translation": [1e39, 0, 0]}]}), &mut Vec::new()).is_err()
-        );
+        let json = json!({"nodes": [{"translation": [1e39, 0, 0]}]});
+        assert!(objects(&json, &|_| None, &mut Vec::new()).is_err());
+    }
+
+    // The node is ten times as large, its bones a hundredth.
+    #[test]
+    fn a_skinned_mesh_stands_with_its_bones() {
+        let json = |skin: Value| {
+            json!({
+                "meshes": [{}],
+                "nodes": [
+                    {"mesh": 0, "skin": 0, "scale": [10, 10, 10]},
+                    {"scale": [0.01, 0.01, 0.01], "children": [2]},
+                    {"translation": [0, 500, 0]},
+                ],
+                "skins": [skin],
+            })
+        };
+        let inverse = |_| Some(Mat4::from_translation(Vec3::new(0.0, -500.0, 0.0)));
+        let found = |skin: Value, inverse: &dyn Fn(usize) -> Option<Mat4>| {
+            let objects = objects(&json(skin), inverse, &mut Vec::new()).unwrap();
+            Mat4::from_cols_array_2d(&objects[0].instance.transform)
+        };
+        let bound = found(json!({"joints": [2], "inverseBindMatrices": 7}), &inverse);
+        assert!(bound.abs_diff_eq(Mat4::from_scale(Vec3::splat(0.01)), 1e-6), "{bound}");
+        assert_eq!(found(json!({"joints": []}), &inverse), Mat4::IDENTITY);
+        let unread = found(json!({"joints": [2], "inverseBindMatrices": 7}), &|_| None);
+        assert!(unread.abs_diff_eq(Mat4::IDENTITY, 1e-6), "{unread}");
     }
 }

@@ -20,15 +20,9 @@ pub struct Skin {
     pub weights: Vec<Stream>,
 }
 
-/// How many whole sets a block has.
-pub fn set_count(block: &Block) -> usize {
-    let has = |kind: &str, set: usize| block.attribute(&format!("{kind}_{set}")).is_some();
-    (0..).take_while(|set| has("JOINTS", *set) && has("WEIGHTS", *set)).count()
-}
-
 /// The skin of some output vertices, in the types and with as many sets as the block has.
 pub fn blend(follower: &Follower, block: &Block, vertices: &[u32]) -> Skin {
-    let sets = set_count(block);
+    let sets = block.skin_sets();
     let streams = Influences::new(follower);
     let weight_type = weight_type(block, sets);
     let mut influences = Vec::with_capacity(vertices.len() * sets * SET_SIZE);

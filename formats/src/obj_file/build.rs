@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, HashMap};
 use anyhow::{Context, Result};
 use chamfer::{MeshBuffers, UvBuffer, split_by_angle};
 
-use crate::document::NormalsRead;
+use crate::document::{Normals, NormalsRead, ReadOptions};
 use crate::polygon::triangulate;
 
 use super::parse::{Corner, Item, Obj};
@@ -32,6 +32,8 @@ pub struct Built {
     pub mesh: MeshBuffers,
     pub origin: Origin,
     pub normals: NormalsRead,
+    /// How many corners have a normal that is none.
+    pub without_direction: usize,
 }
 
 /// What tells two vertices apart. Equal values under different numbers are one value.
@@ -42,9 +44,9 @@ type Key = (u32, Option<[u32; 3]>, [u32; 3]);
 ///
 /// # Errors
 /// Where there are more triangles than 32-bit indices allow.
-pub fn build(obj: &Obj, smoothing_angle: f32) -> Result<Built> {
+pub fn build(obj: &Obj, options: &ReadOptions) -> Result<Built> {
     let Triangles { corners, counts, polygon_of, places } = triangles(obj)?;
-    let normals = normals(obj, &corners, &polygon_of, smoothing_angle)?;
+    let normals = normals(obj, &corners, &polygon_of, options)?;
     let mut builder = Builder::new(obj);
     for (corner, normal) in corners.iter().zip(normals) {
         builder.corner(corner, normal);
@@ -52,8 +54,11 @@ pub fn build(obj: &Obj, smoothing_angle: f32) -> Result<Built> {
     builder.mesh.submesh_index_counts = counts;
     let Builder { mesh, origin, .. } = builder;
     let origin = Origin { polygon_of, places, ..origin };
-    let normals = normals_read(obj, &corners, &mesh.indices);
-    Ok(Built { mesh, origin, normals })
+    let (normals, without_direction) = match options.normals {
+        Normals::Keep => (normals_read(obj, &corners, &mesh.indices), zero_normals(obj, &corners)),
+        Normals::Angle => (NormalsRead { computed: true, ..NormalsRead::default() }, 0),
+    };
+    Ok(Built { mesh, origin, normals, without_direction })
 }
 
 /// The triangles of all polygons, one polygon after the other.
@@ -103,15 +108,18 @@ fn normals(
     obj: &Obj,
     corners: &[Corner],
     polygon_of: &[u32],
-    smoothing_angle: f32,
+    options: &ReadOptions,
 ) -> Result<Vec<[f32; 3]>> {
+    if options.normals == Normals::Angle {
+        return smoothed(obj, corners, options.smoothing_angle);
+    }
     let given = |corner: &Corner| unit(obj.normals[corner.normal? as usize]);
     if let Some(normals) = corners.iter().map(given).collect() {
         return Ok(normals);
     }
     let made = match obj.smoothing_groups.iter().any(|group| *group > 0) {
         true => grouped(obj, corners, polygon_of)?,
-        false => smoothed(obj, corners, smoothing_angle)?,
+        false => smoothed(obj, corners, options.smoothing_angle)?,
     };
     Ok(corners.iter().zip(made).map(|(corner, made)| given(corner).unwrap_or(made)).collect())
 }
@@ -199,6 +207,11 @@ fn normals_read(obj: &Obj, corners: &[Corner], indices: &[u32]) -> NormalsRead {
     read
 }
 
+fn zero_normals(obj: &Obj, corners: &[Corner]) -> usize {
+    let stored = corners.iter().filter_map(|corner| corner.normal);
+    stored.filter(|&number| obj.normals[number as usize] == [0.0; 3]).count()
+}
+
 fn length(vector: [f32; 3]) -> f64 {
     vector.iter().map(|&value| f64::from(value).powi(2)).sum::<f64>().sqrt()
 }
@@ -260,7 +273,8 @@ mod tests {
     use crate::obj_file::parse::parse;
 
     fn built(text: &str) -> (MeshBuffers, Origin) {
-        let Built { mesh, origin, .. } = build(&parse(text.as_bytes()).unwrap(), 30.0).unwrap();
+        let Built { mesh, origin, .. } =
+            build(&parse(text.as_bytes()).unwrap(), &ReadOptions::default()).unwrap();
         (mesh, origin)
     }
 

@@ -16,6 +16,7 @@ use chamfer::Chamfered;
 
 use crate::document::{
     Document, Encoded, Format, Look, Looks, NormalsRead, OutputFile, ReadOptions, SourceMesh,
+    no_direction,
 };
 use crate::glb;
 use crate::weld;
@@ -35,6 +36,8 @@ pub struct ObjDocument {
     origin: Origin,
     /// How many positions were moved onto others.
     welded: usize,
+    /// How many corners have a normal that is none.
+    without_direction: usize,
     /// The file as it was, where there is no face to change.
     unchanged: Option<Vec<u8>>,
 }
@@ -47,7 +50,7 @@ pub struct ObjDocument {
 pub fn decode(path: &Path, bytes: Vec<u8>, options: &ReadOptions) -> Result<ObjDocument> {
     let mut obj = parse::parse(&bytes)?;
     let welded = weld::weld(&mut obj.positions, options.weld);
-    let build::Built { mesh, origin, normals } = build::build(&obj, options.smoothing_angle)?;
+    let build::Built { mesh, origin, normals, without_direction } = build::build(&obj, options)?;
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     Ok(ObjDocument {
         unchanged: mesh.indices.is_empty().then_some(bytes),
@@ -57,6 +60,7 @@ pub fn decode(path: &Path, bytes: Vec<u8>, options: &ReadOptions) -> Result<ObjD
         obj,
         origin,
         welded,
+        without_direction,
     })
 }
 
@@ -72,12 +76,17 @@ impl Document for ObjDocument {
     fn notes(&self) -> Vec<String> {
         let mut notes = self.obj.slips.notes();
         notes.extend(weld::note(self.welded));
+        notes.extend(no_direction(self.without_direction));
         if !self.obj.dropped.is_empty() {
             let names: Vec<&str> = self.obj.dropped.iter().map(String::as_str).collect();
             let names = names.join(", ");
             notes.push(format!("statements left out because nothing is known of them: {names}"));
         }
         notes
+    }
+
+    fn materials(&self) -> Vec<Vec<Option<String>>> {
+        vec![self.obj.materials_of_runs()]
     }
 
     fn looks(&self) -> Looks {
@@ -175,7 +184,8 @@ vn 0 0 1\nusemtl m\nf 1/1/1 2/2/1 3/1/1 4/2\nf 1 2 5\nf -1// -2/1 \\\n -3\nl 1 5
         let mut read = 0;
         for _ in 0..4000 {
             let Ok(obj) = parse::parse(&with_noise(&mut state)) else { continue };
-            let build::Built { mesh, origin, .. } = build::build(&obj, 30.0).unwrap();
+            let build::Built { mesh, origin, .. } =
+                build::build(&obj, &ReadOptions::default()).unwrap();
             let vertices = mesh.positions.len();
             assert_eq!(mesh.normals.len(), vertices);
             assert_eq!(mesh.uvs[0].values.len(), vertices * mesh.uvs[0].components as usize);

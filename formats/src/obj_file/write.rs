@@ -287,7 +287,8 @@ mod tests {
     /// The text after `change` was made to the mesh of another text.
     fn rewritten(text: &str, change: impl FnOnce(&mut MeshBuffers)) -> String {
         let obj = parse::parse(text.as_bytes()).unwrap();
-        let build::Built { mesh: source, origin, .. } = build::build(&obj, 30.0).unwrap();
+        let build::Built { mesh: source, origin, .. } =
+            build::build(&obj, &crate::ReadOptions::default()).unwrap();
         let mut mesh = source.clone();
         change(&mut mesh);
         let one = |_| VertexSource::new(Blend::one(0), Blend::one(0));
