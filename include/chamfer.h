@@ -298,8 +298,8 @@ typedef struct chamfer_uv {
  * A place where the surface of a mesh is not to be cut away: all within a radius of a segment.
  *
  * With radius 0 it is a line that rests on the surface, such as the open rim of another object of
- * the scene: chamfers are narrowed to leave what it lies on. With a larger one, hard edges that
- * come nearer stay as they are.
+ * the scene: chamfers are narrowed to leave what it lies on. With a larger one, hard edges stay
+ * as they are where they come nearer.
  */
 typedef struct chamfer_held {
     /** Where the segment begins, in mesh units. */

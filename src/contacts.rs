@@ -20,19 +20,12 @@ use crate::memory;
 use crate::mesh::Mesh;
 use crate::options::{Options, Width};
 use crate::threads::Threads;
-use crate::tolerance::BACK_TO_BACK_COSINE;
+use crate::tolerance::{BACK_TO_BACK_COSINE, TOUCHING, TOUCHING_STEPS};
 use crate::topology::{Topology, topology};
 use crate::view::{View, view, wide};
 use crate::weld::weld;
 
 pub use wedge::{Cut, Stretch, Wedge};
-
-/// Parts that were modelled to touch are off each other by what exporters round to: within this
-/// share of the mesh's extent (a hundredth of a millimetre on a metre) they touch.
-const TOUCHING: f64 = 1e-5;
-
-/// As many times the resolution, if that is more: both parts are rounded.
-const TOUCHING_STEPS: f64 = 2.0;
 
 /// What lies within so many tolerances of an edge, across it, rests on it.
 const HOLD_REACH: f64 = 2.0;

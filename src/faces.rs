@@ -10,12 +10,9 @@ use crate::breaks::is_hard;
 use crate::ids::{Corner, IdVec, Triangle};
 use crate::math::{area_vector, unit};
 use crate::threads::Threads;
+use crate::tolerance::LINE_HEIGHT;
 use crate::topology::Topology;
 use crate::view::View;
-
-/// A triangle lower than this many times the resolution is a line: rounding its corners would
-/// turn its normal by more than a degree.
-const LINE_HEIGHT: f64 = 16.0;
 
 /// Lines lie next to lines where an edge meets several others; more than so many in a row are
 /// broken geometry.

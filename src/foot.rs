@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use crate::ids::Corner;
 use crate::report::Blend;
+use crate::tolerance::LEAST_WEIGHT;
 use crate::view::View;
 
 /// A way in the plane of a source triangle, in terms of the edges from one of its corners to the
@@ -20,9 +21,6 @@ pub struct Foot {
 /// Past so many times a triangle's sides its streams tell nothing, and single precision cannot add
 /// the weights up to 1 any more.
 const MOST_WEIGHT: f64 = 1024.0;
-
-/// Weights below this are rounding: a vertex that slides along an edge is on that edge.
-const LEAST_WEIGHT: f64 = 1e-9;
 
 impl Foot {
     /// No way at all.

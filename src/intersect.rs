@@ -14,6 +14,7 @@ use glam::DVec3;
 use robust::{Coord, Coord3D, orient2d, orient3d};
 
 use crate::bvh::{Aabb, Kin, Tree};
+use crate::tolerance::NEARLY_FLAT;
 
 use apart::{are_apart, are_apart_but_for_corner};
 
@@ -157,9 +158,6 @@ impl Neighbours {
         may_fold && side(&[self.side[0], self.side[1], self.apexes[0]], self.apexes[1]) == 0
     }
 }
-
-/// Far more than double precision loses in a cross product.
-const NEARLY_FLAT: f64 = 1e-9;
 
 /// 1 where a point is on the side of a triangle's plane that its normal points to, -1 on the
 /// other, 0 in the plane.

@@ -23,6 +23,7 @@ use crate::mesh::UV_CHANNELS;
 use crate::sectors::{Fan, Sectors};
 use crate::surface::Surface;
 use crate::threads::Threads;
+use crate::tolerance::{CREASE_COSINE, FLAT_COSINE, LEVEL_COSINE, LEVEL_HEIGHT};
 use crate::topology::Topology;
 use crate::view::View;
 
@@ -33,21 +34,6 @@ use follow::follow;
 /// triangles, from 45 degrees on, still get the exact one. The thesis gives up there (modifiers
 /// above 10); moving less far keeps a chamfer, which narrows towards the tip.
 const MITER_LIMIT: f64 = 3.0;
-
-/// Faces that meet at more than five degrees would visibly bend if a vertex left their common
-/// edge for one of them. A round surface of 72 facets or more is smooth enough to be cut across.
-const CREASE_COSINE: f64 = 0.996_194_698_091_745_5;
-
-/// Below a tenth of a degree a hard edge does not bend the surface by more than rounding does.
-const FLAT_COSINE: f64 = 0.999_998_476_913_288;
-
-/// Triangles that lean by less than half a degree from each other may lie in one plane: the corners
-/// of a small one are rounded.
-const LEVEL_COSINE: f64 = 0.999_961_923_064_171;
-
-/// They do so if the corners of one are off the plane of the other by no more than this many times
-/// the resolution: four millionths of the largest coordinate, which is what exporters round to.
-const LEVEL_HEIGHT: f64 = 8.0;
 
 /// Past this many times a triangle's sides, rounding of its streams shows in what it tells of a
 /// place: then a larger triangle in its plane is asked.

@@ -13,6 +13,7 @@ use crate::placement::Placement;
 use crate::report::Blend;
 use crate::strips::{self, cut, quad};
 use crate::threads::Threads;
+use crate::tolerance::EQUALLY_NEAR;
 use crate::view::View;
 
 /// All strips in the order of their edges, then all fills in the order of their rings. What does
@@ -153,10 +154,6 @@ impl Patches {
 fn as_places(triangle: &[usize; 3]) -> [u32; 3] {
     triangle.map(|place| place as u32)
 }
-
-/// Blends whose distances differ by less than this share are equally near: then the first counts,
-/// whatever the last bits say.
-const EQUALLY_NEAR: f64 = 0.999;
 
 /// So many neighbours are tried in pairs: of more, as around the tip of a huge cone, every so manyth.
 const MOST_TRIED: usize = 64;

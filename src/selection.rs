@@ -6,6 +6,7 @@ use crate::faces::Faces;
 use crate::ids::{Cluster, Corner, Triangle, Vertex};
 use crate::math::unit;
 use crate::options::{Convexity, Options, WidthMode};
+use crate::tolerance::ANGLE_ROUNDING;
 use crate::topology::Topology;
 use crate::view::View;
 use crate::weld::Weld;
@@ -17,9 +18,6 @@ const MOST_TIMES: f64 = 23.0;
 /// An end gets at least this share of the other: a chamfer that tapered to a point could not be
 /// closed there.
 const LEAST_TAPER: f64 = 1.0 / 16.0;
-
-/// Rounding of the angle between faces, as a cosine: a right angle counts as 90 degrees.
-const ANGLE_ROUNDING: f64 = 1e-6;
 
 /// What a caller has asked for.
 pub struct Selection<'a> {

@@ -12,10 +12,8 @@ use crate::edges::HardEdge;
 use crate::ids::Corner;
 use crate::math::area_vector;
 use crate::placement::Placement;
+use crate::tolerance::EQUAL_FOLD;
 use crate::validity::faces_out;
-
-/// Two diagonals fold alike if their cosines differ by less than rounding can explain.
-const EQUAL_FOLD: f64 = 1e-6;
 
 /// The corners of a strip in the order b1, a1, a2, b2: counter-clockwise seen from outside.
 pub fn corners(edge: &HardEdge) -> [Corner; 4] {

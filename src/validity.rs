@@ -6,24 +6,9 @@
 use glam::DVec3;
 
 use crate::math::{area_vector, unit};
-
-/// A source triangle keeps at least this share of its area: less is a needle that shades badly.
-const LEAST_AREA_SHARE: f64 = 0.01;
-
-/// A source triangle may lean by at most 72 degrees from its old plane, so that it cannot flip.
-const LEAST_UPRIGHT_COSINE: f64 = 0.3;
-
-/// A new triangle faces its vertex normals by at least this cosine (87 degrees): the chamfer of a
-/// knife's edge is that steep, and anything beyond would face inwards.
-const LEAST_FACING_COSINE: f64 = 0.05;
-
-/// Twice an area that is less than this share of the longest side squared is none: it is what
-/// rounding leaves in double precision.
-const LEAST_AREA: f64 = 1e-10;
-
-/// Twice the area of a triangle is more than this share of its longest side squared, or single
-/// precision cannot tell its normal.
-const LEAST_SLENDERNESS: f64 = 1e-7;
+use crate::tolerance::{
+    LEAST_AREA, LEAST_AREA_SHARE, LEAST_FACING_COSINE, LEAST_SLENDERNESS, LEAST_UPRIGHT_COSINE,
+};
 
 /// Whether a source triangle that is hardly more than a line may become the new one: it may open,
 /// but not fold over its neighbours, which lie in a plane of this normal.

@@ -9,14 +9,10 @@ use crate::ids::{Corner, Id, Triangle, Vertex};
 use crate::memory;
 use crate::mesh::{Factors, Held, Mesh, UV_CHANNELS, Uv};
 use crate::options::{ChamferSubmesh, Options, Width};
-use crate::tolerance::{ALIKE_COSINE, ALIKE_SHARE, HARD_COSINE};
+use crate::tolerance::{ALIKE_COSINE, ALIKE_SHARE, HARD_COSINE, RESOLUTION_STEPS};
 
 /// New elements are fewer than eight for each source corner, so ids stay within 32 bits.
 pub const MAX_CORNERS: usize = u32::MAX as usize / 8;
-
-/// Positions are single precision: two points closer than this many steps of the largest
-/// coordinate cannot be told apart reliably.
-const RESOLUTION_STEPS: f64 = 4.0;
 
 /// Below the normal range (1e-38) single precision goes on in steps of this size.
 const SMALLEST_STEP: f64 = f32::from_bits(1) as f64;

@@ -1,13 +1,15 @@
 //! Measures how a folder of models is chamfered: soundness, coverage and width.
 //!
 //! `cargo run --release --example measure -- [--full] [--verbose] [--reach] [--compare]
-//! [--only NAME] [--folder DIR] PERCENT..`
+//! [--unlike SEED] [--only NAME] [--folder DIR] PERCENT..`
 //!
 //! `--reach` also tells how wide the chamfers could be where neighbours leave them half of the way
 //! to each other: width that is lost beyond that is lost to the triangles, not to the shape.
 //! `--compare` also checks each result as `chamfer check` does, by what went in and what came out
-//! alone.
+//! alone. `--unlike` gives each vertex and each submesh a factor at random, some of them 0, and takes
+//! a range of angles, a convexity and a width mode at random for each file.
 
+#[allow(dead_code)] // Tests use more of it.
 #[path = "../../tests/corpus/measure.rs"]
 mod measure;
 mod reach;
@@ -15,8 +17,8 @@ mod reach;
 use std::path::{Path, PathBuf};
 
 use chamfer::check::{check, compare};
-use chamfer::{Chamfered, Mesh, Verify};
-use measure::{FOLDER, Measured, Sum, measure, models};
+use chamfer::{Chamfered, Convexity, Mesh, Options, Verify, Width, WidthMode};
+use measure::{FOLDER, Measured, Sum, Unlike, measure_with, models};
 
 /// What was asked for on the command line.
 struct Request {
@@ -24,6 +26,7 @@ struct Request {
     is_verbose: bool,
     is_reach_asked: bool,
     is_compared: bool,
+    unlike: Option<u32>,
     only: Option<String>,
     folder: String,
     percents: Vec<f32>,
@@ -36,6 +39,7 @@ impl Request {
             is_verbose: false,
             is_reach_asked: false,
             is_compared: false,
+            unlike: None,
             only: None,
             folder: FOLDER.to_owned(),
             percents: Vec::new(),
@@ -46,6 +50,7 @@ impl Request {
                 "--verbose" => request.is_verbose = true,
                 "--reach" => request.is_reach_asked = true,
                 "--compare" => request.is_compared = true,
+                "--unlike" => request.unlike = arguments.next().and_then(|seed| seed.parse().ok()),
                 "--only" => request.only = arguments.next(),
                 "--folder" => request.folder = arguments.next().unwrap_or(request.folder),
                 percent => request.percents.extend(percent.parse::<f32>().ok()),
@@ -80,14 +85,23 @@ fn main() {
 
 /// Measures a file, and prints what is wrong with it.
 fn of_file(request: &Request, path: &Path, percent: f32, reaches: &mut Vec<f64>) -> Vec<Measured> {
-    let measured = measure(path, percent, request.verify, |before, after| {
+    let inspect = |before: &Mesh, after: &Chamfered| {
         if request.is_reach_asked && after.totals.hard_edges > 0 {
             reaches.push(reach::reach(before, after));
         }
         if request.is_compared {
             print_compared(path, percent, before, after);
         }
-    });
+    };
+    let options =
+        Options::default().with_width(Width::PercentOfExtent(percent)).with_verify(request.verify);
+    let measured = match request.unlike {
+        Some(seed) => {
+            let mut noise = Noise(path.as_os_str().len() as u32 ^ seed.wrapping_mul(2_654_435_761));
+            measure_with(path, &noise.options(options), |mesh| Noise(seed).unlike(mesh), inspect)
+        }
+        None => measure_with(path, &options, |_| Unlike::default(), inspect),
+    };
     let meshes = measured.unwrap_or_else(|error| {
         println!("{}: {error}", path.display());
         Vec::new()
@@ -101,6 +115,33 @@ fn of_file(request: &Request, path: &Path, percent: f32, reaches: &mut Vec<f64>)
         println!("{}: {file}", path.display());
     }
     meshes
+}
+
+/// Numbers at random, the same for the same seed.
+struct Noise(u32);
+
+impl Noise {
+    fn pick<T: Copy>(&mut self, choices: &[T]) -> T {
+        self.0 = self.0.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        choices[(self.0 >> 16) as usize % choices.len()]
+    }
+
+    fn options(&mut self, options: Options) -> Options {
+        let (least, most) = self.pick(&[(0.0, 180.0), (20.0, 180.0), (0.0, 95.0)]);
+        options
+            .with_angles(least, most)
+            .with_convexity(self.pick(&[Convexity::Both, Convexity::Convex, Convexity::Concave]))
+            .with_width_mode(self.pick(&[WidthMode::Offset, WidthMode::Chord, WidthMode::Radius]))
+    }
+
+    fn unlike(mut self, mesh: &Mesh) -> Unlike {
+        let factors = [0.0, 0.2, 1.0, 1.0, 1.0, 3.0];
+        let mut many = |count: usize| (0..count).map(|_| self.pick(&factors)).collect();
+        Unlike {
+            vertices: many(mesh.positions.len()),
+            submeshes: many(mesh.submesh_index_counts.len()),
+        }
+    }
 }
 
 /// Prints what seems to be otherwise where nothing tells what came from what.

@@ -13,6 +13,7 @@ use crate::math::unit;
 use crate::mesh::{MeshBuffers, Uv, UvBuffer};
 use crate::report::{Blend, VertexSource, VertexSources};
 use crate::resample::{blended_normal, weighted_sum};
+use crate::tolerance::{LEAST_REST, ORTHOGONAL};
 use crate::view::{View, wide};
 use crate::weld::Weld;
 
@@ -367,9 +368,3 @@ fn turned(direction: DVec3, from: DVec3, to: DVec3) -> DVec3 {
     let middle = from + to;
     direction - middle * (middle.dot(direction) / (1.0 + cosine)) + to * (2.0 * from.dot(direction))
 }
-
-/// What is left of a direction across a normal is rounding if it is shorter than this share of it.
-const LEAST_REST: f64 = 1e-3;
-
-/// A stored tangent that is orthogonal up to the rounding of its components needs no repair.
-const ORTHOGONAL: f64 = 1e-6;

@@ -5,10 +5,8 @@ use glam::DVec2;
 use crate::ids::{Id, Triangle};
 use crate::math::area_vector;
 use crate::mesh::Uv;
+use crate::tolerance::EXPORTED_ROUNDING;
 use crate::view::View;
-
-/// Single precision, and a little for the arithmetic of exporters.
-const ROUNDING: f64 = 1e-6;
 
 /// Two components of a vertex in a UV channel: what lies on the texture.
 pub fn uv_point(uv: &Uv, vertex: u32) -> DVec2 {
@@ -29,7 +27,7 @@ pub fn density(view: &View, triangle: Triangle, channel: usize) -> f64 {
 /// Whether rounding its UVs can make a triangle's area vanish: models that are coloured by single
 /// texels have all of a face at one place.
 fn is_line(points: [DVec2; 3]) -> bool {
-    let (area, least) = (texture_area(points), size(points) * ROUNDING);
+    let (area, least) = (texture_area(points), size(points) * EXPORTED_ROUNDING);
     area * area <= longest_square(points) * (least * least)
 }
 

@@ -7,15 +7,9 @@ use glam::DVec2;
 use crate::breaks::seam_between;
 use crate::ids::{Corner, Few, Triangle};
 use crate::surface::Surface;
+use crate::tolerance::{TEXTURE_MARGIN, TEXTURE_ROUNDING};
 
 use super::density::{longest_square, size, texture_area, uv_point};
-
-/// A chamfer that lies past the end of its chart by less than this share of its own length shows
-/// nothing else: that is less than a texel.
-const MARGIN: f64 = 1e-4;
-
-/// Rounding of UVs to single precision, as a share of their size.
-const ROUNDING: f64 = 1e-7;
 
 /// Where a new triangle is looked at: its corners, the middles of its sides, and between them.
 const SAMPLES: [[f64; 3]; 7] = [
@@ -71,7 +65,8 @@ impl<'a> Ground<'a> {
 
     /// Whether a triangle on the texture lies on it.
     pub fn covers(&self, triangle: [DVec2; 3]) -> bool {
-        let near = longest_square(triangle).sqrt() * MARGIN + size(triangle) * ROUNDING;
+        let near =
+            longest_square(triangle).sqrt() * TEXTURE_MARGIN + size(triangle) * TEXTURE_ROUNDING;
         let all_below = |face: &Face| triangle.iter().all(|&point| face.is_below(point, near));
         // Most chamfers lie on the triangle that they are cut off from.
         if all_below(&Face::new(self.points(self.corners[0].triangle()))) {

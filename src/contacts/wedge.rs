@@ -13,10 +13,8 @@ use glam::{DVec2, DVec3};
 use crate::faces::Faces;
 use crate::ids::Corner;
 use crate::math::unit;
+use crate::tolerance::FLAT_SINE;
 use crate::view::View;
-
-/// Faces that meet at less than half a degree lose nothing that one could see.
-const FLAT_SINE: f64 = 0.01;
 
 /// The frame of a convex edge.
 pub struct Wedge {

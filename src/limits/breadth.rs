@@ -9,11 +9,9 @@ use glam::DVec3;
 
 use crate::ids::{Corner, Triangle};
 use crate::math::area_vector;
+use crate::tolerance::LEAST_LEAN;
 
 use super::given::Given;
-
-/// A rim that runs along a side within a tenth of a degree does not lead away from it.
-const LEAST_LEAN: f64 = 0.002;
 
 /// What has to stay of a triangle: for each of its sides at which the face ends, the least area
 /// for each unit of the side's length, along the old side; zero for the others. Areas are counted

@@ -16,18 +16,11 @@ use glam::DVec3;
 use crate::breaks::is_hard;
 use crate::ids::Corner;
 use crate::math::{area_vector, unit};
+use crate::tolerance::{RUNS_ON_COSINE, SAME_DIRECTION};
 use crate::view::View;
 
 /// With more faces on one edge, comparing all of them would take quadratic time.
 const MOST_FACES: usize = 64;
-
-/// Faces whose directions about the edge differ by less than this (a hundredth of a degree) lie on
-/// each other: there is no gap between them.
-const SAME_DIRECTION: f64 = 1.0 - 1e-8;
-
-/// Faces on two sides of an edge that bend there by less than five degrees are one surface that
-/// runs on: what is less is no crease to the offsets either.
-const RUNS_ON: f64 = -0.996_194_698_091_745_5;
 
 /// Who belongs to whom on one edge.
 #[derive(Default)]
@@ -327,7 +320,8 @@ impl Around {
 
     fn runs_on(&self, view: &View, one: usize, other: usize) -> bool {
         let [one, other] = [one, other].map(|place| &self.faces[place]);
-        one.inward.dot(other.inward) < RUNS_ON && !is_hard(view, one.half_edge, other.half_edge)
+        one.inward.dot(other.inward) < RUNS_ON_COSINE
+            && !is_hard(view, one.half_edge, other.half_edge)
     }
 
     fn half_edges(&self, pairs: &[[usize; 2]]) -> Vec<[Corner; 2]> {

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 
 use chamfer::check::{Findings, check};
 use chamfer::{
-    ByReason, Chamfered, EdgeVerdict, Mesh, Options, Reason, Totals, Verify, Width, chamfer,
+    ByReason, Chamfered, EdgeVerdict, Factors, Mesh, Options, Reason, Totals, Verify, Width,
+    chamfer,
 };
 use chamfer_formats as formats;
 use chamfer_formats::ReadOptions;
@@ -65,17 +66,40 @@ pub fn measure(
     path: &Path,
     percent: f32,
     verify: Verify,
-    mut inspect: impl FnMut(&Mesh, &Chamfered),
+    inspect: impl FnMut(&Mesh, &Chamfered),
 ) -> Result<Vec<Measured>, String> {
     let options =
         Options::default().with_width(Width::PercentOfExtent(percent)).with_verify(verify);
+    measure_with(path, &options, |_| Unlike::default(), inspect)
+}
+
+/// Factors of the vertices and of the submeshes of a mesh; none where empty.
+#[derive(Default)]
+pub struct Unlike {
+    pub vertices: Vec<f32>,
+    pub submeshes: Vec<f32>,
+}
+
+/// As [`measure`], with factors for each mesh.
+///
+/// # Errors
+/// As [`measure`].
+pub fn measure_with(
+    path: &Path,
+    options: &Options,
+    unlike: impl Fn(&Mesh) -> Unlike,
+    mut inspect: impl FnMut(&Mesh, &Chamfered),
+) -> Result<Vec<Measured>, String> {
+    let verify = options.verify;
     let read = ReadOptions::default();
     let document = formats::read(path, &read).map_err(|error| format!("{error:#}"))?;
     let file = path.file_name().unwrap_or_default().to_string_lossy();
     let mut measured = |source: &chamfer_formats::SourceMesh| {
-        let before = source.mesh.as_mesh();
+        let Unlike { vertices, submeshes } = unlike(&source.mesh.as_mesh());
+        let factors = Factors { vertices: &vertices, submeshes: &submeshes, edges: &[] };
+        let before = Mesh { factors, ..source.mesh.as_mesh() };
         let start = std::time::Instant::now();
-        let after = chamfer(&before, &options).map_err(|error| error.to_string())?;
+        let after = chamfer(&before, options).map_err(|error| error.to_string())?;
         let seconds = start.elapsed().as_secs_f64();
         let extent = f64::from(before.extent()).max(f64::MIN_POSITIVE);
         inspect(&before, &after);
