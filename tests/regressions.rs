@@ -116,3 +116,17 @@ fn a_move_that_rounding_swallows_leaves_the_normal() {
     };
     assert_sound("tent", &tent.as_mesh(), &chamfered(&tent, Width::Units(1.6)));
 }
+
+/// A triangle that folds onto itself has two sides on one edge, and is no cut through another.
+#[test]
+fn a_triangle_that_folds_onto_itself_is_what_it_was() {
+    let (here, there) = ([0.0; 3], [1.0, 0.0, 0.0]);
+    let mesh = MeshBuffers {
+        positions: vec![here, here, there],
+        normals: vec![[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]],
+        indices: vec![0, 2, 1],
+        submesh_index_counts: vec![3],
+        ..MeshBuffers::default()
+    };
+    assert_sound("folded", &mesh.as_mesh(), &chamfered(&mesh, Width::Units(0.1)));
+}

@@ -21,7 +21,8 @@ pub fn chamfer_and_check(mesh: &MeshBuffers, options: &Options) -> Option<Chamfe
         }
     };
     let findings = check(&mesh.as_mesh(), &result, options.verify);
-    assert!(is_sound(mesh, &findings), "{findings}");
+    // As literals, to make a test of it.
+    assert!(is_sound(mesh, &findings), "{findings}\n{mesh:?}");
     check_same_bytes(&result, &chamfer(&mesh.as_mesh(), options).expect("it went well before"));
     check_width_zero(mesh, options);
     Some(result)

@@ -19,8 +19,9 @@ pub(super) fn check_hard_edges(
     for edge in after.edges().filter(|edge| after.is_hard(edge)) {
         let ([forward], [backward]) = edge else { continue };
         let is_old = match [forward, backward].map(|side| source_side(side, origins)) {
-            // A cut through a triangle is no edge of the source.
-            [Some(one), Some(other)] if one / 3 == other / 3 => false,
+            // A cut through a triangle is no edge of the source. One that folds onto itself has two
+            // sides on one edge, as it had.
+            [Some(one), Some(other)] if one / 3 == other / 3 && !is_one(forward, backward) => false,
             [Some(one), Some(other)] => {
                 hard_before[one as usize] && hard_before[other as usize]
                     || parted_before(before, one, other)
@@ -37,6 +38,11 @@ pub(super) fn check_hard_edges(
             findings.note(Rule::HardEdges, Element::Edge(forward.clusters[0], forward.clusters[1]));
         }
     }
+}
+
+/// Whether two half-edges belong to one triangle.
+fn is_one(one: &HalfEdge, other: &HalfEdge) -> bool {
+    one.corners[0] / 3 == other.corners[0] / 3
 }
 
 /// The first corner of the source's half-edge that this one was.
