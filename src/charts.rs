@@ -80,15 +80,15 @@ pub fn charts(
     attributes: &Attributes,
     threads: &Threads,
 ) -> Charts {
-    let owners = owners(surface, chamfers, placement, patches, attributes, threads);
-    let given = Given { surface, chamfers, placement, attributes, owners: &owners };
+    let given = Given { surface, chamfers, placement, attributes };
+    let owners = owners(&given, patches, threads);
     let lay = |_: &Charts, patch: Patch, charts: &mut Charts| {
         let parts = patches.parts(patch);
         let (mut face, mut begin) = (Triangle::NONE, 0);
         if !parts.triangles.is_empty() {
             (face, begin) = match patches.edge_or_ring(patch) {
-                Ok(edge) => (lay_strip(&given, edge, parts, &mut charts.taken), 0),
-                Err(ring) => lay_fill(&given, ring, parts, &mut charts.taken),
+                Ok(edge) => (lay_strip(&given, &owners, (edge, parts), &mut charts.taken), 0),
+                Err(ring) => lay_fill(&given, &owners, (ring, parts), &mut charts.taken),
             };
         }
         charts.laid.push(Laid { face, begin: begin as u32, end: charts.taken.len() as u32 });
@@ -98,13 +98,12 @@ pub fn charts(
     charts
 }
 
-/// What patches are laid by.
+/// What patches are laid by: the arguments of [`charts`], for the files of this stage alone.
 struct Given<'a> {
     surface: Surface<'a>,
     chamfers: Chamfers<'a>,
     placement: &'a Placement<'a>,
     attributes: &'a Attributes,
-    owners: &'a owners::Owners,
 }
 
 impl Charts {

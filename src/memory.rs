@@ -13,6 +13,9 @@ use crate::see_through::Eyes;
 /// For each source vertex: the weld.
 const BYTES_PER_WELDED: u64 = 24;
 
+/// For each source vertex that is measured in another space: its position and its normal there.
+const BYTES_PER_MEASURED: u64 = 24;
+
 /// For each corner: topology, faces, edges, and its sector.
 const BYTES_PER_CORNER: u64 = 48;
 
@@ -73,9 +76,15 @@ pub fn of_weld(mesh: &Mesh) -> u64 {
     mesh.positions.len() as u64 * BYTES_PER_WELDED
 }
 
+/// A mesh in the space in which it is measured.
+pub fn of_measured(mesh: &Mesh) -> u64 {
+    mesh.positions.len() as u64 * BYTES_PER_MEASURED + size_of_val(mesh.held) as u64
+}
+
 /// The stages from there up to the edges, but for rims.
 pub fn up_to_edges(mesh: &Mesh) -> u64 {
-    mesh.indices.len() as u64 * BYTES_PER_CORNER
+    // Listed edges are sorted, which may take as much again.
+    mesh.indices.len() as u64 * BYTES_PER_CORNER + 2 * size_of_val(mesh.factors.edges) as u64
 }
 
 /// Open borders and held lines.

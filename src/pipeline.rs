@@ -136,6 +136,9 @@ pub fn chamfer_by_stages(
     let weld = weld(&view.mesh);
     done(Stage::Weld)?;
     let scale = Scale::new(options)?;
+    if scale.is_some() {
+        memory::ask(memory::of_measured(&view.mesh))?;
+    }
     let scaled = scale.map(|scale| scale.measured(&view.mesh));
     let scaled = scaled.as_ref().map(|scaled| measured(scaled.mesh(&view.mesh), options));
     let scaled = scaled.transpose()?;
@@ -237,8 +240,8 @@ fn chamfer_shape(
     let Made { patches, charts, attributes, verdicts: (verdicts, totals) } = made;
     let largest_width = (shape.edges.widest(space.measured.width) / space.largest()) as f32;
     // What the output does not read is given back: it is where a call needs the most memory.
-    drop(offsets);
-    let Shape { weld, .. } = shape;
+    let Shape { weld, topology, faces, contacts, edges, sectors } = shape;
+    drop((offsets, topology, faces, contacts, edges, sectors));
     let output = output(space, &weld, &patches, &charts, attributes, options.chamfer_submesh);
     let scale = space.scale.map(|_| options.scale);
     Ok(Chamfered { verdicts, totals, largest_width, scale, ..output })

@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use chamfer::Verify;
-use chamfer_formats::{ReadOptions, Weld};
+use chamfer_formats::{Normals, ReadOptions};
 use clap::{Parser, Subcommand, ValueEnum};
 
-use crate::choices::{Choices, NormalsArg, angle, number, weld};
+use crate::choices::{Choices, Reading, number};
 use crate::length::Length;
 use crate::report::Asked;
 
@@ -191,19 +191,8 @@ pub struct CheckArgs {
     #[arg(long, value_enum, default_value = "full")]
     pub verify: CheckDepth,
 
-    /// Which normals of the model before counted
-    #[arg(long, value_enum, default_value = "keep")]
-    pub normals: NormalsArg,
-
-    /// For models without normals: faces that meet at up to this angle shade as one surface
-    #[arg(long, value_name = "DEG", value_parser = angle, allow_negative_numbers = true)]
-    #[arg(default_value = "30")]
-    pub smoothing_angle: f32,
-
-    /// Join vertices that are at most so far from each other, in mesh units; "auto": those that only
-    /// rounding may have set apart [default: those at the same place]
-    #[arg(long, value_name = "DISTANCE|auto", value_parser = weld, allow_negative_numbers = true)]
-    pub weld: Option<Weld>,
+    #[command(flatten)]
+    pub reading: Reading,
 }
 
 impl CheckArgs {
@@ -212,18 +201,14 @@ impl CheckArgs {
         self.width.or(self.width_percent.map(Length::percent))
     }
 
-    /// What to ask of the readers for the model after.
+    /// What to ask of the readers for the model after: it has the normals that were made for it.
     pub fn read_options(&self) -> ReadOptions {
-        ReadOptions {
-            smoothing_angle: self.smoothing_angle,
-            weld: self.weld.unwrap_or_default(),
-            ..ReadOptions::default()
-        }
+        ReadOptions { normals: Normals::Keep, ..self.reading.options() }
     }
 
-    /// The same for the model before. The result has the normals that were made for it.
+    /// The same for the model before.
     pub fn read_options_before(&self) -> ReadOptions {
-        ReadOptions { normals: self.normals.into(), ..self.read_options() }
+        self.reading.options()
     }
 }
 
@@ -270,6 +255,8 @@ impl Args {
 
 #[cfg(test)]
 mod tests {
+    use chamfer_formats::Weld;
+
     use super::*;
     use chamfer::{ChamferSubmesh, Options};
     use clap::CommandFactory;

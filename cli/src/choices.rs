@@ -12,6 +12,35 @@ use crate::report::Asked;
 /// More than any machine has, and few enough to start.
 const MOST_THREADS: i64 = 1024;
 
+/// How models are read.
+#[derive(Clone, Debug, Args)]
+pub struct Reading {
+    /// Which normals count: those of the file, or others, made by --smoothing-angle
+    #[arg(long, value_enum, default_value = "keep")]
+    pub normals: NormalsArg,
+
+    /// For models without normals: faces that meet at up to this angle shade as one surface
+    #[arg(long, value_name = "DEG", value_parser = angle, allow_negative_numbers = true)]
+    #[arg(default_value = "30")]
+    pub smoothing_angle: f32,
+
+    /// Join vertices that are at most so far from each other, in mesh units; "auto": those that only
+    /// rounding may have set apart [default: those at the same place]
+    #[arg(long, value_name = "DISTANCE|auto", value_parser = weld, allow_negative_numbers = true)]
+    pub weld: Option<Weld>,
+}
+
+impl Reading {
+    /// What to ask of the readers.
+    pub fn options(&self) -> ReadOptions {
+        ReadOptions {
+            smoothing_angle: self.smoothing_angle,
+            weld: self.weld.unwrap_or_default(),
+            normals: self.normals.into(),
+        }
+    }
+}
+
 /// The options that results depend on, and the number of threads.
 #[derive(Clone, Debug, Args)]
 pub struct Choices {
@@ -77,19 +106,8 @@ pub struct Choices {
     #[arg(long, value_name = "owner|own|N", value_parser = submesh, default_value = "owner")]
     pub chamfer_submesh: ChamferSubmesh,
 
-    /// Which normals count: those of the file, or others, made by --smoothing-angle
-    #[arg(long, value_enum, default_value = "keep")]
-    pub normals: NormalsArg,
-
-    /// For models without normals: faces that meet at up to this angle shade as one surface
-    #[arg(long, value_name = "DEG", value_parser = angle, allow_negative_numbers = true)]
-    #[arg(default_value = "30")]
-    pub smoothing_angle: f32,
-
-    /// Join vertices that are at most so far from each other, in mesh units; "auto": those that only
-    /// rounding may have set apart [default: those at the same place]
-    #[arg(long, value_name = "DISTANCE|auto", value_parser = weld, allow_negative_numbers = true)]
-    pub weld: Option<Weld>,
+    #[command(flatten)]
+    pub reading: Reading,
 
     /// How many threads work [default: one a core]; results do not depend on it
     #[arg(long, value_name = "N", default_value = "0", hide_default_value = true)]
@@ -213,11 +231,7 @@ impl Choices {
 
     /// What to ask of the readers.
     pub fn read_options(&self) -> ReadOptions {
-        ReadOptions {
-            smoothing_angle: self.smoothing_angle,
-            weld: self.weld.unwrap_or_default(),
-            normals: self.normals.into(),
-        }
+        self.reading.options()
     }
 
     /// The same for the report.
@@ -239,9 +253,9 @@ impl Choices {
             least_breadth: self.least_breadth,
             verify: name(self.verify),
             chamfer_submesh: submesh_name(self.chamfer_submesh),
-            normals: name(self.normals),
-            smoothing_angle: self.smoothing_angle,
-            weld: self.weld.map(|weld| match weld {
+            normals: name(self.reading.normals),
+            smoothing_angle: self.reading.smoothing_angle,
+            weld: self.reading.weld.map(|weld| match weld {
                 Weld::Equal => "0".into(),
                 Weld::Within(distance) => distance.to_string(),
                 Weld::Auto => "auto".into(),

@@ -31,6 +31,7 @@ const BEST_RANK: Rank = (true, true, 2);
 /// A fill, and what is around it.
 struct FillMap<'a> {
     given: &'a Given<'a>,
+    owners: &'a Owners,
     sectors: &'a [Sector],
     fill: Parts<'a>,
     /// Those of the ring, then the middles.
@@ -43,14 +44,14 @@ struct FillMap<'a> {
 /// gives the owner's face, and the joint whose vertex is made first.
 pub fn lay_fill(
     given: &Given,
-    ring: Ring,
-    fill: Parts,
+    owners: &Owners,
+    (ring, fill): (Ring, Parts),
     taken: &mut Vec<TakenAt>,
 ) -> (Triangle, usize) {
     let sectors = given.chamfers.sectors.ring(ring);
     let joints = sectors.iter().map(|&sector| given.placement.point[sector]);
     let points = joints.chain(fill.middles.iter().map(|middle| middle.position)).collect();
-    FillMap { given, sectors, fill, points, frame: OnceCell::new() }.lay_into_chart(taken)
+    FillMap { given, owners, sectors, fill, points, frame: OnceCell::new() }.lay_into_chart(taken)
 }
 
 impl FillMap<'_> {
@@ -61,10 +62,10 @@ impl FillMap<'_> {
         let all = channels_of(self.given.surface.view);
         let channels = all.filter(broken).fold(0, |channels, k| channels | 1 << k);
         if channels == 0 {
-            return (self.first(self.first_owner(self.given.owners)).triangle(), 0);
+            return (self.first(self.first_owner()).triangle(), 0);
         }
         let mut lay = Lay::default();
-        let owner = self.best_lay(channels, self.given.owners, &mut lay);
+        let owner = self.best_lay(channels, &mut lay);
         let places = lay.feet.into_iter().chain(lay.middles.into_iter().map(Some)).zip(0..);
         taken.extend(
             places.filter_map(|(place, point)| Some((point, Taken { channels, place: place? }))),
@@ -73,13 +74,13 @@ impl FillMap<'_> {
     }
 
     /// Lays the fill for the best owner, which it gives.
-    fn best_lay(&self, channels: u8, owners: &Owners, lay: &mut Lay) -> usize {
-        let first = self.first_owner(owners);
+    fn best_lay(&self, channels: u8, lay: &mut Lay) -> usize {
+        let first = self.first_owner();
         let mut best = (self.lay(channels, FILL_WAYS[0], first, lay), FILL_WAYS[0], first);
         if best.0 <= MOST_STRETCH {
             return first;
         }
-        let ranked = self.ranked(owners);
+        let ranked = self.ranked();
         let ways = FILL_WAYS.into_iter();
         for (way, &owner) in ways.flat_map(|way| ranked.iter().map(move |at| (way, at))) {
             let misfit = self.lay(channels, way, owner, lay);
@@ -96,10 +97,10 @@ impl FillMap<'_> {
     }
 
     /// The first of the ring's places in rank.
-    fn first_owner(&self, owners: &Owners) -> usize {
+    fn first_owner(&self) -> usize {
         let mut best = (Rank::default(), 0);
         for place in 0..self.sectors.len() {
-            let rank = self.rank(place, owners);
+            let rank = self.rank(place);
             if rank > best.0 {
                 best = (rank, place);
             }
@@ -111,10 +112,9 @@ impl FillMap<'_> {
     }
 
     /// The places of the ring that are tried as owners, the best first.
-    fn ranked(&self, owners: &Owners) -> Few<usize> {
+    fn ranked(&self) -> Few<usize> {
         let places = 0..self.sectors.len();
-        let mut ranked: Few<_> =
-            places.map(|place| (Reverse(self.rank(place, owners)), place)).collect();
+        let mut ranked: Few<_> = places.map(|place| (Reverse(self.rank(place)), place)).collect();
         ranked.sort_unstable();
         ranked.iter().take(MOST_OWNERS).map(|&(_, place)| place).collect()
     }
@@ -224,13 +224,13 @@ impl FillMap<'_> {
     }
 
     /// How good an owner a sector is.
-    fn rank(&self, place: usize, owners: &Owners) -> Rank {
+    fn rank(&self, place: usize) -> Rank {
         let Given { surface, chamfers, .. } = *self.given;
         let sector = self.sectors[place];
         let fan = &chamfers.sectors.fans[sector];
         let owns = |side: &Corner| {
             let edge: Edge = chamfers.edges.chamfered_at[*side];
-            edge.is_some() && chamfers.edges.hard[edge].sides[owners.of(edge)] == *side
+            edge.is_some() && chamfers.edges.hard[edge].sides[self.owners.of(edge)] == *side
         };
         let owned = [fan.first, fan.last.prev()].iter().filter(|side| owns(side)).count();
         let at = self.given.placement.base(sector);

@@ -1,13 +1,12 @@
 //! Owners: which side's texture each strip continues.
 
+use super::Given;
 use super::feet::is_pair;
 use super::strip_map::StripMap;
-use crate::attributes::Attributes;
 use crate::chamfers::Chamfers;
 use crate::edges::Edges;
 use crate::ids::{Corner, Edge, IdVec, Triangle};
 use crate::patches::Patches;
-use crate::placement::Placement;
 use crate::surface::Surface;
 use crate::threads::Threads;
 
@@ -32,14 +31,8 @@ const UNDECIDED: u8 = u8::MAX;
 /// A whole chain of edges between two smooth regions has one owner, so that the texture does not
 /// zigzag: the region whose band fits more of the strips, or else the one that comes first in the
 /// mesh. Where its band does not fit at all but the other side's does, an edge has the other.
-pub fn owners(
-    surface: Surface,
-    chamfers: Chamfers,
-    placement: &Placement,
-    patches: &Patches,
-    attributes: &Attributes,
-    threads: &Threads,
-) -> Owners {
+pub fn owners(given: &Given, patches: &Patches, threads: &Threads) -> Owners {
+    let Given { surface, chamfers, placement, attributes } = *given;
     let band = |edge: Edge, side: u8| {
         let hard = &chamfers.edges.hard[edge];
         let map =

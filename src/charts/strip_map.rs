@@ -5,6 +5,7 @@ use glam::{DVec2, DVec3};
 use super::feet::{End, Frame, Room, feet_at, flat_lay};
 use super::fit::{Facing, Lie, MOST_STRETCH, misfit, roomiest};
 use super::ground::Ground;
+use super::owners::Owners;
 use super::ways::{BANDS, BESIDE_BANDS, Way};
 use super::{Given, TakenAt, channels_of, place_of};
 use crate::attributes::{Attributes, Taken};
@@ -208,8 +209,13 @@ fn places(owner: usize) -> [[usize; 2]; 2] {
 }
 
 /// Lays a strip into its owner's chart; gives the owner's face.
-pub fn lay_strip(given: &Given, edge: Edge, strip: Parts, taken_at: &mut Vec<TakenAt>) -> Triangle {
-    let Given { surface, placement, attributes, owners, .. } = *given;
+pub fn lay_strip(
+    given: &Given,
+    owners: &Owners,
+    (edge, strip): (Edge, Parts),
+    taken_at: &mut Vec<TakenAt>,
+) -> Triangle {
+    let Given { surface, placement, attributes, .. } = *given;
     let (hard, owner) = (&given.chamfers.edges.hard[edge], owners.of(edge));
     let map = StripMap::new(surface, placement, attributes, hard, strip.triangles);
     let (mut taken, mut channels): (Feet, [u8; 4]) = ([None; 4], [0; 4]);
