@@ -87,7 +87,10 @@ pub fn charts(
         let (mut face, mut begin) = (Triangle::NONE, 0);
         if !parts.triangles.is_empty() {
             (face, begin) = match patches.edge_or_ring(patch) {
-                Ok(edge) => (lay_strip(&given, &owners, (edge, parts), &mut charts.taken), 0),
+                Ok(edge) => {
+                    let owner = (owners.of(edge), owners.band[edge]);
+                    (lay_strip(&given, (edge, parts), owner, &mut charts.taken), 0)
+                }
                 Err(ring) => lay_fill(&given, &owners, (ring, parts), &mut charts.taken),
             };
         }

@@ -4,7 +4,6 @@ use glam::DVec3;
 
 use crate::faces::Faces;
 use crate::ids::{Cluster, Corner, Triangle, Vertex};
-use crate::math::unit;
 use crate::options::{Convexity, Options, WidthMode};
 use crate::tolerance::ANGLE_ROUNDING;
 use crate::topology::Topology;
@@ -73,8 +72,7 @@ impl Selection<'_> {
         sides: [Corner; 2],
     ) -> Option<[f64; 2]> {
         let [one, two] = sides.map(|side| faces.normal[side.triangle()]);
-        let along = self.view.position_at(sides[0].next()) - self.view.position_at(sides[0]);
-        if !self.takes_angle(one.dot(two)) || !self.takes_turn(one.cross(two).dot(unit(along))) {
+        if !self.takes_angle(one.dot(two)) || !self.takes_turn(sides[0], one.cross(two)) {
             return None;
         }
         let factor = self.submesh_factor(sides) * self.listed_factor(topology, sides[0])?;
@@ -88,25 +86,25 @@ impl Selection<'_> {
         self.cosines[0] <= cosine && cosine <= self.cosines[1]
     }
 
-    /// By the sine of the angle by which the first face turns into the second.
-    fn takes_turn(&self, sine: f64) -> bool {
+    /// By the axis about which the first face turns into the second: along the edge, or against it.
+    fn takes_turn(&self, side: Corner, axis: DVec3) -> bool {
+        let along = || self.view.position_at(side.next()) - self.view.position_at(side);
         match self.convexity {
             Convexity::Both => true,
-            Convexity::Convex => sine > 0.0,
-            Convexity::Concave => sine < 0.0,
+            Convexity::Convex => axis.dot(along()) > 0.0,
+            Convexity::Concave => axis.dot(along()) < 0.0,
         }
     }
 
     /// How many times the width asked for the offset is.
     fn times(&self, one: DVec3, two: DVec3) -> f64 {
         // Of half the angle between the normals: what the faces open by is the rest to half a turn.
-        let sine = (one - two).length() / 2.0;
-        let cosine = (one + two).length() / 2.0;
+        let (sine, cosine) = (|| (one - two).length() / 2.0, || (one + two).length() / 2.0);
         let times = match self.mode {
             WidthMode::Offset => 1.0,
-            WidthMode::Chord => 0.5 / cosine,
-            WidthMode::Depth => 1.0 / sine,
-            WidthMode::Radius => sine / cosine,
+            WidthMode::Chord => 0.5 / cosine(),
+            WidthMode::Depth => 1.0 / sine(),
+            WidthMode::Radius => sine() / cosine(),
         };
         times.min(MOST_TIMES)
     }

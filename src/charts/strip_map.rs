@@ -5,7 +5,6 @@ use glam::{DVec2, DVec3};
 use super::feet::{End, Frame, Room, feet_at, flat_lay};
 use super::fit::{Facing, Lie, MOST_STRETCH, misfit, roomiest};
 use super::ground::Ground;
-use super::owners::Owners;
 use super::ways::{BANDS, BESIDE_BANDS, Way};
 use super::{Given, TakenAt, channels_of, place_of};
 use crate::attributes::{Attributes, Taken};
@@ -208,20 +207,21 @@ fn places(owner: usize) -> [[usize; 2]; 2] {
     if owner == 0 { [[1, 2], [0, 3]] } else { [[3, 0], [2, 1]] }
 }
 
-/// Lays a strip into its owner's chart; gives the owner's face.
+/// Lays a strip into its owner's chart, where it is known on which band it fits; gives the owner's
+/// face.
 pub fn lay_strip(
     given: &Given,
-    owners: &Owners,
     (edge, strip): (Edge, Parts),
+    (owner, band): (usize, Option<u8>),
     taken_at: &mut Vec<TakenAt>,
 ) -> Triangle {
     let Given { surface, placement, attributes, .. } = *given;
-    let (hard, owner) = (&given.chamfers.edges.hard[edge], owners.of(edge));
+    let hard = &given.chamfers.edges.hard[edge];
     let map = StripMap::new(surface, placement, attributes, hard, strip.triangles);
     let (mut taken, mut channels): (Feet, [u8; 4]) = ([None; 4], [0; 4]);
     for channel in channels_of(surface.view) {
         // What the owner was chosen by need not be looked for again.
-        let known = owners.band[edge].filter(|_| map.first_seam() == channel && taken == [None; 4]);
+        let known = band.filter(|_| map.first_seam() == channel && taken == [None; 4]);
         let feet = match known {
             Some(band) => map.feet(channel, Some((BANDS[usize::from(band)], owner))),
             None => map.lay(channel, owner, &taken),
