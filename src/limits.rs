@@ -5,29 +5,21 @@
 //! leave, build strips and fills, shrink the sectors of whatever fails, and give back what is safe.
 //! A ring that still fails keeps its old position, so the result is never worse than the source.
 
-mod breadth;
 mod collisions;
 mod crowds;
 mod elements;
-mod given;
-mod room;
 mod valid;
 
 use std::cmp::Ordering;
 
-use crate::chamfers::Chamfers;
 use crate::error::Error;
+use crate::given::Given;
 use crate::ids::{IdVec, Ring, Sector};
-use crate::offsets::Offset;
 use crate::options::Verify;
 use crate::placement::Placement;
 use crate::report::Reason;
-use crate::rests::Rests;
-use crate::surface::Surface;
-use crate::threads::Threads;
 
 use elements::{Element, around, elements_of, sectors_of};
-use given::Given;
 use valid::{bad_elements, contacts_are_kept, is_valid};
 
 /// How much a sector that takes part in something bad keeps in each round.
@@ -54,24 +46,20 @@ pub struct Limits<'a> {
     pub reason: IdVec<Sector, Reason>,
 }
 
+/// The most that is sound, up to the room that each sector has (`room: #sectors`).
+///
 /// # Errors
 /// [`Error::OutOfMemory`] where what collisions need is not to be had.
 pub fn limits<'a>(
-    surface: Surface<'a>,
-    chamfers: Chamfers<'a>,
-    offsets: &'a IdVec<Sector, Offset>,
-    rests: &'a Rests,
+    given: &Given<'a>,
+    room: &IdVec<Sector, f64>,
     verify: Verify,
-    threads: &'a Threads,
 ) -> Result<Limits<'a>, Error> {
-    let deep = given::deep(surface.topology, chamfers.sectors);
-    let given = &Given { surface, chamfers, offsets, rests, deep, threads };
-    let room = room::room(given);
-    let mut limits = bounded(given, &room);
+    let mut limits = bounded(given, room);
     let bad = bad_elements(given, &limits.placement);
     shrink(given, &mut limits, bad);
     for _ in 0..GROW_PASSES {
-        grow(given, &room, &mut limits);
+        grow(given, room, &mut limits);
     }
     if verify != Verify::Fast {
         collisions::resolve(given, &mut limits)?;
@@ -232,7 +220,7 @@ fn obstacle(
 
 #[cfg(test)]
 mod tests {
-    use super::given::tests::given_of;
+    use crate::given::tests::given_of;
     use super::*;
     use crate::mesh::MeshBuffers;
     use crate::shapes;

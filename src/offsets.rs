@@ -12,7 +12,7 @@ mod follow;
 
 use glam::DVec3;
 
-use crate::breaks::{is_hard, seam_between, uv_at};
+use crate::breaks::{is_hard, same_chart, seam_between, uv_at};
 use crate::chamfers::Chamfers;
 use crate::edges::Edges;
 use crate::faces::Faces;
@@ -58,6 +58,8 @@ pub struct Offset {
     pub foot: Foot,
     /// Whether the distance was cut off at the miter limit.
     pub is_capped: bool,
+    /// How much of what was asked for the vector is for the sector's first and for its last edge.
+    pub fronts: [f64; 2],
 }
 
 impl Offset {
@@ -108,6 +110,7 @@ pub fn offsets(
             within: fan.first,
             foot: Foot::at(fan.first),
             is_capped: false,
+            fronts: [1.0; 2],
         })
     });
     for followers in sectors.followers.chunk_by(|one, other| one.sector == other.sector) {
@@ -149,7 +152,7 @@ fn span(
     let is_level = |corner: &Corner| faces.normal[corner.triangle()].dot(normal) > LEVEL_COSINE;
     let within = |&corner: &Corner| {
         let foot = locate(view, corner, at, vector)?;
-        Some(Offset { vector, within: corner, foot, is_capped: false })
+        Some(Offset { vector, within: corner, foot, is_capped: false, fronts: [1.0; 2] })
     };
     let inside = |offset: &Offset| offset.foot.along[0].min(offset.foot.along[1]);
     let faces = fan.iter().filter(|corner| !faces.is_line(corner.triangle())).filter_map(within);
@@ -432,7 +435,7 @@ fn place(view: &View, faces: &Faces, spread: &[Blade], course: &Course) -> Optio
 fn sound(faces: &Faces, course: &Course, (vector, foot): (DVec3, Foot)) -> Option<Offset> {
     let within = course.corner;
     let is_sound = faces.normal[within.triangle()] != DVec3::ZERO && vector.is_finite();
-    is_sound.then_some(Offset { vector, within, foot, is_capped: course.is_capped })
+    is_sound.then_some(Offset { vector, within, foot, is_capped: course.is_capped, fronts: [1.0; 2] })
 }
 
 /// Whether all planes in a fan that could be the corner's own lead to the same place.
@@ -444,6 +447,70 @@ fn is_flat(view: &View, faces: &Faces, spread: &[Blade], course: &Course) -> boo
         let normal = faces.normal[blade.corner.triangle()];
         normal.distance_squared(own) <= most * most || normal.dot(own) <= LEVEL_COSINE
     })
+}
+
+/// Edges that meet at less than this (as a sine, 30 degrees), or run on so nearly straight, are
+/// pulled together: a little less width of one of them alone would take the vertex far along the
+/// other.
+const LEAST_PART_SINE: f64 = 0.5;
+
+/// The parts of an offset that pull the sector's first and its last edge: each leads along the other
+/// edge, and leaves that where it is. None where the edges are not pulled each by itself: at borders,
+/// on surfaces that bend, across seams, and where they run on straight.
+pub fn parts(
+    surface: Surface,
+    sectors: &Sectors,
+    sector: Sector,
+    offset: &Offset,
+) -> Option<[DVec3; 2]> {
+    let Surface { view, topology, faces } = surface;
+    let fan = &sectors.fans[sector];
+    if fan.starts_at_border || fan.ends_at_border() || topology.twin[fan.first] == fan.last.prev() {
+        return None;
+    }
+    let normal = faces.normal[fan.first.triangle()];
+    let mut before: Option<Corner> = None;
+    for corner in sectors.corners(topology, sector) {
+        let is_level = faces.normal[corner.triangle()].dot(normal) > LEVEL_COSINE;
+        let is_one = before.is_none_or(|before| {
+            let [one, other] = [before, corner].map(|corner| view.vertex_at(corner));
+            one == other || view.normal(one) == view.normal(other) && same_chart(view, one, other)
+        });
+        if !is_level || !is_one {
+            return None;
+        }
+        before = Some(corner);
+    }
+    let [ahead, _] = arms(view, fan.first);
+    let [_, back] = arms(view, fan.last);
+    let (ahead, back) = (unit(ahead), unit(back));
+    let sine = ahead.cross(back).dot(normal);
+    if sine.abs() < LEAST_PART_SINE {
+        return None;
+    }
+    let along_last = back * (ahead.cross(offset.vector).dot(normal) / sine);
+    Some([along_last, offset.vector - along_last])
+}
+
+/// An offset that is for each of its edges a share of what it was; `parts` as [`parts`] tells them.
+pub fn narrowed(
+    surface: Surface,
+    sectors: &Sectors,
+    sector: Sector,
+    offset: &Offset,
+    fronts: [f64; 2],
+) -> Option<Offset> {
+    let Surface { view, topology, .. } = surface;
+    let [first, last] = parts(surface, sectors, sector, offset)?;
+    let vector = first * fronts[0] + last * fronts[1];
+    let at = view.position_at(offset.within);
+    let feet = sectors.corners(topology, sector).filter_map(|corner| {
+        let carrier = carrier(surface.faces, corner);
+        Some((corner, locate(view, carrier, at, vector)?))
+    });
+    let inside = |foot: &Foot| foot.along[0].min(foot.along[1]);
+    let (within, foot) = feet.max_by(|one, other| inside(&one.1).total_cmp(&inside(&other.1)))?;
+    Some(Offset { vector, within, foot, fronts, ..*offset })
 }
 
 /// A corner of the triangle whose plane a corner lies in.

@@ -45,6 +45,7 @@ impl Fan {
     }
 }
 
+#[derive(Clone)]
 pub struct Sectors {
     /// `#corners`: none where no chamfered edge reaches the cluster.
     pub sector_of: IdVec<Corner, Sector>,

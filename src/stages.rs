@@ -6,7 +6,8 @@ use crate::charts::{Charts, charts};
 use crate::contacts::contacts;
 use crate::edges::{Edges, edges};
 use crate::faces::{Faces, faces};
-use crate::ids::{IdVec, Sector};
+use crate::given::{Given, deep};
+use crate::ids::{Cluster, IdVec, Sector};
 use crate::limits::{Limits, limits};
 use crate::mesh::{Mesh, MeshBuffers};
 use crate::offsets::{Offset, offsets};
@@ -14,6 +15,7 @@ use crate::options::{Options, Verify, Width};
 use crate::patches::{Patches, patches};
 use crate::placement::Placement;
 use crate::rests::{Rests, rests};
+use crate::room::room;
 use crate::scale::Space;
 use crate::sectors::{Sectors, sectors};
 use crate::selection::selection;
@@ -33,6 +35,7 @@ pub struct Stages<'a> {
     pub sectors: Sectors,
     pub offsets: IdVec<Sector, Offset>,
     pub rests: Rests,
+    pub deep: IdVec<Cluster, bool>,
     pub threads: Threads,
 }
 
@@ -61,7 +64,8 @@ pub fn stages_of_mesh<'a>(mesh: Mesh<'a>, options: &Options) -> Stages<'a> {
     let chamfers = Chamfers { edges: &edges, sectors: &sectors };
     let offsets = offsets(surface, chamfers, None, &threads);
     let rests = rests(&view, &topology, &faces, &edges, &contacts);
-    Stages { view, weld, topology, faces, edges, sectors, offsets, rests, threads }
+    let deep = deep(&topology, &sectors);
+    Stages { view, weld, topology, faces, edges, sectors, offsets, rests, deep, threads }
 }
 
 impl Stages<'_> {
@@ -81,7 +85,11 @@ impl Stages<'_> {
 
     pub fn limits(&self, verify: Verify) -> Limits<'_> {
         let (surface, chamfers) = (self.surface(), self.chamfers());
-        limits(surface, chamfers, &self.offsets, &self.rests, verify, &self.threads).unwrap()
+        let Stages { offsets, rests, deep, threads, .. } = self;
+        let given = &Given { surface, chamfers, offsets, rests, deep, threads };
+        // The triangles of the source stay.
+        let room = room(given, &vec![true; self.faces.normal.len()]);
+        limits(given, &room.share, verify).unwrap()
     }
 
     fn space(&self) -> Space<'_> {

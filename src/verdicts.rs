@@ -61,15 +61,25 @@ fn unopened(view: &View, sectors: &Sectors, (edge, at): (&HardEdge, [Sector; 4])
     }
 }
 
-/// What limited the sector that got least of its offset; none if all got everything.
+/// What limited the edge's side that got least; none if all got everything. The sectors stand in
+/// the order of [`strips::corners`].
 fn worst_reason(limits: &Limits, sectors: [Sector; 4]) -> Option<Reason> {
-    let share = |sector: &Sector| limits.placement.share[*sector];
+    // A side is the first edge of the sector where it starts, and the last one where it ends.
+    let fronts = [1, 0, 1, 0];
+    let share = |&(sector, front): &(Sector, usize)| {
+        limits.placement.share[sector] * limits.placement.offset(sector).fronts[front]
+    };
     let limited = sectors
         .into_iter()
-        .filter(|&sector| limits.placement.offset(sector).moves() && share(&sector) < 1.0)
+        .zip(fronts)
+        .filter(|end| limits.placement.offset(end.0).moves() && share(end) < 1.0)
         .min_by(|one, other| share(one).total_cmp(&share(other)));
     let is_capped = sectors.into_iter().any(|sector| limits.placement.offset(sector).is_capped);
-    limited.map(|sector| limits.reason[sector]).or(is_capped.then_some(Reason::Miter))
+    let reason = |sector: Sector| match limits.reason[sector] {
+        Reason::None => Reason::NoRoom,
+        reason => reason,
+    };
+    limited.map(|end| reason(end.0)).or(is_capped.then_some(Reason::Miter))
 }
 
 /// At each end, the mean distance of the two pulled vertices from the line of the old edge.

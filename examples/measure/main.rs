@@ -12,6 +12,8 @@
 #[allow(dead_code)] // Tests use more of it.
 #[path = "../../tests/corpus/measure.rs"]
 mod measure;
+mod fits;
+mod ground;
 mod reach;
 
 use std::path::{Path, PathBuf};
@@ -72,29 +74,55 @@ fn main() {
     let request = Request::new(std::env::args().skip(1));
     for &percent in &request.percents {
         let (mut sum, mut reaches) = (Sum::default(), Vec::new());
+        let mut all_fits = Vec::new();
         for path in request.paths() {
-            sum.extend(&of_file(&request, &path, percent, &mut reaches));
+            sum.extend(&of_file(&request, &path, percent, &mut reaches, &mut all_fits));
         }
         println!("{percent} %: {sum}");
         if request.is_reach_asked {
             let mean = reaches.iter().sum::<f64>() / reaches.len().max(1) as f64;
             println!("within reach, by mesh: {:.2} %", mean * 100.0);
+            print_fits(&all_fits);
         }
     }
 }
 
+/// Prints how much of what has room is full.
+fn print_fits(all: &[fits::Fits]) {
+    let sum = |of: &dyn Fn(&fits::Fits) -> f64| all.iter().map(of).sum::<f64>();
+    let percent = |part: f64, whole: f64| 100.0 * part / whole;
+    let roomy: Vec<_> = all.iter().filter(|f| f.has_room > 0.0).collect();
+    let by_mesh = roomy.iter().map(|f| f.full / f.has_room).sum::<f64>() / roomy.len() as f64;
+    // Lengths of unlike meshes cannot be added: each mesh counts by what it has.
+    let share = |of: &dyn Fn(&fits::Fits) -> f64| {
+        let whole = all.iter().filter(|f| f.whole > 0.0);
+        whole.clone().map(|f| of(f) / f.whole).sum::<f64>() / whole.count().max(1) as f64
+    };
+    println!(
+        "full of all length {:.2} %, has room {:.2} %, full of that {:.2} % (by mesh {:.2} %); \
+         uneven of {} edges with room {:.2} %",
+        100.0 * share(&|f| f.all_full),
+        100.0 * share(&|f| f.has_room),
+        percent(share(&|f| f.full), share(&|f| f.has_room)),
+        100.0 * by_mesh,
+        sum(&|f| f.roomy as f64),
+        percent(sum(&|f| f.uneven as f64), sum(&|f| f.roomy as f64)),
+    );
+}
+
 /// Measures a file, and prints what is wrong with it.
-fn of_file(request: &Request, path: &Path, percent: f32, reaches: &mut Vec<f64>) -> Vec<Measured> {
+fn of_file(request: &Request, path: &Path, percent: f32, reaches: &mut Vec<f64>, all_fits: &mut Vec<fits::Fits>) -> Vec<Measured> {
     let inspect = |before: &Mesh, after: &Chamfered| {
         if request.is_reach_asked && after.totals.hard_edges > 0 {
             reaches.push(reach::reach(before, after));
+            all_fits.push(fits::fits(before, after));
         }
         if request.is_compared {
             print_compared(path, percent, before, after);
         }
     };
     let options =
-        Options::default().with_width(Width::PercentOfExtent(percent)).with_verify(request.verify);
+        Options::default().with_width(Width::PercentOfExtent(percent)).with_verify(request.verify).with_least_breadth(std::env::var("LB").map_or(0.2, |v| v.parse().unwrap()));
     let measured = match request.unlike {
         Some(seed) => {
             let mut noise = Noise(path.as_os_str().len() as u32 ^ seed.wrapping_mul(2_654_435_761));

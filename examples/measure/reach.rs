@@ -4,16 +4,13 @@
 //! edge or border. Half of that way is the edge's own; the other half belongs to whatever lies there.
 //! Only the edges that have a chamfer are measured, as no others can.
 
-use std::collections::HashMap;
-
 use chamfer::{Chamfered, Mesh, Outcome};
 use glam::DVec3;
 
+use super::ground::{Ground, next};
+
 /// Where on an edge the walks begin.
 const STARTS: [f64; 3] = [0.15, 0.5, 0.85];
-
-/// Vertex normals that differ by less than a degree are those of a soft edge.
-const SOFT_COSINE: f64 = 0.9998;
 
 /// Walks end after so many triangles: enough to cross any strip of the widths that are asked for.
 const MOST_STEPS: usize = 200;
@@ -40,54 +37,8 @@ pub fn reach(mesh: &Mesh, after: &Chamfered) -> f64 {
     if whole > 0.0 { within / whole } else { 1.0 }
 }
 
-/// A mesh, to be walked on.
-struct Ground<'a> {
-    mesh: &'a Mesh<'a>,
-    /// `#vertices`: the first vertex at the same position.
-    place: Vec<usize>,
-    points: Vec<DVec3>,
-    /// The corners at which the half-edges between two places begin.
-    half_edges: HashMap<[usize; 2], Vec<usize>>,
-}
-
-impl<'a> Ground<'a> {
-    fn new(mesh: &'a Mesh<'a>) -> Ground<'a> {
-        let mut first = HashMap::new();
-        let bits = |at: &[f32; 3]| at.map(|part| (part + 0.0).to_bits());
-        let places = mesh.positions.iter().enumerate();
-        let place: Vec<usize> =
-            places.map(|(vertex, at)| *first.entry(bits(at)).or_insert(vertex)).collect();
-        let points = mesh.positions.iter().map(|at| DVec3::from(at.map(f64::from))).collect();
-        let mut ground = Ground { mesh, place, points, half_edges: HashMap::new() };
-        for corner in 0..mesh.indices.len() {
-            let ends = [corner, next(corner)].map(|corner| ground.place[ground.vertex(corner)]);
-            ground.half_edges.entry(ends).or_default().push(corner);
-        }
-        ground
-    }
-
-    fn vertex(&self, corner: usize) -> usize {
-        self.mesh.indices[corner] as usize
-    }
-
-    fn point(&self, corner: usize) -> DVec3 {
-        self.points[self.vertex(corner)]
-    }
-
-    fn face_normal(&self, corner: usize) -> DVec3 {
-        let [a, b, c] = [corner, next(corner), next(next(corner))].map(|k| self.point(k));
-        (b - a).cross(c - a).normalize_or_zero()
-    }
-
-    /// The half-edge on the other side of a soft edge.
-    fn across(&self, corner: usize) -> Option<usize> {
-        let normal = |corner| DVec3::from(self.mesh.normals[self.vertex(corner)].map(f64::from));
-        let agree = |one, other| normal(one).dot(normal(other)) > SOFT_COSINE;
-        let ends = [next(corner), corner].map(|corner| self.place[self.vertex(corner)]);
-        let mut others = self.half_edges.get(&ends)?.iter().copied();
-        others.find(|&other| agree(next(corner), other) && agree(corner, next(other)))
-    }
-
+/// Walks on a mesh.
+impl Ground<'_> {
     /// How far it is from a half-edge to the half of the way to the next edge that ends the surface.
     fn way(&self, half_edge: usize, start: f64, width: f64) -> f64 {
         let mut side = half_edge;
@@ -127,8 +78,4 @@ impl<'a> Ground<'a> {
         });
         sides.min_by(|one, other| one.0.total_cmp(&other.0))
     }
-}
-
-fn next(corner: usize) -> usize {
-    if corner % 3 == 2 { corner - 2 } else { corner + 1 }
 }

@@ -22,7 +22,7 @@ use crate::topology::solids;
 
 use super::crowds::{Crowd, Crowds, crowds};
 use super::elements::{Element, around, sectors_of};
-use super::given::Given;
+use crate::given::Given;
 use super::{Limits, apply, bad_around, blame, shrink};
 
 /// Rounds in which width is given back: the rest is within an eighth of what would fit.
@@ -352,7 +352,7 @@ fn parts<'a>(given: &'a Given<'a>) -> Vec<Part<'a>> {
 mod tests {
     use super::*;
     use crate::intersect::cut_each_other;
-    use crate::limits::given::tests::given_of;
+    use crate::given::tests::given_of;
     use crate::mesh::MeshBuffers;
     use crate::shapes;
     use crate::stages::stages_of;

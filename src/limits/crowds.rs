@@ -10,7 +10,7 @@ use crate::placement::Placement;
 use crate::topology::Topology;
 
 use super::elements::Element;
-use super::given::Given;
+use crate::given::Given;
 
 /// Where fewer meet, comparing each with each costs less than telling them apart.
 const CROWD: u32 = 32;
@@ -134,7 +134,7 @@ fn crowded_sides(topology: &Topology) -> Vec<[Corner; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::limits::given::tests::given_of;
+    use crate::given::tests::given_of;
     use crate::shapes;
     use crate::stages::stages_of;
 

@@ -3,7 +3,7 @@
 use crate::ids::{Corner, Edge, Few, Ring, Sector, Triangle};
 use crate::strips;
 
-use super::given::Given;
+use crate::given::Given;
 
 /// Anything that can go bad.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

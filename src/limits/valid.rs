@@ -10,9 +10,9 @@ use crate::placement::Placement;
 use crate::strips;
 use crate::validity::{opens_along, stays_line, survives};
 
-use super::breadth;
+use crate::room::breadth;
 use super::elements::Element;
-use super::given::Given;
+use crate::given::Given;
 
 /// Everything that is bad where the sectors stand now.
 pub fn bad_elements(given: &Given, placement: &Placement) -> Vec<Element> {
@@ -58,7 +58,7 @@ fn surface_is_valid(given: &Given, placement: &Placement, triangle: Triangle) ->
             && opens_along(old, new, facing(given, placement, triangle).map(unit), resolution)
     } else {
         survives(old, new)
-            && breadth::is_kept(given, triangle, [old, new])
+            && breadth::is_kept(given, triangle.corners(), [old, new])
             && still_faces_out(given, placement, triangle, [old, new])
     }
 }
@@ -120,7 +120,7 @@ fn fill_is_valid(given: &Given, placement: &Placement, ring: Ring) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::limits::given::tests::given_of;
+    use crate::given::tests::given_of;
     use crate::shapes;
     use crate::stages::stages_of;
 

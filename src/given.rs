@@ -1,4 +1,4 @@
-//! Given: what the limits are found from.
+//! Given: what room and limits are found from.
 
 use crate::chamfers::Chamfers;
 use crate::ids::{Cluster, IdVec, Sector, Triangle};
@@ -10,7 +10,8 @@ use crate::surface::Surface;
 use crate::threads::Threads;
 use crate::topology::Topology;
 
-/// The arguments of [`limits`](super::limits), for the files of this stage alone.
+/// The arguments of the stages that tell how far sectors may go.
+#[derive(Clone, Copy)]
 pub struct Given<'a> {
     pub surface: Surface<'a>,
     pub chamfers: Chamfers<'a>,
@@ -19,7 +20,7 @@ pub struct Given<'a> {
     /// What must not lose what it rests on.
     pub rests: &'a Rests,
     /// `#clusters`: see [`deep`].
-    pub deep: IdVec<Cluster, bool>,
+    pub deep: &'a IdVec<Cluster, bool>,
     pub threads: &'a Threads,
 }
 
@@ -50,8 +51,7 @@ pub mod tests {
 
     /// What the limits of some stages are found from.
     pub fn given_of<'a>(stages: &'a Stages) -> Given<'a> {
-        let deep = deep(&stages.topology, &stages.sectors);
-        let Stages { offsets, rests, threads, .. } = stages;
+        let Stages { offsets, rests, deep, threads, .. } = stages;
         let (surface, chamfers) = (stages.surface(), stages.chamfers());
         Given { surface, chamfers, offsets, rests, deep, threads }
     }

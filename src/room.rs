@@ -1,0 +1,573 @@
+//! Room: the shares at which the source triangles keep enough of their area and breadth.
+//!
+//! All sectors grow together. When a triangle has given away what it can, the sectors that press
+//! on it stop, and the others grow on: so no sector gets less than it must, and two that compete
+//! for one face get the same (progressive filling; D. Bertsekas and R. Gallager, "Data Networks",
+//! 1992, calls the outcome max-min fair).
+
+pub mod breadth;
+mod triangulation;
+mod turning;
+
+use std::cmp::Ordering;
+use std::collections::{BTreeMap, BinaryHeap};
+
+use glam::DVec3;
+
+use crate::chamfers::Chamfers;
+use crate::given::Given;
+use crate::ids::{Corner, Few, IdVec, Sector, Triangle};
+use crate::math::area_vector;
+use crate::offsets::parts;
+
+pub use triangulation::Triangulation;
+use turning::{Quad, Turning};
+
+/// A triangle may give away all but this share of its area. Somewhat more than what validity asks
+/// for, so that rounding does not undo it.
+const LEAST_SHARE: f64 = 0.02;
+
+/// So many times the breadth that has to stay does, for the same reason.
+const SAFETY: f64 = 1.0005;
+
+/// A diagonal is turned where that lets its triangles grow on by at least this much of the width:
+/// less is not seen, and turning goes on for ever where nobody gains.
+const LEAST_GAIN: f64 = 0.01;
+
+/// How far the sectors can go, and over which triangles.
+pub struct Room {
+    /// `#sectors`: the largest share, up to 1, that leaves room in all triangles of the sector.
+    pub share: IdVec<Sector, f64>,
+    /// The sectors whose two edges have unlike room: the share of that share that each of them has.
+    pub fronts: BTreeMap<Sector, [f64; 2]>,
+    /// The triangles that leave this room; none where those of the source do.
+    pub triangulation: Option<Triangulation>,
+}
+
+/// The room that there is. A diagonal that stands in the way is turned, but for those of triangles
+/// that are to be kept (`kept: #triangles`; none at all where it is empty).
+pub fn room(given: &Given, kept: &[bool]) -> Room {
+    let share = |sector: Sector| if given.offsets[sector].moves() { GROWING } else { 0.0 };
+    let share = given.threads.map(given.offsets.len(), share);
+    let mut filling =
+        Filling { given, share, split: BTreeMap::new(), kept, turning: None, first: Vec::new(), later: BinaryHeap::new() };
+    filling.first = given.surface.view.triangles().filter_map(|t| filling.event(t, 0.0)).collect();
+    filling.first.sort_unstable();
+    while let Some(event) = filling.next_event() {
+        filling.handle(&event);
+    }
+    let Filling { mut share, split, turning, .. } = filling;
+    share.iter_mut().for_each(|share| *share = share.min(1.0));
+    let mut fronts = BTreeMap::new();
+    for (sector, split) in split {
+        let [one, other] = split.share.map(|share| share.min(1.0));
+        share[sector] = one.max(other);
+        if one != other {
+            fronts.insert(sector, [one, other].map(|front| front / one.max(other)));
+        }
+    }
+    Room { share, fronts, triangulation: turning.and_then(Turning::finish) }
+}
+
+/// A triangle that has given away all it can when everything has grown to a share.
+struct Event {
+    share: f64,
+    triangle: Triangle,
+}
+
+impl Ord for Event {
+    /// The smallest share comes first, and of equal ones the first triangle.
+    fn cmp(&self, other: &Event) -> Ordering {
+        other.share.total_cmp(&self.share).then(other.triangle.cmp(&self.triangle))
+    }
+}
+
+impl PartialOrd for Event {
+    fn partial_cmp(&self, other: &Event) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Event {
+    fn eq(&self, other: &Event) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Event {}
+
+struct Filling<'a> {
+    given: &'a Given<'a>,
+    /// `#sectors`: the share at which each stopped.
+    share: IdVec<Sector, f64>,
+    /// Those of which one front stopped before the other.
+    split: BTreeMap<Sector, Split>,
+    /// `#triangles`, or nothing: whose diagonals are not to be turned.
+    kept: &'a [bool],
+    /// The triangles, once a diagonal stood in the way.
+    turning: Option<Turning<'a>>,
+    /// What is known from the beginning, the earliest last. Nearly all events are: sorting them
+    /// once takes less time than a heap of all.
+    first: Vec<Event>,
+    later: BinaryHeap<Event>,
+}
+
+/// The share of a sector that has not stopped.
+const GROWING: f64 = f64::INFINITY;
+
+/// In the place of the share of a sector whose fronts do not go together any more.
+const SPLIT: f64 = -1.0;
+
+/// A sector whose two edges are pulled each by a share of its own.
+struct Split {
+    /// The parts of its offset that pull its first and its last edge.
+    parts: [DVec3; 2],
+    share: [f64; 2],
+}
+
+/// What of a sector grows by itself.
+#[derive(Clone, Copy)]
+struct Load {
+    /// The front; none where both go together.
+    front: Option<usize>,
+    growth: DVec3,
+}
+
+/// A triangle whose corners move in proportion to a common share, or stopped before.
+struct Moving {
+    /// The corners at share 0, the stopped ones where they stopped.
+    start: [DVec3; 3],
+    /// How each corner moves; zero where it stopped.
+    growth: [DVec3; 3],
+    /// Its area counts along this direction.
+    normal: DVec3,
+    /// The least that it may come down to.
+    least: f64,
+    /// `#sides`: the same, for each unit of the side's length along this vector.
+    over: [DVec3; 3],
+    /// What it may be off that by rounding.
+    slack: f64,
+}
+
+impl Filling<'_> {
+    fn face(&self, triangle: Triangle) -> Face {
+        match &self.turning {
+            None => Face::of_source(triangle),
+            Some(turning) => Face::new(&turning.triangulation, triangle),
+        }
+    }
+
+    fn sectors(&self, face: &Face) -> [Sector; 3] {
+        face.corners.map(|corner| self.given.chamfers.sectors.sector_of[corner])
+    }
+
+    /// The earliest event that is left.
+    fn next_event(&mut self) -> Option<Event> {
+        // The greater one comes first.
+        if self.first.last() > self.later.peek() { self.first.pop() } else { self.later.pop() }
+    }
+
+    fn moving(&self, face: &Face) -> Moving {
+        let old = face.corners.map(|corner| self.given.surface.view.position_at(corner));
+        let growth = [DVec3::ZERO; 3];
+        let mut moving = Moving { start: old, growth, ..self.allowance(face, old) };
+        for (k, sector) in self.sectors(face).into_iter().enumerate() {
+            if sector.is_some() {
+                let (vector, share) = (self.given.offsets[sector].vector, self.share[sector]);
+                if share == GROWING {
+                    moving.growth[k] = vector;
+                } else if share == SPLIT {
+                    let Split { parts, share } = &self.split[&sector];
+                    for (part, &share) in parts.iter().zip(share) {
+                        if share == GROWING {
+                            moving.growth[k] += part;
+                        } else {
+                            moving.start[k] += part * share;
+                        }
+                    }
+                } else {
+                    moving.start[k] += vector * share;
+                }
+            }
+        }
+        moving
+    }
+
+    /// A triangle that does not move, with what has to be left of it.
+    fn allowance(&self, face: &Face, start: [DVec3; 3]) -> Moving {
+        let (faces, area, growth) =
+            (&self.given.surface.faces, area_vector(start), [DVec3::ZERO; 3]);
+        if face.is_new || !faces.is_line(face.triangle) {
+            let whole = area.length_squared();
+            let (least, slack) = (LEAST_SHARE * whole, EXHAUSTED * whole);
+            let share = (self.given.surface.view.least_breadth * SAFETY).min(1.0);
+            let over = breadth::least(self.given, face.sides, start, share);
+            return Moving { start, growth, normal: area, least, over, slack };
+        }
+        // A line may not fold over, but for what rounding does.
+        let longest = (0..3).map(|k| start[k].distance(start[(k + 1) % 3])).fold(0.0, f64::max);
+        let rounding = longest * self.given.surface.view.resolution / 2.0;
+        let normal = faces.normal[face.triangle];
+        let least = area.dot(normal).min(0.0) - rounding;
+        let slack = rounding * EXHAUSTED;
+        Moving { start, growth, normal, least, over: [DVec3::ZERO; 3], slack }
+    }
+
+    /// A triangle, when it will have given away all it can, and of what. Heights that do not count
+    /// are only told from those that do where they run out.
+    fn exhausted(&self, face: &Face, from: f64) -> Option<(Moving, f64, Bound)> {
+        let mut moving = self.moving(face);
+        loop {
+            let (share, bound) = moving.exhausted_at(from)?;
+            match bound {
+                Bound::Height(k) if share < 1.0 && self.goes_on(face, k) => {
+                    moving.over[k] = DVec3::ZERO;
+                }
+                _ => return Some((moving, share, bound)),
+            }
+        }
+    }
+
+    fn goes_on(&self, face: &Face, side: usize) -> bool {
+        let old = face.corners.map(|corner| self.given.surface.view.position_at(corner));
+        breadth::goes_on(self.given, face.corners, side, old)
+    }
+
+    /// When the triangle will have given away all it can, from a share on.
+    fn event(&self, triangle: Triangle, from: f64) -> Option<Event> {
+        let face = self.face(triangle);
+        if !self.sectors(&face).into_iter().any(|sector| self.is_growing(sector)) {
+            return None;
+        }
+        let (_, share, _) = self.exhausted(&face, from)?;
+        (share < 1.0).then_some(Event { share, triangle })
+    }
+
+    fn is_growing(&self, sector: Sector) -> bool {
+        sector.is_some()
+            && (self.share[sector] == GROWING
+                || self.share[sector] == SPLIT && self.split[&sector].share.contains(&GROWING))
+    }
+
+    /// What of a sector grows by itself.
+    fn loads(&self, sector: Sector) -> Few<Load> {
+        let mut loads = Few::new();
+        if sector.is_none() {
+            return loads;
+        }
+        let offset = &self.given.offsets[sector];
+        if self.share[sector] == GROWING {
+            match parts(self.given.surface, self.given.chamfers.sectors, sector, offset) {
+                None => loads.push(Load { front: None, growth: offset.vector }),
+                Some(parts) => loads.extend(
+                    [0, 1].map(|front| Load { front: Some(front), growth: parts[front] }),
+                ),
+            }
+        } else if self.share[sector] == SPLIT {
+            let Split { parts, share } = &self.split[&sector];
+            let growing = (0..2).filter(|&front| share[front] == GROWING);
+            loads.extend(growing.map(|front| Load { front: Some(front), growth: parts[front] }));
+        }
+        loads
+    }
+
+    /// Stops what of a sector grows by itself.
+    fn stop(&mut self, sector: Sector, front: Option<usize>, at: f64) {
+        let Some(front) = front else {
+            self.share[sector] = at;
+            return;
+        };
+        if self.share[sector] == GROWING {
+            let offset = &self.given.offsets[sector];
+            let parts = parts(self.given.surface, self.given.chamfers.sectors, sector, offset);
+            let split = Split { parts: parts.unwrap_or_default(), share: [GROWING; 2] };
+            self.split.insert(sector, split);
+            self.share[sector] = SPLIT;
+        }
+        if let Some(split) = self.split.get_mut(&sector) {
+            split.share[front] = at;
+        }
+    }
+
+    /// Turns a diagonal of an exhausted triangle where that makes room; else the sectors stop that
+    /// press on it.
+    fn handle(&mut self, event: &Event) {
+        let face = self.face(event.triangle);
+        // Sectors may have stopped since the event was noted: then another one has taken its place.
+        let now = self.exhausted(&face, event.share);
+        let Some((moving, _, bound)) = now.filter(|now| now.1 <= event.share) else {
+            return;
+        };
+        if !self.turn_for(event) {
+            self.stop_around(event, &face, &moving, bound);
+        }
+    }
+
+    fn stop_around(&mut self, event: &Event, face: &Face, moving: &Moving, bound: Bound) {
+        let sectors = self.sectors(face);
+        let loads = sectors.map(|sector| self.loads(sector));
+        let takes = |k: usize, load: &Load| moving.takes(k, load.growth, event.share, bound);
+        // All of them if none does alone.
+        let any = (0..3).any(|k| loads[k].iter().any(|load| takes(k, load)));
+        let mut pressing = [false; 3];
+        for k in 0..3 {
+            for load in loads[k].iter().filter(|load| !any || takes(k, load)) {
+                pressing[k] = true;
+                self.stop(sectors[k], load.front, event.share);
+            }
+        }
+        for k in (0..3).filter(|&k| pressing[k]) {
+            let is_seen = |triangle: Triangle| {
+                let around = self.sectors(&self.face(triangle));
+                (0..k).any(|seen| pressing[seen] && around.contains(&sectors[seen]))
+            };
+            let triangles = self.around(sectors[k]).into_iter().filter(|&t| !is_seen(t));
+            let events = triangles.filter_map(|triangle| self.event(triangle, event.share));
+            self.later.extend(events.collect::<Few<Event>>());
+        }
+    }
+
+    /// The triangles at a sector.
+    fn around(&self, sector: Sector) -> Few<Triangle> {
+        let Chamfers { sectors, .. } = self.given.chamfers;
+        match &self.turning {
+            None => {
+                let corners = sectors.corners(self.given.surface.topology, sector);
+                corners.map(Corner::triangle).collect()
+            }
+            Some(turning) => {
+                let fan = &sectors.fans[sector];
+                let places = turning.triangulation.fan(fan.first, fan.last.prev());
+                places.map(Corner::triangle).collect()
+            }
+        }
+    }
+
+    /// Turns the diagonal of an exhausted triangle that makes most room; tells whether one does.
+    fn turn_for(&mut self, event: &Event) -> bool {
+        let is_soft = |&side: &Corner| {
+            side.is_none()
+                || self.given.chamfers.edges.chamfered_at[side].is_none()
+                    && self.given.surface.topology.twin[side].is_some()
+        };
+        let face = self.face(event.triangle);
+        if std::env::var("NOTURN").is_ok() || !face.sides.iter().any(|side| is_soft(side)) {
+            return false;
+        }
+        let (given, kept) = (self.given, self.kept);
+        let mut turning = self.turning.take().unwrap_or_else(|| Turning::new(given, kept));
+        let turned = event.triangle.corners().into_iter().filter_map(|place| {
+            let quad = turning.quad(place)?;
+            let lasts = quad.faces().map(|face| self.lasts(&face, event.share));
+            let until = lasts[0]?.min(lasts[1]?);
+            (until > event.share + LEAST_GAIN).then_some((place, until))
+        });
+        let best = turned.max_by(|one, other| one.1.total_cmp(&other.1));
+        if let Some((place, _)) = best {
+            let other = turning.turn(place);
+            self.turning = Some(turning);
+            for triangle in [event.triangle, other] {
+                self.later.extend(self.event(triangle, event.share));
+            }
+            return true;
+        }
+        self.turning = Some(turning);
+        false
+    }
+
+    /// Until which share a triangle has room that comes into being at one; none if it has none even
+    /// there.
+    fn lasts(&self, face: &Face, from: f64) -> Option<f64> {
+        let mut moving = self.moving(face);
+        for k in 0..3 {
+            if moving.over[k] != DVec3::ZERO && self.goes_on(face, k) {
+                moving.over[k] = DVec3::ZERO;
+            }
+        }
+        let has_room = moving.has_room_at(from);
+        has_room.then(|| moving.exhausted_at(from).map_or(GROWING, |(share, _)| share))
+    }
+}
+
+/// A triangle as it is now.
+struct Face {
+    triangle: Triangle,
+    /// The corners of the source whose vertices it has.
+    corners: [Corner; 3],
+    /// The half-edges of the source that are its sides; none where it is a turned diagonal.
+    sides: [Corner; 3],
+    /// Whether it is not in the source.
+    is_new: bool,
+}
+
+impl Face {
+    fn of_source(triangle: Triangle) -> Face {
+        let corners = triangle.corners();
+        Face { triangle, corners, sides: corners, is_new: false }
+    }
+
+    fn new(triangulation: &Triangulation, triangle: Triangle) -> Face {
+        let corners = triangulation.corners(triangle);
+        let sides = triangle.corners().map(|place| triangulation.side_at(place));
+        Face { triangle, corners, sides, is_new: corners != triangle.corners() }
+    }
+}
+
+impl Quad {
+    /// The two triangles that turning makes.
+    fn faces(&self) -> [Face; 2] {
+        let Quad { corners: [a, b, v, w], outer: [va, aw, wb, bv], .. } = *self;
+        let triangle = Triangle::NONE;
+        [([w, v, a], [Corner::NONE, va, aw]), ([v, w, b], [Corner::NONE, wb, bv])]
+            .map(|(corners, sides)| Face { triangle, corners, sides, is_new: true })
+    }
+}
+
+/// What a triangle can run out of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Bound {
+    Area,
+    /// The height over the side of this number.
+    Height(usize),
+}
+
+const BOUNDS: [Bound; 4] = [Bound::Area, Bound::Height(0), Bound::Height(1), Bound::Height(2)];
+
+impl Moving {
+    fn at(&self, share: f64) -> [DVec3; 3] {
+        [0, 1, 2].map(|k| self.start[k] + self.growth[k] * share)
+    }
+
+    /// The first share, not before `from`, at which no more is left than has to be, and of what.
+    fn exhausted_at(&self, from: f64) -> Option<(f64, Bound)> {
+        let corners = self.at(from);
+        let [a, b, c] = corners;
+        let [grow_a, grow_b, grow_c] = self.growth;
+        let (ab, ac) = (b - a, c - a);
+        let (grow_ab, grow_ac) = (grow_b - grow_a, grow_c - grow_a);
+        let area = self.normal.dot(ab.cross(ac));
+        let linear = self.normal.dot(ab.cross(grow_ac) + grow_ab.cross(ac));
+        let square = self.normal.dot(grow_ab.cross(grow_ac));
+        let of = |bound: Bound| {
+            let [least, grows] = self.least(bound, [corners, self.growth])?;
+            let share = self.spent([area - least, linear - grows, square], from)?;
+            Some((share, bound))
+        };
+        // Of equal ones the first.
+        BOUNDS.into_iter().filter_map(of).min_by(|one, other| one.0.total_cmp(&other.0))
+    }
+
+    /// Whether more than the least is left of everything.
+    fn has_room_at(&self, share: f64) -> bool {
+        let corners = self.at(share);
+        let area = self.normal.dot(area_vector(corners));
+        BOUNDS.into_iter().all(|bound| {
+            let least = self.least(bound, [corners, self.growth]);
+            least.is_none_or(|[least, _]| area > least + self.slack)
+        })
+    }
+
+    /// The least area that a bound asks for, of corners and of how they grow; none if it asks for
+    /// nothing.
+    fn least(&self, bound: Bound, [corners, growth]: [[DVec3; 3]; 2]) -> Option<[f64; 2]> {
+        match bound {
+            Bound::Area => Some([self.least, 0.0]),
+            Bound::Height(k) if self.over[k] == DVec3::ZERO => None,
+            Bound::Height(k) => {
+                let along = |points: [DVec3; 3]| points[(k + 1) % 3] - points[k];
+                Some([corners, growth].map(|points| self.over[k].dot(along(points))))
+            }
+        }
+    }
+
+    /// The first share, not before `from`, at which nothing is to spare: a root of a quadratic
+    /// function of what the share has grown since.
+    fn spent(&self, [spare, linear, square]: [f64; 3], from: f64) -> Option<f64> {
+        // Rounding leaves a triangle that was stopped a little above or below its limit.
+        if spare <= self.slack {
+            return (linear < 0.0).then_some(from);
+        }
+        // Where even what both terms take together leaves some, there is no root before share 1.
+        let taken = linear.min(0.0) + square.min(0.0);
+        if spare + taken > self.slack {
+            return None;
+        }
+        first_root(square, linear, spare).map(|further| from + further)
+    }
+
+    /// Whether a growth of one corner takes away what runs out.
+    fn takes(&self, k: usize, growth: DVec3, share: f64, bound: Bound) -> bool {
+        let corners = self.at(share);
+        let opposite = corners[(k + 1) % 3] - corners[(k + 2) % 3];
+        let mut alone = [DVec3::ZERO; 3];
+        alone[k] = growth;
+        let asked = self.least(bound, [corners, alone]).map_or(0.0, |[_, grows]| grows);
+        growth != DVec3::ZERO && self.normal.dot(growth.cross(opposite)) < asked - self.slack
+    }
+}
+
+/// Within this share of the old area of its limit, a triangle is taken to have reached it.
+const EXHAUSTED: f64 = 1e-9;
+
+/// The smallest positive root of `square t^2 + linear t + constant`, for a positive constant.
+fn first_root(square: f64, linear: f64, constant: f64) -> Option<f64> {
+    let discriminant = linear * linear - 4.0 * square * constant;
+    if discriminant < 0.0 {
+        return None;
+    }
+    // The form that does not cancel; with a positive constant it is the root that comes first.
+    let denominator = -linear + discriminant.sqrt();
+    (denominator > 0.0).then(|| 2.0 * constant / denominator)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_root_is_the_smallest_positive_one() {
+        assert_eq!(first_root(1.0, -3.0, 2.0), Some(1.0));
+        assert_eq!(first_root(0.0, -2.0, 1.0), Some(0.5));
+        assert_eq!(first_root(-1.0, 0.0, 4.0), Some(2.0));
+        assert_eq!(first_root(1.0, 1.0, 1.0), None);
+        assert_eq!(first_root(1.0, 3.0, 2.0), None, "both roots are negative");
+    }
+
+    /// A unit right triangle whose corners move along x as given.
+    fn moving(growth: [f64; 3]) -> Moving {
+        let start = [DVec3::ZERO, DVec3::X, DVec3::Y];
+        let growth = growth.map(|x| DVec3::X * x);
+        let (normal, least, slack) = (DVec3::Z, LEAST_SHARE, EXHAUSTED);
+        Moving { start, growth, normal, least, over: [DVec3::ZERO; 3], slack }
+    }
+
+    #[test]
+    fn corners_that_approach_each_other_stop_together() {
+        let moving = moving([1.0, -1.0, 0.0]);
+        let (share, bound) = moving.exhausted_at(0.0).unwrap();
+        assert!((share - 0.49).abs() < 1e-12);
+        assert_eq!(moving.pressing(share, bound), [true, true, false]);
+    }
+
+    #[test]
+    fn a_corner_that_gives_room_does_not_stop() {
+        let moving = moving([2.0, 0.5, 0.0]);
+        let (share, bound) = moving.exhausted_at(0.0).unwrap();
+        assert_eq!(moving.pressing(share, bound), [true, false, false]);
+    }
+
+    // 2
+    // | .         its height over the side 0-1 may come down to a fifth: 2 stops, and 0 and 1,
+    // |   .       which draw near each other, do not take it away
+    // 0-----1
+    #[test]
+    fn who_takes_a_height_away_stops_and_who_shortens_the_side_does_not() {
+        let mut moving = moving([0.1, -0.1, 0.0]);
+        moving.growth[2] = -DVec3::Y;
+        moving.over[0] = DVec3::X * 0.2;
+        let (share, bound) = moving.exhausted_at(0.0).unwrap();
+        assert_eq!(bound, Bound::Height(0));
+        assert!((share - 0.8).abs() < 1e-12);
+        assert_eq!(moving.pressing(share, bound), [false, false, true]);
+    }
+}
