@@ -98,6 +98,8 @@ pub enum Error {
     BadWidth(f32),
     /// The breadth that has to stay is no share between 0 and 1.
     BadBreadth(f32),
+    /// The evenness is no share between 0 and 1.
+    BadEvenness(f32),
     /// An angle is out of its range.
     BadAngle {
         /// The option's name.
@@ -186,6 +188,9 @@ impl fmt::Display for Error {
             }
             Error::BadBreadth(share) => {
                 write!(f, "the least breadth is {share}: give a share between 0 and 1")
+            }
+            Error::BadEvenness(share) => {
+                write!(f, "the evenness is {share}: give a share between 0 and 1")
             }
             Error::BadAngle { option, degrees, most } => {
                 write!(f, "{option} is {degrees}: give degrees from 0 to {most}")

@@ -58,6 +58,7 @@ mod charts;
 mod contacts;
 mod edges;
 mod error;
+mod evenness;
 mod faces;
 #[allow(unsafe_code)]
 mod ffi;
@@ -80,7 +81,6 @@ mod patches;
 mod pipeline;
 mod placement;
 mod refine;
-mod regions;
 mod report;
 mod resample;
 mod rests;

@@ -10,6 +10,9 @@
 
 mod follow;
 
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+
 use glam::DVec3;
 
 use crate::breaks::{is_hard, same_chart, seam_between, uv_at};
@@ -492,21 +495,35 @@ pub fn parts(
     Some([along_last, offset.vector - along_last])
 }
 
-/// An offset that is for each of its edges a share of what it was; `parts` as [`parts`] tells them.
-pub fn narrowed(
+/// The offsets, of which some are for each of their edges a share of what they were.
+pub fn narrowed<'a>(
+    surface: Surface,
+    sectors: &Sectors,
+    offsets: &'a IdVec<Sector, Offset>,
+    fronts: &BTreeMap<Sector, [f64; 2]>,
+) -> Cow<'a, IdVec<Sector, Offset>> {
+    let mut narrowed = Cow::Borrowed(offsets);
+    for (&sector, &fronts) in fronts {
+        if let Some(offset) = narrow(surface, sectors, sector, &offsets[sector], fronts) {
+            narrowed.to_mut()[sector] = offset;
+        }
+    }
+    narrowed
+}
+
+fn narrow(
     surface: Surface,
     sectors: &Sectors,
     sector: Sector,
     offset: &Offset,
     fronts: [f64; 2],
 ) -> Option<Offset> {
-    let Surface { view, topology, .. } = surface;
+    let Surface { view, topology, faces } = surface;
     let [first, last] = parts(surface, sectors, sector, offset)?;
     let vector = first * fronts[0] + last * fronts[1];
     let at = view.position_at(offset.within);
     let feet = sectors.corners(topology, sector).filter_map(|corner| {
-        let carrier = carrier(surface.faces, corner);
-        Some((corner, locate(view, carrier, at, vector)?))
+        Some((corner, locate(view, carrier(faces, corner), at, vector)?))
     });
     let inside = |foot: &Foot| foot.along[0].min(foot.along[1]);
     let (within, foot) = feet.max_by(|one, other| inside(&one.1).total_cmp(&inside(&other.1)))?;

@@ -22,6 +22,9 @@ pub struct Options {
     /// How much of the breadth of each face has to stay between its chamfers, as a share (0 to 1):
     /// where they meet, posts would become pencils. The default is a fifth.
     pub least_breadth: f32,
+    /// How far the widths of a chamfer are held to each other, 0 (not at all) to 1 (one width for
+    /// each edge): see [`with_evenness`](Options::with_evenness). The default is a half.
+    pub evenness: f32,
     /// How thoroughly the result is checked.
     pub verify: Verify,
     /// Which submesh the new triangles go to.
@@ -51,6 +54,7 @@ impl Default for Options {
         Options {
             width: Width::PercentOfExtent(1.0),
             least_breadth: 0.2,
+            evenness: 0.5,
             verify: Verify::Full,
             chamfer_submesh: ChamferSubmesh::Owner,
             threads: 1,
@@ -75,6 +79,15 @@ impl Options {
     #[must_use]
     pub const fn with_least_breadth(self, least_breadth: f32) -> Options {
         Options { least_breadth, ..self }
+    }
+
+    /// The same with another [`evenness`](Options::evenness). Where something is in the way of an
+    /// end, the edge narrows by and by: at a half from the whole width to nothing within a hundred
+    /// widths at most, and no side of an end is more than twice as wide as the other. At 1 all of an
+    /// edge has one width, at 0 each end has all that there is room for.
+    #[must_use]
+    pub const fn with_evenness(self, evenness: f32) -> Options {
+        Options { evenness, ..self }
     }
 
     /// The same with another [`verify`](Options::verify).
@@ -202,6 +215,7 @@ mod tests {
         let set = [
             (default.with_width(width), Options { width, ..default }),
             (default.with_least_breadth(0.5), Options { least_breadth: 0.5, ..default }),
+            (default.with_evenness(0.7), Options { evenness: 0.7, ..default }),
             (default.with_verify(Verify::Fast), Options { verify: Verify::Fast, ..default }),
             (default.with_chamfer_submesh(chamfer_submesh), Options { chamfer_submesh, ..default }),
             (default.with_threads(7), Options { threads: 7, ..default }),

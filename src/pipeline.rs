@@ -1,14 +1,13 @@
 //! The stages in their order: the only file that knows it.
 
-use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
 use crate::attributes::{Attributes, attributes};
-use crate::chamfers::Chamfers;
 use crate::charts::{Charts, charts};
 use crate::contacts::contacts;
 use crate::edges::{edges, may_be_hard};
 use crate::error::Error;
+use crate::evenness::evenness;
 use crate::faces::faces;
 use crate::given::{Given, deep};
 use crate::ids::{IdVec, Sector};
@@ -20,17 +19,15 @@ use crate::options::{Options, Verify};
 use crate::output::{output, unchanged};
 use crate::patches::{Patches, patches};
 use crate::refine::{Origins, Refined, refine, restored, shape as finer_shape};
-use crate::regions::{indices, regions};
 use crate::report::{Chamfered, EdgeVerdict, Totals};
 use crate::rests::rests;
-use crate::room::{Room, room};
+use crate::room::room;
 use crate::scale::{Scale, Space};
 use crate::scene::{Placed, chamfer_scene};
 use crate::sectors::sectors;
 use crate::see_through::Eyes;
 use crate::selection::selection;
 use crate::shape::Shape;
-use crate::surface::Surface;
 use crate::threads::Threads;
 use crate::topology::topology;
 use crate::verdicts::verdicts;
@@ -177,7 +174,7 @@ fn chamfer_hard(
         Some(refined) => chamfer_refined(space, (shape, offsets), &refined, options, done),
         None => {
             done(Stage::Offsets)?;
-            chamfer_shape(space, (shape, offsets), &[], options, (threads, done))
+            chamfer_shape(space, (shape, offsets), options, (threads, done))
         }
     }
 }
@@ -222,7 +219,7 @@ fn chamfer_refined(
     let threads = &Threads::new(options.threads, fine.corner_count());
     let Some(finer) = finer_shape(fine, refined, &shape) else {
         done(Stage::Offsets)?;
-        return chamfer_shape(space, (shape, offsets), &[], options, (threads, done));
+        return chamfer_shape(space, (shape, offsets), options, (threads, done));
     };
     let known = Known { sectors: &shape.sectors, offsets: &offsets, is_new: &refined.is_new() };
     memory::ask(memory::of_chamfers(&fine.mesh, finer.chamfers().work()))?;
@@ -232,76 +229,23 @@ fn chamfer_refined(
     let origins = Origins::new(&view.mesh, refined, &shape.edges.hard, &hard);
     let fine_space = Space { source: fine, measured: fine, scale: None };
     let chamfered =
-        chamfer_shape(fine_space, (finer, offsets), &refined.is_new(), options, (threads, done))?;
+        chamfer_shape(fine_space, (finer, offsets), options, (threads, done))?;
     Ok(restored(&origins, chamfered))
 }
 
-/// The stages from the room to the output. Where diagonals stand in the way, the shape goes on over
-/// other triangles; `kept: #triangles`, or nothing, are not to change.
+/// The stages from the room to the output.
 fn chamfer_shape(
     space: Space,
     (shape, offsets): Asked,
-    kept: &[bool],
     options: &Options,
     (threads, done): (&Threads, &mut Done),
 ) -> Result<Chamfered, Error> {
-    let view = space.measured;
-    let room = {
-        let deep = &deep(&shape.topology, &shape.sectors);
-        let rests = rests(view, &shape.topology, &shape.faces, &shape.edges, &shape.contacts);
-        let (surface, chamfers, offsets) = (shape.surface(view), shape.chamfers(), &offsets);
-        room(&Given { surface, chamfers, offsets, rests: &rests, deep, threads }, kept)
-    };
-    let Room { share, fronts, triangulation } = room;
-    let Some(triangulation) = triangulation else {
-        let offsets = of_fronts(shape.surface(view), shape.chamfers(), offsets, &fronts);
-        return chamfer_over(space, (shape, offsets, share), options, (threads, done));
-    };
-    let indices = &indices(view, &triangulation);
-    let [source, measured] = [space.source, view].map(|view| over(view, indices));
-    let before = (shape.sectors.clone(), offsets);
-    let shape = regions(&measured, &triangulation, shape);
-    let is_new = triangulation.triangles().map(|t| triangulation.is_new(t)).collect::<Vec<_>>();
-    let known = Known { sectors: &before.0, offsets: &before.1, is_new: &is_new };
-    let offsets = find_offsets(shape.surface(&measured), shape.chamfers(), Some(&known), threads);
-    let offsets = of_fronts(shape.surface(&measured), shape.chamfers(), offsets, &fronts);
-    let space = Space { source: &source, measured: &measured, ..space };
-    chamfer_over(space, (shape, offsets, share), options, (threads, done))
-}
-
-/// The offsets with what each edge of a sector has room for.
-fn of_fronts(
-    surface: Surface,
-    chamfers: Chamfers,
-    mut offsets: IdVec<Sector, Offset>,
-    fronts: &BTreeMap<Sector, [f64; 2]>,
-) -> IdVec<Sector, Offset> {
-    for (&sector, &fronts) in fronts {
-        if let Some(offset) = narrowed(surface, chamfers.sectors, sector, &offsets[sector], fronts) {
-            offsets[sector] = offset;
-        }
-    }
-    offsets
-}
-
-/// A mesh over other triangles.
-fn over<'a>(view: &View<'a>, indices: &'a [u32]) -> View<'a> {
-    View { mesh: Mesh { indices, ..view.mesh }, ..*view }
-}
-
-/// The stages from the limits to the output, with the share that each sector has room for.
-fn chamfer_over(
-    space: Space,
-    (shape, offsets, room): (Shape, IdVec<Sector, Offset>, IdVec<Sector, f64>),
-    options: &Options,
-    (threads, done): (&Threads, &mut Done),
-) -> Result<Chamfered, Error> {
-    let made = make(space, (&shape, &offsets, &room), options, (threads, done))?;
+    let made = make(space, (&shape, &offsets), options, (threads, done))?;
     let Made { patches, charts, attributes, verdicts: (verdicts, totals) } = made;
     let largest_width = (shape.edges.widest(space.measured.width) / space.largest()) as f32;
     // What the output does not read is given back: it is where a call needs the most memory.
     let Shape { weld, topology, faces, contacts, edges, sectors } = shape;
-    drop((offsets, room, topology, faces, contacts, edges, sectors));
+    drop((offsets, topology, faces, contacts, edges, sectors));
     let output = output(space, &weld, &patches, &charts, attributes, options.chamfer_submesh);
     let scale = space.scale.map(|_| options.scale);
     Ok(Chamfered { verdicts, totals, largest_width, scale, ..output })
@@ -318,7 +262,7 @@ struct Made {
 /// The stages from the limits to the charts.
 fn make(
     space: Space,
-    (shape, offsets, room): (&Shape, &IdVec<Sector, Offset>, &IdVec<Sector, f64>),
+    (shape, offsets): (&Shape, &IdVec<Sector, Offset>),
     options: &Options,
     (threads, done): (&Threads, &mut Done),
 ) -> Result<Made, Error> {
@@ -327,8 +271,11 @@ fn make(
     let Shape { weld, topology, faces, contacts, edges, .. } = shape;
     let rests = rests(view, topology, faces, edges, contacts);
     let deep = &deep(topology, chamfers.sectors);
-    let given = &Given { surface, chamfers, offsets, rests: &rests, deep, threads };
-    let limits = limits(given, room, options.verify)?;
+    let asked = &Given { surface, chamfers, offsets, rests: &rests, deep, threads };
+    let room = evenness(asked, room(asked), options.evenness.into());
+    let offsets = &*narrowed(surface, chamfers.sectors, offsets, &room.fronts);
+    let given = &Given { offsets, ..*asked };
+    let limits = limits(given, &room.share, options.verify)?;
     let placement = &limits.placement;
     done(Stage::Limits)?;
     let patches = patches(view, chamfers, placement, threads);

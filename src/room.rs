@@ -6,22 +6,16 @@
 //! 1992, calls the outcome max-min fair).
 
 pub mod breadth;
-mod triangulation;
-mod turning;
 
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BinaryHeap};
 
 use glam::DVec3;
 
-use crate::chamfers::Chamfers;
 use crate::given::Given;
 use crate::ids::{Corner, Few, IdVec, Sector, Triangle};
 use crate::math::area_vector;
 use crate::offsets::parts;
-
-pub use triangulation::Triangulation;
-use turning::{Quad, Turning};
 
 /// A triangle may give away all but this share of its area. Somewhat more than what validity asks
 /// for, so that rounding does not undo it.
@@ -30,43 +24,44 @@ const LEAST_SHARE: f64 = 0.02;
 /// So many times the breadth that has to stay does, for the same reason.
 const SAFETY: f64 = 1.0005;
 
-/// A diagonal is turned where that lets its triangles grow on by at least this much of the width:
-/// less is not seen, and turning goes on for ever where nobody gains.
-const LEAST_GAIN: f64 = 0.01;
-
-/// How far the sectors can go, and over which triangles.
+/// How far the sectors can go.
 pub struct Room {
     /// `#sectors`: the largest share, up to 1, that leaves room in all triangles of the sector.
     pub share: IdVec<Sector, f64>,
     /// The sectors whose two edges have unlike room: the share of that share that each of them has.
     pub fronts: BTreeMap<Sector, [f64; 2]>,
-    /// The triangles that leave this room; none where those of the source do.
-    pub triangulation: Option<Triangulation>,
 }
 
-/// The room that there is. A diagonal that stands in the way is turned, but for those of triangles
-/// that are to be kept (`kept: #triangles`; none at all where it is empty).
-pub fn room(given: &Given, kept: &[bool]) -> Room {
+impl Room {
+    /// Sets what the two edges of a sector have room for.
+    pub fn set(&mut self, sector: Sector, shares: [f64; 2]) {
+        let most = shares[0].max(shares[1]);
+        self.share[sector] = most;
+        self.fronts.remove(&sector);
+        if shares[0] != shares[1] {
+            self.fronts.insert(sector, shares.map(|share| share / most));
+        }
+    }
+}
+
+/// The room that there is.
+pub fn room(given: &Given) -> Room {
     let share = |sector: Sector| if given.offsets[sector].moves() { GROWING } else { 0.0 };
     let share = given.threads.map(given.offsets.len(), share);
     let mut filling =
-        Filling { given, share, split: BTreeMap::new(), kept, turning: None, first: Vec::new(), later: BinaryHeap::new() };
+        Filling { given, share, split: BTreeMap::new(), first: Vec::new(), later: BinaryHeap::new() };
     filling.first = given.surface.view.triangles().filter_map(|t| filling.event(t, 0.0)).collect();
     filling.first.sort_unstable();
     while let Some(event) = filling.next_event() {
-        filling.handle(&event);
+        filling.stop_around(&event);
     }
-    let Filling { mut share, split, turning, .. } = filling;
+    let Filling { mut share, split, .. } = filling;
     share.iter_mut().for_each(|share| *share = share.min(1.0));
-    let mut fronts = BTreeMap::new();
+    let mut room = Room { share, fronts: BTreeMap::new() };
     for (sector, split) in split {
-        let [one, other] = split.share.map(|share| share.min(1.0));
-        share[sector] = one.max(other);
-        if one != other {
-            fronts.insert(sector, [one, other].map(|front| front / one.max(other)));
-        }
+        room.set(sector, split.share.map(|share| share.min(1.0)));
     }
-    Room { share, fronts, triangulation: turning.and_then(Turning::finish) }
+    room
 }
 
 /// A triangle that has given away all it can when everything has grown to a share.
@@ -102,10 +97,6 @@ struct Filling<'a> {
     share: IdVec<Sector, f64>,
     /// Those of which one front stopped before the other.
     split: BTreeMap<Sector, Split>,
-    /// `#triangles`, or nothing: whose diagonals are not to be turned.
-    kept: &'a [bool],
-    /// The triangles, once a diagonal stood in the way.
-    turning: Option<Turning<'a>>,
     /// What is known from the beginning, the earliest last. Nearly all events are: sorting them
     /// once takes less time than a heap of all.
     first: Vec<Event>,
@@ -150,15 +141,8 @@ struct Moving {
 }
 
 impl Filling<'_> {
-    fn face(&self, triangle: Triangle) -> Face {
-        match &self.turning {
-            None => Face::of_source(triangle),
-            Some(turning) => Face::new(&turning.triangulation, triangle),
-        }
-    }
-
-    fn sectors(&self, face: &Face) -> [Sector; 3] {
-        face.corners.map(|corner| self.given.chamfers.sectors.sector_of[corner])
+    fn sectors(&self, triangle: Triangle) -> [Sector; 3] {
+        triangle.corners().map(|corner| self.given.chamfers.sectors.sector_of[corner])
     }
 
     /// The earliest event that is left.
@@ -167,11 +151,11 @@ impl Filling<'_> {
         if self.first.last() > self.later.peek() { self.first.pop() } else { self.later.pop() }
     }
 
-    fn moving(&self, face: &Face) -> Moving {
-        let old = face.corners.map(|corner| self.given.surface.view.position_at(corner));
+    fn moving(&self, triangle: Triangle) -> Moving {
+        let old = self.given.surface.view.triangle(triangle);
         let growth = [DVec3::ZERO; 3];
-        let mut moving = Moving { start: old, growth, ..self.allowance(face, old) };
-        for (k, sector) in self.sectors(face).into_iter().enumerate() {
+        let mut moving = Moving { start: old, growth, ..self.allowance(triangle, old) };
+        for (k, sector) in self.sectors(triangle).into_iter().enumerate() {
             if sector.is_some() {
                 let (vector, share) = (self.given.offsets[sector].vector, self.share[sector]);
                 if share == GROWING {
@@ -194,20 +178,20 @@ impl Filling<'_> {
     }
 
     /// A triangle that does not move, with what has to be left of it.
-    fn allowance(&self, face: &Face, start: [DVec3; 3]) -> Moving {
+    fn allowance(&self, triangle: Triangle, start: [DVec3; 3]) -> Moving {
         let (faces, area, growth) =
             (&self.given.surface.faces, area_vector(start), [DVec3::ZERO; 3]);
-        if face.is_new || !faces.is_line(face.triangle) {
+        if !faces.is_line(triangle) {
             let whole = area.length_squared();
             let (least, slack) = (LEAST_SHARE * whole, EXHAUSTED * whole);
             let share = (self.given.surface.view.least_breadth * SAFETY).min(1.0);
-            let over = breadth::least(self.given, face.sides, start, share);
+            let over = breadth::least(self.given, triangle, start, share);
             return Moving { start, growth, normal: area, least, over, slack };
         }
         // A line may not fold over, but for what rounding does.
         let longest = (0..3).map(|k| start[k].distance(start[(k + 1) % 3])).fold(0.0, f64::max);
         let rounding = longest * self.given.surface.view.resolution / 2.0;
-        let normal = faces.normal[face.triangle];
+        let normal = faces.normal[triangle];
         let least = area.dot(normal).min(0.0) - rounding;
         let slack = rounding * EXHAUSTED;
         Moving { start, growth, normal, least, over: [DVec3::ZERO; 3], slack }
@@ -215,12 +199,12 @@ impl Filling<'_> {
 
     /// A triangle, when it will have given away all it can, and of what. Heights that do not count
     /// are only told from those that do where they run out.
-    fn exhausted(&self, face: &Face, from: f64) -> Option<(Moving, f64, Bound)> {
-        let mut moving = self.moving(face);
+    fn exhausted(&self, triangle: Triangle, from: f64) -> Option<(Moving, f64, Bound)> {
+        let mut moving = self.moving(triangle);
         loop {
             let (share, bound) = moving.exhausted_at(from)?;
             match bound {
-                Bound::Height(k) if share < 1.0 && self.goes_on(face, k) => {
+                Bound::Height(k) if share < 1.0 && self.goes_on(triangle, k) => {
                     moving.over[k] = DVec3::ZERO;
                 }
                 _ => return Some((moving, share, bound)),
@@ -228,18 +212,16 @@ impl Filling<'_> {
         }
     }
 
-    fn goes_on(&self, face: &Face, side: usize) -> bool {
-        let old = face.corners.map(|corner| self.given.surface.view.position_at(corner));
-        breadth::goes_on(self.given, face.corners, side, old)
+    fn goes_on(&self, triangle: Triangle, side: usize) -> bool {
+        breadth::goes_on(self.given, triangle, side, self.given.surface.view.triangle(triangle))
     }
 
     /// When the triangle will have given away all it can, from a share on.
     fn event(&self, triangle: Triangle, from: f64) -> Option<Event> {
-        let face = self.face(triangle);
-        if !self.sectors(&face).into_iter().any(|sector| self.is_growing(sector)) {
+        if !self.sectors(triangle).into_iter().any(|sector| self.is_growing(sector)) {
             return None;
         }
-        let (_, share, _) = self.exhausted(&face, from)?;
+        let (_, share, _) = self.exhausted(triangle, from)?;
         (share < 1.0).then_some(Event { share, triangle })
     }
 
@@ -289,22 +271,14 @@ impl Filling<'_> {
         }
     }
 
-    /// Turns a diagonal of an exhausted triangle where that makes room; else the sectors stop that
-    /// press on it.
-    fn handle(&mut self, event: &Event) {
-        let face = self.face(event.triangle);
+    /// Stops what presses on an exhausted triangle.
+    fn stop_around(&mut self, event: &Event) {
         // Sectors may have stopped since the event was noted: then another one has taken its place.
-        let now = self.exhausted(&face, event.share);
+        let now = self.exhausted(event.triangle, event.share);
         let Some((moving, _, bound)) = now.filter(|now| now.1 <= event.share) else {
             return;
         };
-        if !self.turn_for(event) {
-            self.stop_around(event, &face, &moving, bound);
-        }
-    }
-
-    fn stop_around(&mut self, event: &Event, face: &Face, moving: &Moving, bound: Bound) {
-        let sectors = self.sectors(face);
+        let sectors = self.sectors(event.triangle);
         let loads = sectors.map(|sector| self.loads(sector));
         let takes = |k: usize, load: &Load| moving.takes(k, load.growth, event.share, bound);
         // All of them if none does alone.
@@ -318,108 +292,15 @@ impl Filling<'_> {
         }
         for k in (0..3).filter(|&k| pressing[k]) {
             let is_seen = |triangle: Triangle| {
-                let around = self.sectors(&self.face(triangle));
+                let around = self.sectors(triangle);
                 (0..k).any(|seen| pressing[seen] && around.contains(&sectors[seen]))
             };
-            let triangles = self.around(sectors[k]).into_iter().filter(|&t| !is_seen(t));
+            let corners =
+                self.given.chamfers.sectors.corners(self.given.surface.topology, sectors[k]);
+            let triangles = corners.map(Corner::triangle).filter(|&triangle| !is_seen(triangle));
             let events = triangles.filter_map(|triangle| self.event(triangle, event.share));
             self.later.extend(events.collect::<Few<Event>>());
         }
-    }
-
-    /// The triangles at a sector.
-    fn around(&self, sector: Sector) -> Few<Triangle> {
-        let Chamfers { sectors, .. } = self.given.chamfers;
-        match &self.turning {
-            None => {
-                let corners = sectors.corners(self.given.surface.topology, sector);
-                corners.map(Corner::triangle).collect()
-            }
-            Some(turning) => {
-                let fan = &sectors.fans[sector];
-                let places = turning.triangulation.fan(fan.first, fan.last.prev());
-                places.map(Corner::triangle).collect()
-            }
-        }
-    }
-
-    /// Turns the diagonal of an exhausted triangle that makes most room; tells whether one does.
-    fn turn_for(&mut self, event: &Event) -> bool {
-        let is_soft = |&side: &Corner| {
-            side.is_none()
-                || self.given.chamfers.edges.chamfered_at[side].is_none()
-                    && self.given.surface.topology.twin[side].is_some()
-        };
-        let face = self.face(event.triangle);
-        if std::env::var("NOTURN").is_ok() || !face.sides.iter().any(|side| is_soft(side)) {
-            return false;
-        }
-        let (given, kept) = (self.given, self.kept);
-        let mut turning = self.turning.take().unwrap_or_else(|| Turning::new(given, kept));
-        let turned = event.triangle.corners().into_iter().filter_map(|place| {
-            let quad = turning.quad(place)?;
-            let lasts = quad.faces().map(|face| self.lasts(&face, event.share));
-            let until = lasts[0]?.min(lasts[1]?);
-            (until > event.share + LEAST_GAIN).then_some((place, until))
-        });
-        let best = turned.max_by(|one, other| one.1.total_cmp(&other.1));
-        if let Some((place, _)) = best {
-            let other = turning.turn(place);
-            self.turning = Some(turning);
-            for triangle in [event.triangle, other] {
-                self.later.extend(self.event(triangle, event.share));
-            }
-            return true;
-        }
-        self.turning = Some(turning);
-        false
-    }
-
-    /// Until which share a triangle has room that comes into being at one; none if it has none even
-    /// there.
-    fn lasts(&self, face: &Face, from: f64) -> Option<f64> {
-        let mut moving = self.moving(face);
-        for k in 0..3 {
-            if moving.over[k] != DVec3::ZERO && self.goes_on(face, k) {
-                moving.over[k] = DVec3::ZERO;
-            }
-        }
-        let has_room = moving.has_room_at(from);
-        has_room.then(|| moving.exhausted_at(from).map_or(GROWING, |(share, _)| share))
-    }
-}
-
-/// A triangle as it is now.
-struct Face {
-    triangle: Triangle,
-    /// The corners of the source whose vertices it has.
-    corners: [Corner; 3],
-    /// The half-edges of the source that are its sides; none where it is a turned diagonal.
-    sides: [Corner; 3],
-    /// Whether it is not in the source.
-    is_new: bool,
-}
-
-impl Face {
-    fn of_source(triangle: Triangle) -> Face {
-        let corners = triangle.corners();
-        Face { triangle, corners, sides: corners, is_new: false }
-    }
-
-    fn new(triangulation: &Triangulation, triangle: Triangle) -> Face {
-        let corners = triangulation.corners(triangle);
-        let sides = triangle.corners().map(|place| triangulation.side_at(place));
-        Face { triangle, corners, sides, is_new: corners != triangle.corners() }
-    }
-}
-
-impl Quad {
-    /// The two triangles that turning makes.
-    fn faces(&self) -> [Face; 2] {
-        let Quad { corners: [a, b, v, w], outer: [va, aw, wb, bv], .. } = *self;
-        let triangle = Triangle::NONE;
-        [([w, v, a], [Corner::NONE, va, aw]), ([v, w, b], [Corner::NONE, wb, bv])]
-            .map(|(corners, sides)| Face { triangle, corners, sides, is_new: true })
     }
 }
 
@@ -455,16 +336,6 @@ impl Moving {
         };
         // Of equal ones the first.
         BOUNDS.into_iter().filter_map(of).min_by(|one, other| one.0.total_cmp(&other.0))
-    }
-
-    /// Whether more than the least is left of everything.
-    fn has_room_at(&self, share: f64) -> bool {
-        let corners = self.at(share);
-        let area = self.normal.dot(area_vector(corners));
-        BOUNDS.into_iter().all(|bound| {
-            let least = self.least(bound, [corners, self.growth]);
-            least.is_none_or(|[least, _]| area > least + self.slack)
-        })
     }
 
     /// The least area that a bound asks for, of corners and of how they grow; none if it asks for

@@ -45,7 +45,6 @@ impl Fan {
     }
 }
 
-#[derive(Clone)]
 pub struct Sectors {
     /// `#corners`: none where no chamfered edge reaches the cluster.
     pub sector_of: IdVec<Corner, Sector>,

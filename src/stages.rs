@@ -87,9 +87,7 @@ impl Stages<'_> {
         let (surface, chamfers) = (self.surface(), self.chamfers());
         let Stages { offsets, rests, deep, threads, .. } = self;
         let given = &Given { surface, chamfers, offsets, rests, deep, threads };
-        // The triangles of the source stay.
-        let room = room(given, &vec![true; self.faces.normal.len()]);
-        limits(given, &room.share, verify).unwrap()
+        limits(given, &room(given).share, verify).unwrap()
     }
 
     fn space(&self) -> Space<'_> {

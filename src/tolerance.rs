@@ -113,12 +113,3 @@ pub const LEAST_LEAN: f64 = 0.002;
 
 /// Rounding of the angle between faces, as a cosine: a right angle counts as 90 degrees.
 pub const ANGLE_ROUNDING: f64 = 1e-6;
-
-/// Normals and tangents that differ by less than a degree shade alike.
-pub const SAME_NORMAL: f64 = 0.0175;
-
-/// Half a step of a colour of eight bits.
-pub const SAME_COLOR: f64 = 0.002;
-
-/// Half a texel of a texture of 1,024.
-pub const SAME_TEXTURE: f64 = 0.0005;

@@ -47,7 +47,8 @@ pub fn view<'a>(mesh: &Mesh<'a>, options: &Options) -> Result<View<'a>, Error> {
     check_angles(options)?;
     check_factors(mesh)?;
     let width = width_in_units(mesh, options.width)?;
-    let least_breadth = checked_share(options.least_breadth)?;
+    let least_breadth = checked_share(options.least_breadth, Error::BadBreadth)?;
+    checked_share(options.evenness, Error::BadEvenness)?;
     Ok(View { width, least_breadth, ..View::new(*mesh, options.hard_angle) })
 }
 
@@ -117,8 +118,8 @@ pub fn wide(value: [f32; 3]) -> DVec3 {
     DVec3::new(f64::from(value[0]), f64::from(value[1]), f64::from(value[2]))
 }
 
-fn checked_share(share: f32) -> Result<f64, Error> {
-    if (0.0..=1.0).contains(&share) { Ok(share.into()) } else { Err(Error::BadBreadth(share)) }
+fn checked_share(share: f32, wrong: fn(f32) -> Error) -> Result<f64, Error> {
+    if (0.0..=1.0).contains(&share) { Ok(share.into()) } else { Err(wrong(share)) }
 }
 
 fn width_in_units(mesh: &Mesh, width: Width) -> Result<f64, Error> {

@@ -97,6 +97,12 @@ pub struct Choices {
     #[arg(default_value = "20")]
     pub least_breadth: f32,
 
+    /// How far the widths of a chamfer are held to each other, in percent: at 0 each end has all that
+    /// there is room for, at 100 an edge has one width, on both sides
+    #[arg(long, value_name = "P", value_parser = percent, allow_negative_numbers = true)]
+    #[arg(default_value = "50")]
+    pub evenness: f32,
+
     /// How thoroughly results are checked
     #[arg(long, value_enum, default_value = "seen")]
     pub verify: VerifyArg,
@@ -219,6 +225,7 @@ impl Choices {
                 .with_convexity(self.convexity.into())
                 .with_hard_angle(self.hard_angle)
                 .with_least_breadth(self.least_breadth / 100.0)
+                .with_evenness(self.evenness / 100.0)
                 .with_verify(self.verify.into())
                 .with_chamfer_submesh(self.chamfer_submesh)
                 .with_threads(threads),
@@ -251,6 +258,7 @@ impl Choices {
             convexity: name(self.convexity),
             hard_angle: self.hard_angle,
             least_breadth: self.least_breadth,
+            evenness: self.evenness,
             verify: name(self.verify),
             chamfer_submesh: submesh_name(self.chamfer_submesh),
             normals: name(self.reading.normals),

@@ -15,7 +15,7 @@ use crate::choices::Choices;
 use crate::report::Asked;
 
 /// The keys of a file, each with the flag that it stands for. `docs/options.md` tells of them.
-const KEYS: [(&str, &str); 17] = [
+const KEYS: [(&str, &str); 18] = [
     ("width", "width"),
     ("width_unit", "width"),
     ("per_mesh", "per-mesh"),
@@ -27,6 +27,7 @@ const KEYS: [(&str, &str); 17] = [
     ("convexity", "convexity"),
     ("hard_angle", "hard-angle"),
     ("least_breadth", "least-breadth"),
+    ("evenness", "evenness"),
     ("verify", "verify"),
     ("submesh", "chamfer-submesh"),
     ("normals", "normals"),
@@ -120,7 +121,7 @@ fn flags(table: &Table) -> Result<Vec<Flag>> {
                 flags.extend(is_set.then(|| Flag { name, word: format!("--{name}") }));
             }
             ("width" | "width_unit", _) => {}
-            ("least_breadth", Value::Integer(_) | Value::Float(_)) => {
+            ("least_breadth" | "evenness", Value::Integer(_) | Value::Float(_)) => {
                 let percent = number(value) * 100.0;
                 flags.push(Flag { name, word: format!("--{name}={}", percent as f32) });
             }
@@ -201,6 +202,7 @@ pub fn text(choices: &Choices) -> String {
         ("convexity", Some(quoted(&asked.convexity))),
         ("hard_angle", Some(hard_angle.to_string())),
         ("least_breadth", Some((asked.least_breadth / 100.0).to_string())),
+        ("evenness", Some((asked.evenness / 100.0).to_string())),
         ("verify", Some(quoted(&asked.verify))),
         ("submesh", Some(submesh)),
         ("normals", Some(quoted(&asked.normals))),

@@ -54,6 +54,8 @@ pub struct Asked {
     pub hard_angle: f32,
     /// What stays of the breadth of each face, in percent.
     pub least_breadth: f32,
+    /// How far the widths of a chamfer are held to each other, in percent.
+    pub evenness: f32,
     /// "seen", "full" or "fast".
     pub verify: String,
     /// "owner", "own" or a number.

@@ -5,7 +5,8 @@
 //! to it than the width. Where an edge ends in the middle of a face its chamfer tapers to a point,
 //! which counts as room.
 
-use chamfer::{Chamfered, Mesh, Outcome};
+use chamfer::check::check;
+use chamfer::{Chamfered, Mesh, Outcome, Reason, Verify};
 use glam::DVec3;
 
 use super::ground::{Ground, next, previous};
@@ -30,18 +31,26 @@ pub struct Fits {
     /// Of those that have room.
     pub full: f64,
     pub all_full: f64,
+    /// Edges with room, and how many have one end more than a tenth wider than the other: without
+    /// and with a verdict that says why.
+    pub roomy: usize,
+    pub uneven: usize,
+    pub told: usize,
     /// Ends of chamfers, and how many have one side more than twice as wide as the other.
     pub ends: usize,
     pub lopsided: usize,
-    /// Edges with room, and how many have one end more than a tenth wider than the other.
-    pub roomy: usize,
-    pub uneven: usize,
 }
 
 pub fn fits(mesh: &Mesh, after: &Chamfered) -> Fits {
     let regions = Regions::new(Ground::new(mesh));
     let width = f64::from(after.width);
     let mut fits = Fits::default();
+    for edge in check(mesh, after, Verify::Fast).edges {
+        for end in edge.distances.iter().filter(|end| end.iter().all(|&side| side > 0.0)) {
+            fits.ends += 1;
+            fits.lopsided += usize::from(end[0].max(end[1]) > 2.02 * end[0].min(end[1]));
+        }
+    }
     for verdict in &after.verdicts {
         let ground = &regions.ground;
         let [from, to] = verdict.vertices.map(|vertex| ground.place[vertex as usize]);
@@ -52,10 +61,13 @@ pub fn fits(mesh: &Mesh, after: &Chamfered) -> Fits {
         if regions.has_room([from, to], width) {
             fits.has_room += length;
             fits.full += if is_full { length } else { 0.0 };
-            if !is_full && std::env::var("DIAG").is_ok() { println!("NOTFULL {:?} {:?} {:?} len {} w {}", verdict.reason, verdict.vertices, verdict.widths, length, width); }
             let [one, other] = verdict.widths;
+            let is_uneven = (one - other).abs() > 0.1 * one.max(other);
+            // Where something rests on an edge, or it would fold, its verdict says so.
+            let is_told = !matches!(verdict.reason, Reason::None | Reason::NoRoom);
             fits.roomy += 1;
-            fits.uneven += usize::from((one - other).abs() > 0.1 * one.max(other));
+            fits.uneven += usize::from(is_uneven && !is_told);
+            fits.told += usize::from(is_uneven && is_told);
         }
     }
     fits
@@ -149,8 +161,8 @@ impl<'a> Regions<'a> {
         if fan.iter().any(|&corner| ground.face_normal(corner).dot(normal) < LEVEL_COSINE) {
             return false;
         }
-        let arm = |corner: usize| (ground.point(next(corner)) - ground.point(corner)).normalize_or_zero();
-        let back = |corner: usize| (ground.point(previous(corner)) - ground.point(corner)).normalize_or_zero();
+        let way = |from: usize, to: usize| (ground.point(to) - ground.point(from)).normalize_or_zero();
+        let (arm, back) = (|c: usize| way(c, next(c)), |c: usize| way(c, previous(c)));
         let angle: f64 = fan.iter().map(|&c| arm(c).angle_between(back(c))).sum();
         let is_border = |side: usize| {
             let ends = [ground.place_at(next(side)), ground.place_at(side)];

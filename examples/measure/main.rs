@@ -1,10 +1,11 @@
 //! Measures how a folder of models is chamfered: soundness, coverage and width.
 //!
 //! `cargo run --release --example measure -- [--full] [--verbose] [--reach] [--compare]
-//! [--unlike SEED] [--only NAME] [--folder DIR] PERCENT..`
+//! [--unlike SEED] [--evenness SHARE] [--only NAME] [--folder DIR] PERCENT..`
 //!
 //! `--reach` also tells how wide the chamfers could be where neighbours leave them half of the way
-//! to each other: width that is lost beyond that is lost to the triangles, not to the shape.
+//! to each other: width that is lost beyond that is lost to the triangles, not to the shape; how much
+//! of what has room for the whole width gets it; and how even the widths are.
 //! `--compare` also checks each result as `chamfer check` does, by what went in and what came out
 //! alone. `--unlike` gives each vertex and each submesh a factor at random, some of them 0, and takes
 //! a range of angles, a convexity and a width mode at random for each file.
@@ -20,11 +21,13 @@ use std::path::{Path, PathBuf};
 
 use chamfer::check::{check, compare};
 use chamfer::{Chamfered, Convexity, Mesh, Options, Verify, Width, WidthMode};
+use fits::Fits;
 use measure::{FOLDER, Measured, Sum, Unlike, measure_with, models};
 
 /// What was asked for on the command line.
 struct Request {
     verify: Verify,
+    evenness: f32,
     is_verbose: bool,
     is_reach_asked: bool,
     is_compared: bool,
@@ -38,6 +41,7 @@ impl Request {
     fn new(mut arguments: impl Iterator<Item = String>) -> Request {
         let mut request = Request {
             verify: Verify::Fast,
+            evenness: Options::default().evenness,
             is_verbose: false,
             is_reach_asked: false,
             is_compared: false,
@@ -53,6 +57,9 @@ impl Request {
                 "--reach" => request.is_reach_asked = true,
                 "--compare" => request.is_compared = true,
                 "--unlike" => request.unlike = arguments.next().and_then(|seed| seed.parse().ok()),
+                "--evenness" => {
+                    request.evenness = arguments.next().and_then(|e| e.parse().ok()).unwrap_or(0.0);
+                }
                 "--only" => request.only = arguments.next(),
                 "--folder" => request.folder = arguments.next().unwrap_or(request.folder),
                 percent => request.percents.extend(percent.parse::<f32>().ok()),
@@ -87,31 +94,36 @@ fn main() {
     }
 }
 
-/// Prints how much of what has room is full.
-fn print_fits(all: &[fits::Fits]) {
-    let sum = |of: &dyn Fn(&fits::Fits) -> f64| all.iter().map(of).sum::<f64>();
-    let percent = |part: f64, whole: f64| 100.0 * part / whole;
-    let roomy: Vec<_> = all.iter().filter(|f| f.has_room > 0.0).collect();
-    let by_mesh = roomy.iter().map(|f| f.full / f.has_room).sum::<f64>() / roomy.len() as f64;
-    // Lengths of unlike meshes cannot be added: each mesh counts by what it has.
-    let share = |of: &dyn Fn(&fits::Fits) -> f64| {
-        let whole = all.iter().filter(|f| f.whole > 0.0);
-        whole.clone().map(|f| of(f) / f.whole).sum::<f64>() / whole.count().max(1) as f64
+/// Prints how much of what has room is full, and how even it is. Lengths of unlike meshes cannot be
+/// added: each mesh counts by the share that it has of its own.
+fn print_fits(all: &[Fits]) {
+    let mean = |shares: Vec<f64>| 100.0 * shares.iter().sum::<f64>() / shares.len().max(1) as f64;
+    let share = |of: &dyn Fn(&Fits) -> f64| {
+        let whole = all.iter().filter(|fits| fits.whole > 0.0);
+        mean(whole.map(|fits| of(fits) / fits.whole).collect())
     };
+    let roomy = all.iter().filter(|fits| fits.has_room > 0.0);
+    let by_mesh = mean(roomy.map(|fits| fits.full / fits.has_room).collect());
+    let sum = |of: &dyn Fn(&Fits) -> usize| all.iter().map(of).sum::<usize>();
+    let percent = |part: usize, whole: usize| 100.0 * part as f64 / whole.max(1) as f64;
+    let (room, full) = (share(&|fits| fits.has_room), share(&|fits| fits.full));
+    let (roomy, ends) = (sum(&|fits| fits.roomy), sum(&|fits| fits.ends));
     println!(
-        "full of all length {:.2} %, has room {:.2} %, full of that {:.2} % (by mesh {:.2} %); \
-         uneven of {} edges with room {:.2} %",
-        100.0 * share(&|f| f.all_full),
-        100.0 * share(&|f| f.has_room),
-        percent(share(&|f| f.full), share(&|f| f.has_room)),
-        100.0 * by_mesh,
-        sum(&|f| f.roomy as f64),
-        percent(sum(&|f| f.uneven as f64), sum(&|f| f.roomy as f64)),
+        "of all length {:.2} % full, {room:.2} % has room; of that {:.2} % full, by mesh {by_mesh:.2} %",
+        share(&|fits| fits.all_full),
+        100.0 * full / room,
+    );
+    println!(
+        "uneven: of {roomy} edges with room {:.2} %, and {:.2} % with a verdict that says why; \
+         lopsided: of {ends} ends {:.2} %",
+        percent(sum(&|fits| fits.uneven), roomy),
+        percent(sum(&|fits| fits.told), roomy),
+        percent(sum(&|fits| fits.lopsided), ends),
     );
 }
 
 /// Measures a file, and prints what is wrong with it.
-fn of_file(request: &Request, path: &Path, percent: f32, reaches: &mut Vec<f64>, all_fits: &mut Vec<fits::Fits>) -> Vec<Measured> {
+fn of_file(request: &Request, path: &Path, percent: f32, reaches: &mut Vec<f64>, all_fits: &mut Vec<Fits>) -> Vec<Measured> {
     let inspect = |before: &Mesh, after: &Chamfered| {
         if request.is_reach_asked && after.totals.hard_edges > 0 {
             reaches.push(reach::reach(before, after));
@@ -122,7 +134,7 @@ fn of_file(request: &Request, path: &Path, percent: f32, reaches: &mut Vec<f64>,
         }
     };
     let options =
-        Options::default().with_width(Width::PercentOfExtent(percent)).with_verify(request.verify).with_least_breadth(std::env::var("LB").map_or(0.2, |v| v.parse().unwrap()));
+        Options::default().with_width(Width::PercentOfExtent(percent)).with_verify(request.verify).with_evenness(request.evenness);
     let measured = match request.unlike {
         Some(seed) => {
             let mut noise = Noise(path.as_os_str().len() as u32 ^ seed.wrapping_mul(2_654_435_761));

@@ -64,7 +64,7 @@ fn status_and_element(error: &Error) -> (i32, u32) {
         Error::IndexCount { submesh, .. } => (CHAMFER_STATUS_INDEX_COUNT, submesh),
         Error::IndexRange { place, .. } => (CHAMFER_STATUS_INDEX_RANGE, place),
         Error::BadWidth(_) => (CHAMFER_STATUS_BAD_WIDTH, NONE),
-        Error::BadBreadth(_) => (CHAMFER_STATUS_BAD_OPTION, NONE),
+        Error::BadBreadth(_) | Error::BadEvenness(_) => (CHAMFER_STATUS_BAD_OPTION, NONE),
         Error::BadAngle { option: SMOOTHING_ANGLE, .. } => (CHAMFER_STATUS_BAD_ANGLE, NONE),
         Error::BadAngle { .. } | Error::AngleOrder { .. } | Error::BadScale => {
             (CHAMFER_STATUS_BAD_OPTION, NONE)

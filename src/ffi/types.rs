@@ -282,6 +282,9 @@ pub struct chamfer_options {
     /// measured, such as that of the scene. It may mirror and shear, but not flatten. All 0 for the
     /// default, the mesh as it is.
     pub scale: [f32; 9],
+    /// How far the widths of a chamfer are held to each other: up to 1, one width for each edge. 0
+    /// for the default, a half; a tiny share for not at all.
+    pub evenness: f32,
 }
 
 /// What went wrong, in detail. Callers set `struct_size`; a call fills in the rest, also when it

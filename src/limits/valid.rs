@@ -58,7 +58,7 @@ fn surface_is_valid(given: &Given, placement: &Placement, triangle: Triangle) ->
             && opens_along(old, new, facing(given, placement, triangle).map(unit), resolution)
     } else {
         survives(old, new)
-            && breadth::is_kept(given, triangle.corners(), [old, new])
+            && breadth::is_kept(given, triangle, [old, new])
             && still_faces_out(given, placement, triangle, [old, new])
     }
 }

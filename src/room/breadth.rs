@@ -7,9 +7,7 @@
 
 use glam::DVec3;
 
-use crate::ids::Corner;
-#[cfg(test)]
-use crate::ids::Triangle;
+use crate::ids::{Corner, Triangle};
 use crate::math::area_vector;
 use crate::tolerance::LEAST_LEAN;
 
@@ -17,13 +15,13 @@ use crate::given::Given;
 
 /// What has to stay of a triangle: for each of its sides at which the face ends, the least area
 /// for each unit of the side's length, along the old side; zero for the others. Areas are counted
-/// along the old area vector. Where the face [`goes_on`] behind, it does not count. A side is a
-/// half-edge of the source, or none inside of a face.
-pub fn least(given: &Given, sides: [Corner; 3], old: [DVec3; 3], share: f64) -> [DVec3; 3] {
+/// along the old area vector. Where the face [`goes_on`] behind, it does not count.
+pub fn least(given: &Given, triangle: Triangle, old: [DVec3; 3], share: f64) -> [DVec3; 3] {
+    let corners = triangle.corners();
     let whole = share * area_vector(old).length_squared();
     [0, 1, 2].map(|k| {
         let side = old[(k + 1) % 3] - old[k];
-        if ends_face(given, sides[k]) {
+        if ends_face(given, corners[k]) {
             side * (whole / side.length_squared())
         } else {
             DVec3::ZERO
@@ -32,7 +30,7 @@ pub fn least(given: &Given, sides: [Corner; 3], old: [DVec3; 3], share: f64) -> 
 }
 
 /// Whether a triangle is still as broad as it has to be, but for what rounding does.
-pub fn is_kept(given: &Given, corners: [Corner; 3], [old, new]: [[DVec3; 3]; 2]) -> bool {
+pub fn is_kept(given: &Given, triangle: Triangle, [old, new]: [[DVec3; 3]; 2]) -> bool {
     let whole = area_vector(old);
     let area = whole.dot(area_vector(new));
     let least = given.surface.view.least_breadth * whole.length_squared();
@@ -45,24 +43,21 @@ pub fn is_kept(given: &Given, corners: [Corner; 3], [old, new]: [[DVec3; 3]; 2])
         let (before, after) = (side(old, k), side(new, k));
         let (square, asked) = (before.length_squared(), least * before.dot(after));
         area * square >= asked
-            || !ends_face(given, corners[k])
+            || !ends_face(given, triangle.corners()[k])
             || (area + rounding()) * square >= asked
-            || goes_on(given, corners, k, old)
+            || goes_on(given, triangle, k, old)
     })
 }
 
 /// Whether a face ends at a half-edge: at a chamfer, or at a border.
 fn ends_face(given: &Given, side: Corner) -> bool {
-    if side.is_none() {
-        return false;
-    }
     given.chamfers.edges.chamfered_at[side].is_some() || given.surface.topology.twin[side].is_none()
 }
 
 /// Whether a face goes on behind the corner that lies across from a side of a triangle: there are
 /// more rows inside of it, or its rim leads on that way, to a vertex that does not come back.
-pub fn goes_on(given: &Given, corners: [Corner; 3], side: usize, old: [DVec3; 3]) -> bool {
-    let corner = corners[(side + 2) % 3];
+pub fn goes_on(given: &Given, triangle: Triangle, side: usize, old: [DVec3; 3]) -> bool {
+    let corner = triangle.corners()[(side + 2) % 3];
     let sector = given.chamfers.sectors.sector_of[corner];
     if sector.is_none() {
         return given.deep[given.surface.topology.cluster_at[corner]];
@@ -221,7 +216,7 @@ mod tests {
         let old = stages.view.triangle(Triangle(0));
         let middle = (old[0] + old[1] + old[2]) / 3.0;
         let at = |share: f64| old.map(|point| middle + (point - middle) * share);
-        assert!(is_kept(&given_of(&stages), Triangle(0).corners(), [old, at(0.21)]));
-        assert!(!is_kept(&given_of(&stages), Triangle(0).corners(), [old, at(0.19)]));
+        assert!(is_kept(&given_of(&stages), Triangle(0), [old, at(0.21)]));
+        assert!(!is_kept(&given_of(&stages), Triangle(0), [old, at(0.19)]));
     }
 }

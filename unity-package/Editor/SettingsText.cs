@@ -9,7 +9,12 @@ namespace ChamferEditor
         internal static string Of(ChamferSettings settings)
         {
             return Number(settings.width) + " " + settings.unit + " " + settings.verify + " " + settings.submeshMode + " "
-                + settings.submesh + " " + Number(settings.leastBreadth) + Of(settings.edges);
+                + settings.submesh + " " + Number(settings.leastBreadth) + Even(settings) + Of(settings.edges);
+        }
+
+        private static string Even(ChamferSettings settings)
+        {
+            return settings.evenness == 0 ? "" : " even " + Number(settings.evenness);
         }
 
         /// <summary>Nothing where nothing is asked for: texts of an earlier version are still equal.</summary>

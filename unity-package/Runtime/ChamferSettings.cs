@@ -59,6 +59,9 @@ namespace Chamfer
         [Tooltip("How much of the breadth of each face stays between its chamfers, as a share; 0 for the usual fifth.")]
         [Range(0, 1)] public float leastBreadth;
 
+        [Tooltip("How far widths are held to each other: 1 for one width on each edge; 0 for the usual half.")]
+        [Range(0, 1)] public float evenness;
+
         [Tooltip("Which edges are chamfered, what the width measures, and where it differs.")]
         public EdgeSettings edges;
 

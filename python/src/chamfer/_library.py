@@ -52,6 +52,7 @@ class COptions(ctypes.Structure):
         ("convexity", c_uint32),
         ("hard_angle", c_float),
         ("scale", c_float * 9),
+        ("evenness", c_float),
     ]
 
 

@@ -34,6 +34,9 @@ class Options(TypedDict, total=False):
     width: float  #: the distance between an old edge and the pulled one; 1
     width_unit: Literal["percent", "mesh"]  #: "percent" of the largest side of the mesh's box, or its units
     least_breadth: float  #: share (0 to 1) of each face's breadth that stays; 0.2
+    #: how far the widths of a chamfer are held to each other: 0 (each end has all that there is room
+    #: for) to 1 (an edge has one width, on both sides); 0.5
+    evenness: float
     #: "full": no part cuts through itself; "fast": that is not looked after; "seen": as full, and no
     #: light shows through that did not before
     verify: Literal["full", "fast", "seen"]
@@ -62,8 +65,8 @@ def fill(struct: Any, options: Mapping[str, Any]) -> None:
             struct.submesh_mode, struct.submesh = _submesh(value)
         elif name == "width":
             struct.width = number(name, value)
-        elif name == "least_breadth":
-            struct.least_breadth = number(name, value) or _NOTHING
+        elif name in ("least_breadth", "evenness"):
+            setattr(struct, name, number(name, value) or _NOTHING)
         elif name == "scale":
             struct.scale[:] = _columns(name, value)
         elif name in _ANGLES:

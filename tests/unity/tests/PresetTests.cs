@@ -98,6 +98,11 @@ namespace Chamfer.Tests
             settings.leastBreadth = 0.8f;
             Check.That(MeshChamfer.Run(Shapes.Cube(), settings).Report.MeanWidth < usual, "less room");
             Check.That(SettingsText.Of(settings) != SettingsText.Of(ChamferSettings.Default), "told apart");
+            var even = ChamferSettings.Default;
+            even.evenness = 1;
+            Check.That(SettingsText.Of(even) != SettingsText.Of(ChamferSettings.Default), "told apart");
+            even.evenness = 2;
+            Check.Throws<ChamferException>(() => MeshChamfer.Run(Shapes.Cube(), even));
         }
     }
 }

@@ -20,5 +20,6 @@ namespace Chamfer.Interop
         public uint Convexity;
         public float HardAngle;
         public fixed float Scale[9];
+        public float Evenness;
     }
 }

@@ -26,7 +26,8 @@ namespace Chamfer.Streams
                 MinAngle = edges.minAngle,
                 MaxAngle = edges.maxAngle,
                 Convexity = (uint)edges.convexity,
-                HardAngle = edges.hardAngle
+                HardAngle = edges.hardAngle,
+                Evenness = settings.evenness
             };
             options.Scale[0] = scale.x;
             options.Scale[4] = scale.y;

@@ -1,0 +1,137 @@
+//! Evenness: widths that do not jump.
+//!
+//! Where something stands in the way of one end of an edge, its chamfer narrows there. The eye takes
+//! an edge for one, so the rest of it narrows as well, by and by: along a side of an edge, and on
+//! along those that it runs on into, a width is at most its neighbour's and what the way between
+//! them allows. And of the two sides of an end neither is more than twice as wide as the other.
+//! Widths only fall, the narrowest first, so each is looked at once.
+
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+
+use crate::given::Given;
+use crate::ids::{Corner, Few, IdVec, Sector};
+use crate::offsets::parts;
+use crate::room::Room;
+
+/// At an evenness of a half, how much wider a chamfer may get along its edge for each unit of the
+/// way: from nothing to the whole width in a hundred widths, which nobody takes for a taper.
+const SLOPE: f64 = 0.01;
+
+/// A side that has less than this share of its width does not narrow the other one further: one
+/// that could not be pulled at all would leave nothing of it.
+const LEAST_SHARE: f64 = 0.25;
+
+/// What of a sector is pulled from one of its two edges: the first or the last.
+type Front = (Sector, usize);
+
+/// Narrows what is next to something narrow, so far as an evenness of 0 (not at all) to 1 asks: at
+/// 1 a side of an edge has one width, and both sides the same; at a half one side may be twice as
+/// wide as the other.
+pub fn evenness(given: &Given, room: Room, evenness: f64) -> Room {
+    if evenness == 0.0 {
+        return room;
+    }
+    let share_of = |sector: Sector| {
+        let fronts = room.fronts.get(&sector).copied().unwrap_or([1.0; 2]);
+        fronts.map(|front| front * room.share[sector])
+    };
+    let shares = IdVec::from_vec(room.share.ids().map(share_of).collect());
+    let (slope, lopsided) = (SLOPE * (1.0 - evenness) / evenness, 1.0 / evenness);
+    let narrow = BinaryHeap::new();
+    let mut leveling = Leveling { given, slope, lopsided, shares, narrow };
+    leveling.narrow = leveling.seeds();
+    let mut room = room;
+    while let Some(Narrow { share, front }) = leveling.narrow.pop() {
+        if share == leveling.shares[front.0][front.1] {
+            for (other, most) in leveling.linked(front, share) {
+                if leveling.lower(other, most) {
+                    room.set(other.0, leveling.shares[other.0]);
+                }
+            }
+        }
+    }
+    room
+}
+
+struct Leveling<'a> {
+    given: &'a Given<'a>,
+    slope: f64,
+    /// How many times as wide as the other one a side of an end may be.
+    lopsided: f64,
+    /// `#sectors`: of each front.
+    shares: IdVec<Sector, [f64; 2]>,
+    narrow: BinaryHeap<Narrow>,
+}
+
+/// A front that has less than the whole width.
+#[derive(PartialEq)]
+struct Narrow {
+    share: f64,
+    front: Front,
+}
+
+impl Eq for Narrow {}
+
+impl Ord for Narrow {
+    /// The narrowest comes first, and of equal ones the first.
+    fn cmp(&self, other: &Narrow) -> Ordering {
+        other.share.total_cmp(&self.share).then(other.front.cmp(&self.front))
+    }
+}
+
+impl PartialOrd for Narrow {
+    fn partial_cmp(&self, other: &Narrow) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Leveling<'_> {
+    fn seeds(&self) -> BinaryHeap<Narrow> {
+        let is_narrow = |front: &Front| self.moves(front.0) && self.shares[front.0][front.1] < 1.0;
+        let fronts = self.shares.ids().flat_map(|sector| [(sector, 0), (sector, 1)]);
+        let narrow = fronts.filter(is_narrow);
+        narrow.map(|front| Narrow { share: self.shares[front.0][front.1], front }).collect()
+    }
+
+    fn moves(&self, sector: Sector) -> bool {
+        sector.is_some() && self.given.offsets[sector].moves()
+    }
+
+    /// The fronts next to one, and the most that each may have.
+    fn linked(&self, (sector, which): Front, share: f64) -> Few<(Front, f64)> {
+        let mut linked = Few::new();
+        let given = self.given;
+        let (fan, sectors) = (&given.chamfers.sectors.fans[sector], given.chamfers.sectors);
+        let side = if which == 0 { fan.first } else { fan.last.prev() };
+        let at = |corner: Corner| sectors.sector_of[corner];
+        let edge = given.chamfers.edges.chamfered_at[side];
+        if edge.is_some() {
+            let twin = given.surface.topology.twin[side];
+            // The other end of the side, and the other side of the end.
+            let (along, across) = match which {
+                0 => ((at(side.next()), 1), (at(twin.next()), 1)),
+                _ => ((at(side), 0), (at(twin), 0)),
+            };
+            let [from, to] = [side, side.next()].map(|c| given.surface.view.position_at(c));
+            let width = given.chamfers.edges.hard[edge].widest();
+            linked.push((along, share + self.slope * from.distance(to) / width));
+            linked.push((across, share.max(LEAST_SHARE) * self.lopsided));
+        }
+        let offset = &given.offsets[sector];
+        if parts(given.surface, sectors, sector, offset).is_none() {
+            linked.push(((sector, 1 - which), share));
+        }
+        linked
+    }
+
+    /// Lowers a front to what it may have; tells whether it had more.
+    fn lower(&mut self, front: Front, most: f64) -> bool {
+        if !self.moves(front.0) || self.shares[front.0][front.1] <= most {
+            return false;
+        }
+        self.shares[front.0][front.1] = most;
+        self.narrow.push(Narrow { share: most, front });
+        true
+    }
+}
