@@ -18,9 +18,9 @@ use crate::room::Room;
 /// way: from nothing to the whole width in a hundred widths, which nobody takes for a taper.
 const SLOPE: f64 = 0.01;
 
-/// A side that has less than this share of its width does not narrow the other one further: one
-/// that could not be pulled at all would leave nothing of it.
-const LEAST_SHARE: f64 = 0.25;
+/// A side that has less than this share of its width is not pulled at all, as where broken triangles
+/// are in the way: it has no say in the other one, of which nothing would be left.
+const LEAST_SHARE: f64 = 0.01;
 
 /// What of a sector is pulled from one of its two edges: the first or the last.
 type Front = (Sector, usize);
@@ -116,7 +116,9 @@ impl Leveling<'_> {
             let [from, to] = [side, side.next()].map(|c| given.surface.view.position_at(c));
             let width = given.chamfers.edges.hard[edge].widest();
             linked.push((along, share + self.slope * from.distance(to) / width));
-            linked.push((across, share.max(LEAST_SHARE) * self.lopsided));
+            if share >= LEAST_SHARE {
+                linked.push((across, share * self.lopsided));
+            }
         }
         let offset = &given.offsets[sector];
         if parts(given.surface, sectors, sector, offset).is_none() {
@@ -133,5 +135,94 @@ impl Leveling<'_> {
         self.shares[front.0][front.1] = most;
         self.narrow.push(Narrow { share: most, front });
         true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::given::tests::given_of;
+    use crate::ids::Edge;
+    use crate::mesh::MeshBuffers;
+    use crate::room::room;
+    use crate::shapes;
+    use crate::stages::{Stages, stages_of};
+    use crate::strips;
+
+    /// The shares of an edge in the order of its strip's corners, where one front has so little
+    /// room that it narrows all around it.
+    fn shares(stages: &Stages, edge: Edge, narrow: f64, even: f64) -> [f64; 4] {
+        let given = given_of(stages);
+        let mut room = room(&given);
+        let sectors = sectors(stages, edge);
+        room.set(sectors[1], [narrow, 1.0]);
+        let room = evenness(&given, room, even);
+        let share = |(place, front): (usize, usize)| {
+            let fronts = room.fronts.get(&sectors[place]).copied().unwrap_or([1.0; 2]);
+            fronts[front] * room.share[sectors[place]]
+        };
+        [(0, 1), (1, 0), (2, 1), (3, 0)].map(share)
+    }
+
+    fn sectors(stages: &Stages, edge: Edge) -> [Sector; 4] {
+        strips::corners(&stages.edges.hard[edge]).map(|c| stages.sectors.sector_of[c])
+    }
+
+    #[track_caller]
+    fn assert_near(shares: [f64; 4], expected: [f64; 4]) {
+        let is_near = shares.iter().zip(expected).all(|(one, other)| (one - other).abs() < 1e-6);
+        assert!(is_near, "{shares:?}");
+    }
+
+    // b2------------a2      an edge of a cube of ten widths: a1 has little room, a2 may be twice as
+    // |              |      wide; a hundredth of the way more at the other end
+    // b1------------a1
+    #[test]
+    fn a_width_grows_along_its_edge_and_twice_across_it() {
+        let cube = shapes::plain_cube(1.0);
+        let stages = stages_of(&cube, 0.1);
+        assert_near(shares(&stages, Edge(0), 0.3, 0.5), [0.4, 0.3, 0.6, 0.7]);
+        assert_near(shares(&stages, Edge(0), 0.3, 1.0), [0.3; 4]);
+        assert_near(shares(&stages, Edge(0), 0.3, 0.0), [1.0, 0.3, 1.0, 1.0]);
+    }
+
+    #[test]
+    fn a_side_that_is_not_pulled_at_all_has_no_say_in_the_other() {
+        let cube = shapes::plain_cube(1.0);
+        let stages = stages_of(&cube, 0.1);
+        assert_near(shares(&stages, Edge(0), 0.0, 0.5), [0.1, 0.0, 0.3, 0.2]);
+    }
+
+    #[test]
+    fn what_has_room_everywhere_stays_as_it_is() {
+        let cube: MeshBuffers = shapes::plain_cube(1.0);
+        let stages = stages_of(&cube, 0.1);
+        let room = evenness(&given_of(&stages), room(&given_of(&stages)), 1.0);
+        assert!(room.share.iter().all(|&share| share == 1.0) && room.fronts.is_empty());
+    }
+
+    #[test]
+    fn nothing_jumps_where_all_is_done() {
+        for mesh in [shapes::plate(), shapes::l_shape(), shapes::table(), shapes::bolt()] {
+            let stages = stages_of(&mesh, 0.3);
+            let given = given_of(&stages);
+            let room = evenness(&given, room(&given), 0.5);
+            for edge in stages.edges.hard.ids() {
+                let sectors = sectors(&stages, edge);
+                let share = |(place, front): (usize, usize)| {
+                    let fronts = room.fronts.get(&sectors[place]).copied().unwrap_or([1.0; 2]);
+                    fronts[front] * room.share[sectors[place]]
+                };
+                let [b1, a1, a2, b2] = [(0, 1), (1, 0), (2, 1), (3, 0)].map(share);
+                for [one, other] in [[a1, a2], [b1, b2]] {
+                    assert!(one <= 2.0 * other + 1e-9 || other < LEAST_SHARE, "{one}, {other}");
+                    assert!(other <= 2.0 * one + 1e-9 || one < LEAST_SHARE, "{other}, {one}");
+                }
+                let side = stages.edges.hard[edge].sides[0];
+                let [from, to] = [side, side.next()].map(|c| stages.view.position_at(c));
+                let most = SLOPE * from.distance(to) / stages.view.width + 1e-9;
+                assert!((a1 - b1).abs() <= most && (a2 - b2).abs() <= most);
+            }
+        }
     }
 }

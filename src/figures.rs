@@ -21,7 +21,7 @@ use drawing::Drawing;
 type Draw = fn() -> Drawing;
 
 /// The stages, in the order of the pipeline.
-const FIGURES: [(&str, Draw); 18] = [
+const FIGURES: [(&str, Draw); 20] = [
     ("view", source::view),
     ("weld", source::weld),
     ("topology", source::topology),
@@ -32,6 +32,8 @@ const FIGURES: [(&str, Draw); 18] = [
     ("sectors", moves::sectors),
     ("offsets", moves::offsets),
     ("refine", contacts::refine),
+    ("room", moves::room),
+    ("evenness", moves::evenness),
     ("limits", moves::limits),
     ("patches", result::patches),
     ("strips", result::strips),

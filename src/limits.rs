@@ -220,8 +220,8 @@ fn obstacle(
 
 #[cfg(test)]
 mod tests {
-    use crate::given::tests::given_of;
     use super::*;
+    use crate::given::tests::given_of;
     use crate::mesh::MeshBuffers;
     use crate::shapes;
     use crate::stages::stages_of;

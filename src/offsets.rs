@@ -438,7 +438,13 @@ fn place(view: &View, faces: &Faces, spread: &[Blade], course: &Course) -> Optio
 fn sound(faces: &Faces, course: &Course, (vector, foot): (DVec3, Foot)) -> Option<Offset> {
     let within = course.corner;
     let is_sound = faces.normal[within.triangle()] != DVec3::ZERO && vector.is_finite();
-    is_sound.then_some(Offset { vector, within, foot, is_capped: course.is_capped, fronts: [1.0; 2] })
+    is_sound.then_some(Offset {
+        vector,
+        within,
+        foot,
+        is_capped: course.is_capped,
+        fronts: [1.0; 2],
+    })
 }
 
 /// Whether all planes in a fan that could be the corner's own lead to the same place.
@@ -522,9 +528,9 @@ fn narrow(
     let [first, last] = parts(surface, sectors, sector, offset)?;
     let vector = first * fronts[0] + last * fronts[1];
     let at = view.position_at(offset.within);
-    let feet = sectors.corners(topology, sector).filter_map(|corner| {
-        Some((corner, locate(view, carrier(faces, corner), at, vector)?))
-    });
+    let feet = sectors
+        .corners(topology, sector)
+        .filter_map(|corner| Some((corner, locate(view, carrier(faces, corner), at, vector)?)));
     let inside = |foot: &Foot| foot.along[0].min(foot.along[1]);
     let (within, foot) = feet.max_by(|one, other| inside(&one.1).total_cmp(&inside(&other.1)))?;
     Some(Offset { vector, within, foot, fronts, ..*offset })

@@ -228,8 +228,7 @@ fn chamfer_refined(
     let hard = finer.edges.hard.clone();
     let origins = Origins::new(&view.mesh, refined, &shape.edges.hard, &hard);
     let fine_space = Space { source: fine, measured: fine, scale: None };
-    let chamfered =
-        chamfer_shape(fine_space, (finer, offsets), options, (threads, done))?;
+    let chamfered = chamfer_shape(fine_space, (finer, offsets), options, (threads, done))?;
     Ok(restored(&origins, chamfered))
 }
 

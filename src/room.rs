@@ -48,8 +48,13 @@ impl Room {
 pub fn room(given: &Given) -> Room {
     let share = |sector: Sector| if given.offsets[sector].moves() { GROWING } else { 0.0 };
     let share = given.threads.map(given.offsets.len(), share);
-    let mut filling =
-        Filling { given, share, split: BTreeMap::new(), first: Vec::new(), later: BinaryHeap::new() };
+    let mut filling = Filling {
+        given,
+        share,
+        split: BTreeMap::new(),
+        first: Vec::new(),
+        later: BinaryHeap::new(),
+    };
     filling.first = given.surface.view.triangles().filter_map(|t| filling.event(t, 0.0)).collect();
     filling.first.sort_unstable();
     while let Some(event) = filling.next_event() {
@@ -241,9 +246,8 @@ impl Filling<'_> {
         if self.share[sector] == GROWING {
             match parts(self.given.surface, self.given.chamfers.sectors, sector, offset) {
                 None => loads.push(Load { front: None, growth: offset.vector }),
-                Some(parts) => loads.extend(
-                    [0, 1].map(|front| Load { front: Some(front), growth: parts[front] }),
-                ),
+                Some(parts) => loads
+                    .extend([0, 1].map(|front| Load { front: Some(front), growth: parts[front] })),
             }
         } else if self.share[sector] == SPLIT {
             let Split { parts, share } = &self.split[&sector];
@@ -356,7 +360,7 @@ impl Moving {
     fn spent(&self, [spare, linear, square]: [f64; 3], from: f64) -> Option<f64> {
         // Rounding leaves a triangle that was stopped a little above or below its limit.
         if spare <= self.slack {
-            return (linear < 0.0).then_some(from);
+            return (linear < -self.slack).then_some(from);
         }
         // Where even what both terms take together leaves some, there is no root before share 1.
         let taken = linear.min(0.0) + square.min(0.0);
@@ -394,6 +398,11 @@ fn first_root(square: f64, linear: f64, constant: f64) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::given::tests::given_of;
+    use crate::mesh::MeshBuffers;
+    use crate::options::{Options, Width};
+    use crate::shapes;
+    use crate::stages::stages_with;
 
     #[test]
     fn the_first_root_is_the_smallest_positive_one() {
@@ -412,19 +421,72 @@ mod tests {
         Moving { start, growth, normal, least, over: [DVec3::ZERO; 3], slack }
     }
 
+    /// Which corners take away what runs out.
+    fn taking(moving: &Moving, share: f64, bound: Bound) -> [bool; 3] {
+        [0, 1, 2].map(|k| moving.takes(k, moving.growth[k], share, bound))
+    }
+
+    /// The shares of both fronts of each sector, on one face of a box of 4 by 1 by 4: a sector has
+    /// its first edge along x or along z.
+    fn shares_on(face: DVec3, mesh: &MeshBuffers, width: f32) -> Vec<(DVec3, [f64; 2])> {
+        let stages = stages_with(mesh, &asking(width));
+        let room = room(&given_of(&stages));
+        let on_face = |sector: &Sector| {
+            let corner = stages.sectors.fans[*sector].first;
+            stages.faces.normal[corner.triangle()].dot(face) > 0.9
+        };
+        let of = |sector: Sector| {
+            let first = stages.sectors.fans[sector].first;
+            let along = stages.view.position_at(first.next()) - stages.view.position_at(first);
+            let fronts = room.fronts.get(&sector).copied().unwrap_or([1.0; 2]);
+            (along.abs().normalize(), fronts.map(|front| front * room.share[sector]))
+        };
+        room.share.ids().filter(on_face).map(of).collect()
+    }
+
+    fn asking(width: f32) -> Options {
+        let width = Width::Units(width);
+        Options { width, least_breadth: 0.2, ..Options::default() }
+    }
+
+    // .-----------------------.     a side of a slab: too thin for both its long edges, which get
+    // |.                     .|     two fifths of it each; its short edges have all the room that
+    // '-----------------------'     they ask for
+    #[test]
+    fn an_edge_with_room_is_not_narrowed_by_one_beside_it() {
+        let mut slab = shapes::plain_cube(4.0);
+        slab.positions.iter_mut().for_each(|at| at[1] /= 4.0);
+        let shares = shares_on(DVec3::X, &slab, 0.8);
+        assert_eq!(shares.len(), 4);
+        for (along, [first, last]) in shares {
+            let (long, short) = if along == DVec3::Z { (first, last) } else { (last, first) };
+            assert_eq!(short, 1.0, "{along} {first} {last}");
+            assert!((long - 0.5).abs() < 0.001, "{long}");
+        }
+    }
+
+    // Edges that run on nearly straight, as around a rim, are pulled together.
+    #[test]
+    fn edges_that_run_on_go_together() {
+        let mesh = shapes::cylinder(24);
+        let shares = shares_on(DVec3::Y, &mesh, 0.6);
+        assert_eq!(shares.len(), 24);
+        assert!(shares.iter().all(|(_, [one, other])| one == other && *one < 1.0), "{shares:?}");
+    }
+
     #[test]
     fn corners_that_approach_each_other_stop_together() {
         let moving = moving([1.0, -1.0, 0.0]);
         let (share, bound) = moving.exhausted_at(0.0).unwrap();
         assert!((share - 0.49).abs() < 1e-12);
-        assert_eq!(moving.pressing(share, bound), [true, true, false]);
+        assert_eq!(taking(&moving, share, bound), [true, true, false]);
     }
 
     #[test]
     fn a_corner_that_gives_room_does_not_stop() {
         let moving = moving([2.0, 0.5, 0.0]);
         let (share, bound) = moving.exhausted_at(0.0).unwrap();
-        assert_eq!(moving.pressing(share, bound), [true, false, false]);
+        assert_eq!(taking(&moving, share, bound), [true, false, false]);
     }
 
     // 2
@@ -439,6 +501,6 @@ mod tests {
         let (share, bound) = moving.exhausted_at(0.0).unwrap();
         assert_eq!(bound, Bound::Height(0));
         assert!((share - 0.8).abs() < 1e-12);
-        assert_eq!(moving.pressing(share, bound), [false, false, true]);
+        assert_eq!(taking(&moving, share, bound), [false, false, true]);
     }
 }

@@ -5,17 +5,18 @@ use crate::chamfers::Chamfers;
 use crate::charts::{Charts, charts};
 use crate::contacts::contacts;
 use crate::edges::{Edges, edges};
+use crate::evenness::evenness;
 use crate::faces::{Faces, faces};
 use crate::given::{Given, deep};
 use crate::ids::{Cluster, IdVec, Sector};
 use crate::limits::{Limits, limits};
 use crate::mesh::{Mesh, MeshBuffers};
-use crate::offsets::{Offset, offsets};
+use crate::offsets::{Offset, narrowed, offsets};
 use crate::options::{Options, Verify, Width};
 use crate::patches::{Patches, patches};
 use crate::placement::Placement;
 use crate::rests::{Rests, rests};
-use crate::room::room;
+use crate::room::{Room, room};
 use crate::scale::Space;
 use crate::sectors::{Sectors, sectors};
 use crate::selection::selection;
@@ -34,6 +35,9 @@ pub struct Stages<'a> {
     pub edges: Edges,
     pub sectors: Sectors,
     pub offsets: IdVec<Sector, Offset>,
+    /// With what each edge of a sector has room for.
+    pub narrowed: IdVec<Sector, Offset>,
+    pub room: Room,
     pub rests: Rests,
     pub deep: IdVec<Cluster, bool>,
     pub threads: Threads,
@@ -65,7 +69,27 @@ pub fn stages_of_mesh<'a>(mesh: Mesh<'a>, options: &Options) -> Stages<'a> {
     let offsets = offsets(surface, chamfers, None, &threads);
     let rests = rests(&view, &topology, &faces, &edges, &contacts);
     let deep = deep(&topology, &sectors);
-    Stages { view, weld, topology, faces, edges, sectors, offsets, rests, deep, threads }
+    let (room, narrowed) = {
+        let (offsets, rests, deep, threads) = (&offsets, &rests, &deep, &threads);
+        let given = &Given { surface, chamfers, offsets, rests, deep, threads };
+        let room = evenness(given, room(given), options.evenness.into());
+        let narrowed = narrowed(surface, &sectors, offsets, &room.fronts).into_owned();
+        (room, narrowed)
+    };
+    Stages {
+        view,
+        weld,
+        topology,
+        faces,
+        edges,
+        sectors,
+        offsets,
+        narrowed,
+        room,
+        rests,
+        deep,
+        threads,
+    }
 }
 
 impl Stages<'_> {
@@ -85,9 +109,9 @@ impl Stages<'_> {
 
     pub fn limits(&self, verify: Verify) -> Limits<'_> {
         let (surface, chamfers) = (self.surface(), self.chamfers());
-        let Stages { offsets, rests, deep, threads, .. } = self;
-        let given = &Given { surface, chamfers, offsets, rests, deep, threads };
-        limits(given, &room(given).share, verify).unwrap()
+        let Stages { narrowed, room, rests, deep, threads, .. } = self;
+        let given = &Given { surface, chamfers, offsets: narrowed, rests, deep, threads };
+        limits(given, &room.share, verify).unwrap()
     }
 
     fn space(&self) -> Space<'_> {

@@ -160,7 +160,11 @@ mod tests {
     #[test]
     fn without_room_an_edge_is_narrowed() {
         let (verdicts, totals) = judge(&shapes::plate(), 0.5);
-        assert!(verdicts.iter().all(|verdict| verdict.reason == Reason::NoRoom));
+        let is_told = |verdict: &EdgeVerdict| {
+            // The upright edges have room, and so much that the corners would fold.
+            matches!(verdict.reason, Reason::NoRoom | Reason::Folds)
+        };
+        assert!(verdicts.iter().all(is_told), "{verdicts:?}");
         assert_eq!((totals.chamfered, totals.narrowed), (0, 12));
         assert!(totals.mean_width < 0.9);
     }

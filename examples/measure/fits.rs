@@ -62,7 +62,8 @@ pub fn fits(mesh: &Mesh, after: &Chamfered) -> Fits {
             fits.has_room += length;
             fits.full += if is_full { length } else { 0.0 };
             let [one, other] = verdict.widths;
-            let is_uneven = (one - other).abs() > 0.1 * one.max(other);
+            let tapers = is_full && one.min(other) < 0.01 * one.max(other);
+            let is_uneven = !tapers && (one - other).abs() > 0.1 * one.max(other);
             // Where something rests on an edge, or it would fold, its verdict says so.
             let is_told = !matches!(verdict.reason, Reason::None | Reason::NoRoom);
             fits.roomy += 1;
@@ -161,7 +162,8 @@ impl<'a> Regions<'a> {
         if fan.iter().any(|&corner| ground.face_normal(corner).dot(normal) < LEVEL_COSINE) {
             return false;
         }
-        let way = |from: usize, to: usize| (ground.point(to) - ground.point(from)).normalize_or_zero();
+        let way =
+            |from: usize, to: usize| (ground.point(to) - ground.point(from)).normalize_or_zero();
         let (arm, back) = (|c: usize| way(c, next(c)), |c: usize| way(c, previous(c)));
         let angle: f64 = fan.iter().map(|&c| arm(c).angle_between(back(c))).sum();
         let is_border = |side: usize| {

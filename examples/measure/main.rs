@@ -10,11 +10,11 @@
 //! alone. `--unlike` gives each vertex and each submesh a factor at random, some of them 0, and takes
 //! a range of angles, a convexity and a width mode at random for each file.
 
+mod fits;
+mod ground;
 #[allow(dead_code)] // Tests use more of it.
 #[path = "../../tests/corpus/measure.rs"]
 mod measure;
-mod fits;
-mod ground;
 mod reach;
 
 use std::path::{Path, PathBuf};
@@ -123,7 +123,13 @@ fn print_fits(all: &[Fits]) {
 }
 
 /// Measures a file, and prints what is wrong with it.
-fn of_file(request: &Request, path: &Path, percent: f32, reaches: &mut Vec<f64>, all_fits: &mut Vec<Fits>) -> Vec<Measured> {
+fn of_file(
+    request: &Request,
+    path: &Path,
+    percent: f32,
+    reaches: &mut Vec<f64>,
+    all_fits: &mut Vec<Fits>,
+) -> Vec<Measured> {
     let inspect = |before: &Mesh, after: &Chamfered| {
         if request.is_reach_asked && after.totals.hard_edges > 0 {
             reaches.push(reach::reach(before, after));
@@ -133,8 +139,10 @@ fn of_file(request: &Request, path: &Path, percent: f32, reaches: &mut Vec<f64>,
             print_compared(path, percent, before, after);
         }
     };
-    let options =
-        Options::default().with_width(Width::PercentOfExtent(percent)).with_verify(request.verify).with_evenness(request.evenness);
+    let options = Options::default()
+        .with_width(Width::PercentOfExtent(percent))
+        .with_verify(request.verify)
+        .with_evenness(request.evenness);
     let measured = match request.unlike {
         Some(seed) => {
             let mut noise = Noise(path.as_os_str().len() as u32 ^ seed.wrapping_mul(2_654_435_761));

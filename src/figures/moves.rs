@@ -7,9 +7,10 @@ use super::models::{add_block, nothing};
 use super::scene::{Camera, FRONT, Scene};
 use crate::ids::{Corner, Sector};
 use crate::mesh::MeshBuffers;
+use crate::options::{Options, Verify, Width};
 use crate::shapes;
 use crate::stages::Stages;
-use crate::stages::stages_of;
+use crate::stages::{stages_of, stages_with};
 
 /// Numbers nearer to each other than this could not be read.
 const LABEL_SPACE: f64 = 40.0;
@@ -119,6 +120,60 @@ fn draw_offsets(drawing: &mut Drawing, mesh: &MeshBuffers, width: f32, camera: C
                 scene.dot(drawing, at, 4.0, INK);
             }
         }
+    }
+}
+
+pub fn room() -> Drawing {
+    let mut drawing = Drawing::new(720, 320);
+    drawing.title(185.0, "each edge has the room of its own face");
+    drawing.title(540.0, "a rim goes together");
+    let mut slab = nothing();
+    add_block(&mut slab, [-1.0, 0.0, -0.6], [1.0, 0.3, 0.6]);
+    let camera = Camera::new(FRONT, [0.0, 0.15, 0.0], 120.0, [185.0, 160.0]);
+    draw_room(&mut drawing, (&slab, 0.2, 0.0), camera);
+    let camera = Camera::new([1.2, 2.0, 4.0], [0.0, 0.5, 0.0], 150.0, [540.0, 160.0]);
+    draw_room(&mut drawing, (&shapes::cylinder(12), 0.3, 0.0), camera);
+    drawing.legend(&[(FAINT, "at full width"), (BLUE, "as far as there is room")]);
+    drawing
+}
+
+pub fn evenness() -> Drawing {
+    let mut drawing = Drawing::new(720, 320);
+    for (x, evenness, title) in
+        [(125.0, 0.0, "not at all"), (360.0, 0.5, "a half"), (595.0, 1.0, "one width")]
+    {
+        drawing.title(x, title);
+        let camera = Camera::new(FRONT, [0.0, 0.2, 0.0], 82.0, [x, 160.0]);
+        let mut parts = nothing();
+        add_block(&mut parts, [-1.0, 0.0, -0.6], [1.0, 0.16, 0.6]);
+        add_block(&mut parts, [-1.0, 0.5, -0.6], [1.0, 0.8, 0.6]);
+        draw_room(&mut drawing, (&parts, 0.2, evenness), camera);
+    }
+    drawing.legend(&[(FAINT, "at full width"), (BLUE, "as even as asked for")]);
+    drawing
+}
+
+/// The pulled edges of a mesh as far as there is room for a width, at an evenness.
+fn draw_room(
+    drawing: &mut Drawing,
+    (mesh, width, evenness): (&MeshBuffers, f32, f32),
+    camera: Camera,
+) {
+    let options = Options { width: Width::Units(width), evenness, ..Options::default() };
+    let stages = stages_with(mesh, &options);
+    let scene = Scene::of_mesh(camera, mesh);
+    scene.paint(drawing);
+    hard_edges(drawing, &scene, &stages, Pen::new(INK, 0.8));
+    let limits = stages.limits(Verify::Fast);
+    for side in stages.edges.hard.iter().flat_map(|edge| edge.sides) {
+        let ends = [side, side.next()];
+        let full = |corner: Corner| {
+            let sector = stages.sectors.sector_of[corner];
+            stages.view.position_at(corner) + stages.offsets[sector].vector
+        };
+        scene.line(drawing, ends.map(full), Pen::dashed(FAINT, 1.0));
+        let limited = ends.map(|end| limits.placement.position_at(end));
+        scene.line(drawing, limited, Pen::new(BLUE, 1.6));
     }
 }
 

@@ -22,8 +22,8 @@ use crate::topology::solids;
 
 use super::crowds::{Crowd, Crowds, crowds};
 use super::elements::{Element, around, sectors_of};
-use crate::given::Given;
 use super::{Limits, apply, bad_around, blame, shrink};
+use crate::given::Given;
 
 /// Rounds in which width is given back: the rest is within an eighth of what would fit.
 const GIVE_BACK_ROUNDS: usize = 3;
@@ -351,8 +351,8 @@ fn parts<'a>(given: &'a Given<'a>) -> Vec<Part<'a>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::intersect::cut_each_other;
     use crate::given::tests::given_of;
+    use crate::intersect::cut_each_other;
     use crate::mesh::MeshBuffers;
     use crate::shapes;
     use crate::stages::stages_of;

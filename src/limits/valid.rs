@@ -10,9 +10,9 @@ use crate::placement::Placement;
 use crate::strips;
 use crate::validity::{opens_along, stays_line, survives};
 
-use crate::room::breadth;
 use super::elements::Element;
 use crate::given::Given;
+use crate::room::breadth;
 
 /// Everything that is bad where the sectors stand now.
 pub fn bad_elements(given: &Given, placement: &Placement) -> Vec<Element> {
