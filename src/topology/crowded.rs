@@ -62,7 +62,7 @@ pub fn crowd(
         return Crowd { pairs: around.half_edges(&airs.pairs), ..Crowd::default() };
     }
     let apart = around.apart();
-    if let Some((pairs, [forth, back])) = &apart
+    if let Some(Apart { pairs, rest: [forth, back] }) = &apart
         && forth.len() == back.len()
     {
         let rest = crowd(view, forth, back, part);
@@ -74,7 +74,7 @@ pub fn crowd(
     let mut left: Vec<usize> = (0..left.len()).filter(|&place| left[place]).collect();
     around.let_run_on(view, &mut pairs, &mut left);
     let is_left = around.marked(left.iter());
-    if let Some((pairs, _)) = apart
+    if let Some(Apart { pairs, .. }) = apart
         && around.has_torn_copies(&pairs, &is_left)
     {
         // One copy would be chamfered along with what it touches, and the other would stay.
@@ -126,6 +126,14 @@ struct Around {
     faces: Vec<Face>,
     /// Where the faces of each direction begin, and where the last ones end.
     rays: Vec<usize>,
+}
+
+/// Parts that have one face of each kind on the edge, and so are closed there without the others.
+struct Apart {
+    /// Their faces.
+    pairs: Vec<[Corner; 2]>,
+    /// All others, forth and back.
+    rest: [Vec<Corner>; 2],
 }
 
 /// What is seen of the faces.
@@ -238,9 +246,8 @@ impl Around {
         left
     }
 
-    /// Parts that have one face of each kind here are closed without the others: their pairs, and
-    /// what is left, forth and back. None where there are no such parts.
-    fn apart(&self) -> Option<(Vec<[Corner; 2]>, [Vec<Corner>; 2])> {
+    /// None where no part is closed here without the others.
+    fn apart(&self) -> Option<Apart> {
         if !self.is_small() {
             return None;
         }
@@ -258,7 +265,7 @@ impl Around {
                 }),
             }
         }
-        (!pairs.is_empty()).then_some((pairs, rest))
+        (!pairs.is_empty()).then_some(Apart { pairs, rest })
     }
 
     /// Whether of two closed parts that lie on each other one keeps a face that is left over of the
