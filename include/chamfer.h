@@ -217,6 +217,12 @@ extern "C" {
 /** `reason`: the edge is not among those that were asked for, by angle, convexity, factor or list. */
 #define CHAMFER_REASON_NOT_SELECTED 10
 
+/** `reason`: a vertex of one side lies in the middle of the other; the surface is open along it. */
+#define CHAMFER_REASON_T_JUNCTION 11
+
+/** `reason`: a face beside the edge is wound against the other one, or against its own normals. */
+#define CHAMFER_REASON_WINDING 12
+
 /**
  * How many reasons `skipped_by_reason` has room for: more than there are, so that reasons can be
  * added.
@@ -399,7 +405,7 @@ typedef struct chamfer_error {
 typedef struct chamfer_totals {
     /** `sizeof(chamfer_totals)`. */
     uint32_t struct_size;
-    /** Hard edges with two sides. */
+    /** Hard edges, with those whose two sides share no edge. */
     uint32_t hard_edges;
     /** Those at full width. */
     uint32_t chamfered;
@@ -551,7 +557,7 @@ int32_t chamfer_result_totals(const struct chamfer_result *result,
                               struct chamfer_totals *totals);
 
 /**
- * Views the verdicts: `#hard edges` with two sides. The array lives as long as the result; NULL
+ * Views the verdicts: `#hard edges`, those whose sides share no edge last. The array lives as long as the result; NULL
  * if there are none.
  */
 CHAMFER_API

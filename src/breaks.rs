@@ -9,11 +9,7 @@ use crate::view::View;
 pub fn is_hard(view: &View, side: Corner, other: Corner) -> bool {
     let differ = |one: Corner, other: Corner| {
         let (one, other) = (view.vertex_at(one), view.vertex_at(other));
-        one != other && {
-            let (one, other) = (view.normal(one), view.normal(other));
-            one.dot(other)
-                < view.hard_cosine * (one.length_squared() * other.length_squared()).sqrt()
-        }
+        one != other && view.normals_differ([view.normal(one), view.normal(other)])
     };
     differ(side, other.next()) || differ(side.next(), other)
 }

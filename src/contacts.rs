@@ -216,6 +216,16 @@ impl Contacts {
         })
     }
 
+    /// The half-edges of the mesh that are rims.
+    pub fn borders(&self) -> impl Iterator<Item = Corner> {
+        self.rims.iter().map(|rim| rim.border).filter(|border| border.is_some())
+    }
+
+    /// Those of them that may lie on a segment.
+    pub fn borders_near(&self, segment: [DVec3; 2]) -> impl Iterator<Item = Corner> {
+        self.near(segment, 0.0).map(|rim| rim.border).filter(|border| border.is_some())
+    }
+
     /// What may come within a distance of a segment.
     fn near(&self, segment: [DVec3; 2], reach: f64) -> impl Iterator<Item = &Rim> {
         let near = self.tree.overlapping(around(segment, reach));

@@ -16,6 +16,9 @@ const BYTES_PER_WELDED: u64 = 24;
 /// For each source vertex that is measured in another space: its position and its normal there.
 const BYTES_PER_MEASURED: u64 = 24;
 
+/// For each source vertex of a mesh inside out: its normal the other way round.
+const BYTES_PER_TURNED: u64 = 12;
+
 /// For each corner: topology, faces, edges, and its sector.
 const BYTES_PER_CORNER: u64 = 48;
 
@@ -79,6 +82,11 @@ pub fn of_weld(mesh: &Mesh) -> u64 {
 /// A mesh in the space in which it is measured.
 pub fn of_measured(mesh: &Mesh) -> u64 {
     mesh.positions.len() as u64 * BYTES_PER_MEASURED + size_of_val(mesh.held) as u64
+}
+
+/// The normals of a mesh inside out, the other way round.
+pub fn of_turned(mesh: &Mesh) -> u64 {
+    mesh.positions.len() as u64 * BYTES_PER_TURNED
 }
 
 /// The stages from there up to the edges, but for rims.

@@ -11,6 +11,7 @@ use crate::evenness::evenness;
 use crate::faces::faces;
 use crate::given::{Given, deep};
 use crate::ids::{IdVec, Sector};
+use crate::inside_out::{is_inside_out, turned_back, turned_normals};
 use crate::limits::limits;
 use crate::memory;
 use crate::mesh::Mesh;
@@ -30,6 +31,7 @@ use crate::selection::selection;
 use crate::shape::Shape;
 use crate::threads::Threads;
 use crate::topology::topology;
+use crate::unpaired::{unpaired, with_verdicts};
 use crate::verdicts::verdicts;
 use crate::view::{View, measured, view};
 use crate::weld::{Weld, weld};
@@ -136,6 +138,17 @@ pub fn chamfer_by_stages(
     };
     let view = view(mesh, options)?;
     done(Stage::View)?;
+    if !is_inside_out(&view) {
+        return chamfer_viewed(view, options, done);
+    }
+    memory::ask(memory::of_turned(&view.mesh))?;
+    let normals = turned_normals(&view);
+    let view = View { mesh: Mesh { normals: &normals, ..view.mesh }, ..view };
+    Ok(turned_back(chamfer_viewed(view, options, done)?))
+}
+
+/// The stages from the weld on.
+fn chamfer_viewed(view: View, options: &Options, done: &mut Done) -> Result<Chamfered, Error> {
     let weld = weld(&view.mesh);
     done(Stage::Weld)?;
     let scale = Scale::new(options)?;
@@ -156,7 +169,7 @@ pub fn chamfer_by_stages(
     Ok(chamfered)
 }
 
-/// The stages from the weld on. Where only a part of an edge can have a chamfer, the mesh gets
+/// The same where there may be hard edges. Where only a part of an edge can have a chamfer, the mesh gets
 /// vertices, and the finer one goes on.
 fn chamfer_hard(
     space: Space,
@@ -170,13 +183,15 @@ fn chamfer_hard(
     memory::ask(memory::of_chamfers(&view.mesh, shape.chamfers().work()))?;
     let offsets = find_offsets(shape.surface(view), shape.chamfers(), None, threads);
     let refined = if space.is_plain() { refine(view, &shape, &offsets)? } else { None };
-    match refined {
+    let unpaired = unpaired(view, &shape);
+    let chamfered = match refined {
         Some(refined) => chamfer_refined(space, (shape, offsets), &refined, options, done),
         None => {
             done(Stage::Offsets)?;
             chamfer_shape(space, (shape, offsets), options, (threads, done))
         }
-    }
+    };
+    Ok(with_verdicts(chamfered?, unpaired))
 }
 
 /// The stages that find out what a mesh is.

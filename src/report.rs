@@ -25,7 +25,8 @@ pub struct Chamfered {
     pub triangle_sources: Vec<TriangleSource>,
     /// The triangles that are pieces of source triangles, in their order; mostly none.
     pub pieces: Vec<Piece>,
-    /// `#hard edges` with two sides: what became of each.
+    /// `#hard edges`: what became of each. Those whose two sides share no edge, so that nothing can
+    /// become of them, stand last ([`Reason::TJunction`], [`Reason::Winding`]).
     pub verdicts: Vec<EdgeVerdict>,
     /// The width asked for, in mesh units, or in those of [`Options::scale`](crate::Options::scale).
     pub width: f32,
@@ -175,7 +176,7 @@ impl Outcome {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Totals {
-    /// Hard edges with two sides.
+    /// Hard edges, with those whose two sides share no edge.
     pub hard_edges: u32,
     /// Those at full width.
     pub chamfered: u32,

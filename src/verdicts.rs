@@ -4,7 +4,7 @@ use crate::chamfers::Chamfers;
 use crate::edges::HardEdge;
 use crate::ids::Sector;
 use crate::limits::Limits;
-use crate::math::unit;
+use crate::math::{area_vector, unit};
 use crate::patches::Patches;
 use crate::report::{EdgeVerdict, Outcome, Reason, Totals};
 use crate::sectors::Sectors;
@@ -40,7 +40,9 @@ fn verdict(
             let at = strips::corners(edge).map(|corner| sectors.sector_of[corner]);
             let reason = worst_reason(limits, at);
             if !is_open {
-                left(reason.unwrap_or(unopened(view, sectors, (edge, at))))
+                let reason = reason.unwrap_or(unopened(view, sectors, (edge, at)));
+                let is_turned = reason == Reason::Folds && faces_away(view, edge);
+                left(if is_turned { Reason::Winding } else { reason })
             } else {
                 let outcome = if reason.is_some() { Outcome::Narrowed } else { Outcome::Full };
                 (outcome, reason.unwrap_or(Reason::None), widths(view, limits, edge))
@@ -48,6 +50,16 @@ fn verdict(
         }
     };
     EdgeVerdict { vertices: ends.map(|end| view.vertex_at(end).0), outcome, reason, widths }
+}
+
+/// Whether a face beside an edge is wound against its own normals: no chamfer can face along with
+/// those then.
+fn faces_away(view: &View, edge: &HardEdge) -> bool {
+    edge.sides.iter().any(|side| {
+        let triangle = side.triangle();
+        let normals = triangle.corners().map(|corner| view.normal_at(corner));
+        area_vector(view.triangle(triangle)).dot(normals.into_iter().sum()) < 0.0
+    })
 }
 
 /// Why an edge did not open though nothing limited it.

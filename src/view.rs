@@ -89,6 +89,13 @@ impl<'a> View<'a> {
         wide(self.mesh.normals[vertex.index()])
     }
 
+    /// Whether light breaks between two normals. One without length differs from none.
+    #[inline]
+    pub fn normals_differ(&self, [one, other]: [DVec3; 2]) -> bool {
+        let lengths = (one.length_squared() * other.length_squared()).sqrt();
+        one.dot(other) < self.hard_cosine * lengths
+    }
+
     #[inline]
     pub fn position_at(&self, corner: Corner) -> DVec3 {
         self.position(self.vertex_at(corner))

@@ -140,3 +140,19 @@ fn a_folded_card_of_two_sides_keeps_its_fold() {
     assert_eq!(result.mesh.positions, card.positions);
     assert!(result.verdicts.iter().all(|verdict| verdict.reason == Reason::ZeroThickness));
 }
+
+/// A box that is there twice stands over the edge of an open one. Only one of its copies could follow
+/// the top of the open box there, so both stay closed, and the edge says why it stays. The second
+/// doubled box is chamfered whole.
+#[test]
+fn copies_of_a_box_are_not_torn_by_what_touches_one_of_them() {
+    let doubled = |low: [f64; 3], high: [f64; 3]| Block::new(low, high).with(Skin::Copied);
+    let above = doubled([0.0, 3.0, 0.0], [3.0, 4.0, 3.0]);
+    let open = Block { without: 0b01, ..Block::new([3.0, 2.0, 0.0], [4.0, 3.0, 3.0]) };
+    let apart = doubled([1.0, 0.0, 0.0], [2.0, 1.0, 1.0]);
+    for is_merged in [false, true] {
+        let mesh = assembly(&[above, open, apart], DMat3::IDENTITY, is_merged);
+        let result = chamfered("boxes", &mesh, 0.04);
+        assert_eq!(result.totals.skipped[Reason::Contact], 2, "both copies of one edge");
+    }
+}

@@ -13,7 +13,7 @@ use crate::report::Asked;
 const ABOUT: &str = "\
 Chamfers the hard edges of game models.
 
-Reads .glb, .gltf, .obj, .stl, .fbx and .ply files, pulls the split vertices at every hard edge apart inside \
+Reads .glb, .gltf, .obj, .stl, .fbx, .ply and .off files, pulls the split vertices at every hard edge apart inside \
 their own faces and closes the gap with a strip that shades smoothly. All else in a file stays \
 as it is.";
 
@@ -25,7 +25,7 @@ Where results go:
   several, or a folder    DIR/..., in the same subfolders as below the folder given
 
 Folders that are missing are created. A result has the format of its input; an .stl goes out as
-.glb, because .stl has no normals, unless -o names an .stl, and an .fbx or .ply too, as there is no
+.glb, because .stl has no normals, unless -o names an .stl, and an .fbx, .ply or .off too, as there is no
 writer.
 With -o an .obj can go out as .glb too, and .glb and .gltf as each other.
 

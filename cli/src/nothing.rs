@@ -88,8 +88,12 @@ fn why_skipped(counts: &Counts) -> &'static str {
         Some(Reason::ZeroThickness) => {
             "; its faces lie back to back, so there is no solid to soften: give it a thickness"
         }
-        Some(Reason::Folds) => {
-            "; chamfers would fold over: are its faces wound against their normals?"
+        Some(Reason::Folds) => "; chamfers would fold over: ask for less",
+        Some(Reason::Winding) => {
+            "; faces beside them are inside out: make all normals and windings agree"
+        }
+        Some(Reason::TJunction) => {
+            "; vertices of one side lie in the middle of the other: join the sides there"
         }
         Some(Reason::TooFine) => "; the width is finer than its coordinates: ask for more",
         Some(Reason::Contact) => "; other parts rest on all of them",

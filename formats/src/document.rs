@@ -21,6 +21,8 @@ pub enum Format {
     Fbx,
     /// Stanford's polygons, ASCII or binary.
     Ply,
+    /// Geomview's object file format, in text.
+    Off,
 }
 
 /// One mesh of a file, in the layout of the core.

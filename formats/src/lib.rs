@@ -17,6 +17,7 @@ pub mod gltf_file;
 #[cfg(not(all(feature = "draco", feature = "fbx", feature = "meshopt")))]
 mod left_out;
 pub mod obj_file;
+pub mod off_file;
 mod parts;
 pub mod paths;
 pub mod pictures;

@@ -8,7 +8,7 @@ use chamfer::Chamfered;
 
 use crate::document::{Document, Encoded, Format, ReadOptions};
 use crate::gltf_file::GltfDocument;
-use crate::{foreign, obj_file, ply_file, stl_file};
+use crate::{foreign, obj_file, off_file, ply_file, stl_file};
 
 /// A document that was read, of any format.
 pub type Read = Box<dyn Document + Send>;
@@ -28,7 +28,7 @@ pub struct Row {
 }
 
 /// All formats, in the order of [`Format`].
-pub static FORMATS: [Row; 6] = [
+pub static FORMATS: [Row; 7] = [
     Row {
         format: Format::Glb,
         name: "glTF, binary",
@@ -69,6 +69,13 @@ pub static FORMATS: [Row; 6] = [
         name: "PLY, ASCII or binary",
         ending: "ply",
         reader: |path, bytes, options| Ok(Box::new(ply_file::decode(path, &bytes, options)?)),
+        writes: &[Format::Glb],
+    },
+    Row {
+        format: Format::Off,
+        name: "OFF, in text",
+        ending: "off",
+        reader: |path, bytes, options| Ok(Box::new(off_file::decode(path, &bytes, options)?)),
         writes: &[Format::Glb],
     },
 ];
@@ -181,7 +188,7 @@ mod tests {
         assert_eq!(format("a/b.GLB"), Some(Format::Glb));
         assert_eq!(format("b.txt"), None);
         assert_eq!(format("glb"), None);
-        assert_eq!(endings(), ".glb, .gltf, .obj, .stl, .fbx or .ply");
+        assert_eq!(endings(), ".glb, .gltf, .obj, .stl, .fbx, .ply or .off");
     }
 
     #[test]

@@ -17,11 +17,12 @@ pub(super) fn check_triangles(
 ) {
     let may_face_away =
         findings.lost > 0 && (0..before.triangle_count()).any(|t| may_face_away(before, t));
+    let sign = if is_inside_out(before) { -1.0 } else { 1.0 };
     for (triangle, &origin) in (0u32..).zip(&origins.triangles) {
         let now = normal_with_area(after.triangle(triangle));
         let reference = match origin {
             Some([corner, ..]) => normal_with_area(before.triangle(corner / 3)),
-            None => Some(shading(after, triangle)),
+            None => Some(shading(after, triangle) * sign),
         };
         match (reference, now) {
             (Some(_), None) => findings.note(Rule::Degenerate, Element::Triangle(triangle)),
@@ -30,12 +31,23 @@ pub(super) fn check_triangles(
             {
                 findings.note(Rule::Flipped, Element::Triangle(triangle));
             }
-            (None, Some(now)) if opens_against(after, triangle, now) => {
+            (None, Some(now)) if opens_against(after, triangle, now * sign) => {
                 findings.note(Rule::Flipped, Element::Triangle(triangle));
             }
             _ => {}
         }
     }
+}
+
+/// Whether no triangle faces along with its vertex normals: then none of the result can.
+fn is_inside_out(surface: &Surface) -> bool {
+    let mut any = false;
+    (0..surface.triangle_count()).all(|triangle| {
+        let normal = normal_with_area(surface.triangle(triangle));
+        let along = normal.map_or(0.0, |normal| normal.dot(shading(surface, triangle)));
+        any |= along < 0.0;
+        along <= 0.0
+    }) && any
 }
 
 /// Whether a triangle that had no area faces away from its vertex normals, by more than rounding.

@@ -91,6 +91,10 @@ impl<'a> Sides<'a> {
             return false;
         };
         let (forward, backward) = self.edges[edge as usize];
+        if forward.is_empty() || backward.is_empty() {
+            // Nothing to measure between: its sides run the same way, or are of other lengths.
+            return verdict.outcome == Outcome::Skipped && verdict.widths == [0.0; 2];
+        }
         let pairs = forward.iter().flat_map(|one| backward.iter().map(move |other| [one, other]));
         let both_ways = pairs.flat_map(|[one, other]| [[one, other], [other, one]]);
         both_ways

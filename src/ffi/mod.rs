@@ -175,7 +175,7 @@ pub unsafe extern "C" fn chamfer_result_totals(
     unsafe { inspect(result, write) }
 }
 
-/// Views the verdicts: `#hard edges` with two sides. The array lives as long as the result; NULL
+/// Views the verdicts: `#hard edges`, those whose sides share no edge last. The array lives as long as the result; NULL
 /// if there are none.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn chamfer_result_verdicts(

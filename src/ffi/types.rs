@@ -140,6 +140,10 @@ pub const CHAMFER_REASON_TOO_FINE: u32 = 8;
 pub const CHAMFER_REASON_CONTACT: u32 = 9;
 /// `reason`: the edge is not among those that were asked for, by angle, convexity, factor or list.
 pub const CHAMFER_REASON_NOT_SELECTED: u32 = 10;
+/// `reason`: a vertex of one side lies in the middle of the other; the surface is open along it.
+pub const CHAMFER_REASON_T_JUNCTION: u32 = 11;
+/// `reason`: a face beside the edge is wound against the other one, or against its own normals.
+pub const CHAMFER_REASON_WINDING: u32 = 12;
 
 /// How many reasons `skipped_by_reason` has room for: more than there are, so that reasons can be
 /// added.
@@ -311,7 +315,7 @@ pub struct chamfer_error {
 pub struct chamfer_totals {
     /// `sizeof(chamfer_totals)`.
     pub struct_size: u32,
-    /// Hard edges with two sides.
+    /// Hard edges, with those whose two sides share no edge.
     pub hard_edges: u32,
     /// Those at full width.
     pub chamfered: u32,

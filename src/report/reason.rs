@@ -51,6 +51,10 @@ reasons! {
     Contact = 9, c"contact";
     /// It is not among the edges that were asked for, by angle, convexity, factor or list.
     NotSelected = 10, c"not_selected";
+    /// A vertex of one side lies in the middle of the other, so that the surface is open along it.
+    TJunction = 11, c"t_junction";
+    /// A face beside it is wound against the other one, or against its own normals.
+    Winding = 12, c"winding";
 }
 
 impl Reason {

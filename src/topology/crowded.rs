@@ -61,14 +61,25 @@ pub fn crowd(
         // Sheets of two sides: each gap is a room, and its walls meet in it.
         return Crowd { pairs: around.half_edges(&airs.pairs), ..Crowd::default() };
     }
-    if let Some(crowd) = around.apart(view, part) {
-        return Crowd { is_contact: airs.gaps != 1, ..crowd };
+    let apart = around.apart();
+    if let Some(Apart { pairs, rest: [forth, back] }) = &apart
+        && forth.len() == back.len()
+    {
+        let rest = crowd(view, forth, back, part);
+        let pairs = pairs.iter().copied().chain(rest.pairs).collect();
+        return Crowd { pairs, is_contact: airs.gaps != 1, ..rest };
     }
     let left = around.left_over(&visible);
     let mut pairs = around.pairs_of_solids(view, &visible, &left);
     let mut left: Vec<usize> = (0..left.len()).filter(|&place| left[place]).collect();
     around.let_run_on(view, &mut pairs, &mut left);
     let is_left = around.marked(left.iter());
+    if let Some(Apart { pairs, .. }) = apart
+        && around.has_torn_copies(&pairs, &is_left)
+    {
+        // One copy would be chamfered along with what it touches, and the other would stay.
+        return Crowd { pairs, is_contact: true, ..Crowd::default() };
+    }
     let seen = airs.pairs.iter().flatten().copied().filter(|&place| !is_left[place]);
     // Of very many, any one will do.
     let seen: Vec<usize> = seen.take(MOST_FACES).collect();
@@ -115,6 +126,14 @@ struct Around {
     faces: Vec<Face>,
     /// Where the faces of each direction begin, and where the last ones end.
     rays: Vec<usize>,
+}
+
+/// Parts that have one face of each kind on the edge, and so are closed there without the others.
+struct Apart {
+    /// Their faces.
+    pairs: Vec<[Corner; 2]>,
+    /// All others, forth and back.
+    rest: [Vec<Corner>; 2],
 }
 
 /// What is seen of the faces.
@@ -227,9 +246,8 @@ impl Around {
         left
     }
 
-    /// Parts that have one face of each kind here are closed without the others. Where what is left
-    /// can be closed too, they are pairs, and the rest is paired by itself. None where all is rest.
-    fn apart(&self, view: &View, part: &mut dyn FnMut(Corner) -> u32) -> Option<Crowd> {
+    /// None where no part is closed here without the others.
+    fn apart(&self) -> Option<Apart> {
         if !self.is_small() {
             return None;
         }
@@ -247,13 +265,20 @@ impl Around {
                 }),
             }
         }
-        let [forth, back] = rest;
-        if pairs.is_empty() || forth.len() != back.len() {
-            return None;
-        }
-        let crowd = crowd(view, &forth, &back, part);
-        pairs.extend(crowd.pairs);
-        Some(Crowd { pairs, ..crowd })
+        (!pairs.is_empty()).then_some(Apart { pairs, rest })
+    }
+
+    /// Whether of two closed parts that lie on each other one keeps a face that is left over of the
+    /// other.
+    fn has_torn_copies(&self, closed: &[[Corner; 2]], is_left: &[bool]) -> bool {
+        let is_closed =
+            |place: &usize| closed.as_flattened().contains(&self.faces[*place].half_edge);
+        let kind = |place: usize| (self.faces[place].ray, self.faces[place].runs_forth);
+        let own: Vec<usize> = (0..self.faces.len()).filter(is_closed).collect();
+        let is_torn = |one: &usize, other: &usize| {
+            is_left[*one] && !is_left[*other] && kind(*one) == kind(*other)
+        };
+        own.iter().any(|one| own.iter().any(|other| is_torn(one, other)))
     }
 
     /// Pairs around the solids: going round, faces that run back open one, and those that run forth

@@ -155,10 +155,11 @@ impl Sum {
     }
 
     /// The share of the hard edges that have a chamfer, by count, of those that may have one: along
-    /// contacts light would show.
+    /// contacts light would show, and where two sides share no edge there is nothing to close.
     pub fn chamfered_share(&self) -> f64 {
-        let contacts = self.skipped[Reason::Contact];
-        f64::from(self.chamfered + self.narrowed) / f64::from((self.hard_edges - contacts).max(1))
+        let cannot = [Reason::Contact, Reason::TJunction, Reason::Winding];
+        let cannot: u32 = cannot.into_iter().map(|reason| self.skipped[reason]).sum();
+        f64::from(self.chamfered + self.narrowed) / f64::from((self.hard_edges - cannot).max(1))
     }
 
     /// The mean over the meshes of the width at the ends that open.

@@ -58,6 +58,8 @@ namespace ChamferEditor
                 case EdgeReason.TooFine: return "the width is too small for the precision here";
                 case EdgeReason.Contact: return "something rests there, light would show behind a chamfer";
                 case EdgeReason.NotSelected: return "not selected by the settings under Edges";
+                case EdgeReason.TJunction: return "a vertex of one side lies in the middle of the other";
+                case EdgeReason.Winding: return "a face beside is inside out";
                 default: return "no reason known";
             }
         }

@@ -20,7 +20,7 @@ namespace Chamfer
         /// <summary>How many faces of four corners there are, which stay as they are.</summary>
         public int Quads { get; internal set; }
 
-        /// <summary>Hard edges with two sides.</summary>
+        /// <summary>Hard edges, with those whose two sides share no edge.</summary>
         public int HardEdges { get; internal set; }
 
         /// <summary>Those at full width.</summary>

@@ -35,7 +35,11 @@ namespace Chamfer
         /// <summary>Something rests on the edge, or right beside it: light would show behind a chamfer.</summary>
         Contact = 9,
         /// <summary>The settings leave it out: its angle, the way its faces meet, its material or the mask.</summary>
-        NotSelected = 10
+        NotSelected = 10,
+        /// <summary>A vertex of one side lies in the middle of the other: the surface is open along it.</summary>
+        TJunction = 11,
+        /// <summary>A face beside the edge is wound against the other one, or against its own normals.</summary>
+        Winding = 12
     }
 
     /// <summary>What became of one hard edge.</summary>

@@ -1,0 +1,136 @@
+//! Unpaired: hard edges whose sides have no twin, so that no chamfer can close between them.
+//!
+//! There are two kinds. Two faces run the same way along their edge, as one of them is inside out;
+//! or the edge of one face has a vertex of the other side in its middle (a *T-junction*). Both look
+//! like any hard edge, so each has a verdict that says why it stays.
+
+use glam::DVec3;
+
+use crate::contacts::Contacts;
+use crate::ids::Corner;
+use crate::report::{Chamfered, EdgeVerdict, Outcome, Reason};
+use crate::shape::Shape;
+use crate::tolerance::LINE_HEIGHT;
+use crate::topology::Topology;
+use crate::view::View;
+
+/// The verdicts of all such edges, those of faces that run the same way first.
+pub fn unpaired(view: &View, shape: &Shape) -> Vec<EdgeVerdict> {
+    let Shape { topology, contacts, .. } = shape;
+    let turned = turned(view, topology).into_iter().map(|side| (side, Reason::Winding));
+    let junctions = junctions(view, topology, contacts).into_iter();
+    let all = turned.chain(junctions.map(|side| (side, Reason::TJunction)));
+    all.map(|(side, reason)| left(view, side, reason)).collect()
+}
+
+/// A result with further verdicts.
+pub fn with_verdicts(mut chamfered: Chamfered, further: Vec<EdgeVerdict>) -> Chamfered {
+    chamfered.totals.hard_edges += further.len() as u32;
+    for verdict in &further {
+        chamfered.totals.skipped[verdict.reason] += 1;
+    }
+    chamfered.verdicts.extend(further);
+    chamfered
+}
+
+fn left(view: &View, side: Corner, reason: Reason) -> EdgeVerdict {
+    let vertices = [side, side.next()].map(|end| view.vertex_at(end).0);
+    EdgeVerdict { vertices, outcome: Outcome::Skipped, reason, widths: [0.0; 2] }
+}
+
+/// Of each two half-edges that run the same way along a hard edge and have no twin, the first.
+fn turned(view: &View, topology: &Topology) -> Vec<Corner> {
+    let is_turned = |&[one, other]: &[Corner; 2]| {
+        let is_open = |side| topology.twin[side].is_none() && !topology.is_hidden(side);
+        topology.cluster_at[one] == topology.cluster_at[other]
+            && is_open(one)
+            && is_open(other)
+            && [(one, other), (one.next(), other.next())].into_iter().any(|(one, other)| {
+                view.normals_differ([view.normal_at(one), view.normal_at(other)])
+            })
+    };
+    let pairs = topology.touching.iter().copied().filter(is_turned);
+    let mut turned: Vec<Corner> = pairs.map(|[one, _]| one).collect();
+    turned.sort_unstable();
+    turned.dedup();
+    turned
+}
+
+/// The open borders on which shorter ones lie, of other faces that meet theirs at a hard edge.
+fn junctions(view: &View, topology: &Topology, contacts: &Contacts) -> Vec<Corner> {
+    let mut junctions: Vec<Corner> = contacts
+        .borders()
+        .filter(|&border| topology.twin[border].is_none())
+        .filter(|&border| {
+            let line = Line::new(view, border);
+            let beside = contacts.borders_near(line.ends());
+            beside
+                .filter(|&other| topology.twin[other].is_none())
+                .any(|other| meets_shorter(view, topology, &line, other))
+        })
+        .collect();
+    junctions.sort_unstable();
+    junctions
+}
+
+/// Whether another border runs back along a part of a line, and is shorter. Of two that are as
+/// long, one stands for both.
+fn meets_shorter(view: &View, topology: &Topology, line: &Line, other: Corner) -> bool {
+    let shorter = Line::new(view, other);
+    if (shorter.length, other) >= (line.length, line.border)
+        || shorter.along.dot(line.along) >= 0.0
+        || is_same_edge(topology, line.border, other)
+    {
+        return false;
+    }
+    let reach = view.resolution * LINE_HEIGHT;
+    let [from, to] = shorter.ends();
+    let (start, end) = (line.place(to).max(0.0), line.place(from).min(line.length));
+    let lies_on = [from, to].into_iter().all(|end| line.distance(end) <= reach);
+    lies_on && end - start > reach && {
+        let middle = line.from + line.along * ((start + end) / 2.0);
+        view.normals_differ([line.normal(view, middle), shorter.normal(view, middle)])
+    }
+}
+
+fn is_same_edge(topology: &Topology, one: Corner, other: Corner) -> bool {
+    let clusters = |side: Corner| [side, side.next()].map(|corner| topology.cluster_at[corner]);
+    let [from, to] = clusters(other);
+    clusters(one) == [to, from]
+}
+
+/// A half-edge as a line.
+struct Line {
+    border: Corner,
+    from: DVec3,
+    /// Unit.
+    along: DVec3,
+    length: f64,
+}
+
+impl Line {
+    fn new(view: &View, border: Corner) -> Line {
+        let [from, to] = [border, border.next()].map(|corner| view.position_at(corner));
+        let length = from.distance(to);
+        Line { border, from, along: (to - from) / length, length }
+    }
+
+    fn ends(&self) -> [DVec3; 2] {
+        [self.from, self.from + self.along * self.length]
+    }
+
+    fn place(&self, point: DVec3) -> f64 {
+        (point - self.from).dot(self.along)
+    }
+
+    fn distance(&self, point: DVec3) -> f64 {
+        (point - self.from).cross(self.along).length()
+    }
+
+    /// The normal of its face there, between those of its ends.
+    fn normal(&self, view: &View, point: DVec3) -> DVec3 {
+        let share = (self.place(point) / self.length).clamp(0.0, 1.0);
+        let [one, other] = [self.border, self.border.next()].map(|end| view.normal_at(end));
+        one.lerp(other, share)
+    }
+}
