@@ -64,6 +64,7 @@ mod ffi;
 #[cfg(test)]
 mod figures;
 mod fills;
+mod flaps;
 mod foot;
 mod groups;
 mod ids;
