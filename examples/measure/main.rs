@@ -1,17 +1,19 @@
 //! Measures how a folder of models is chamfered: soundness, coverage and width.
 //!
 //! `cargo run --release --example measure -- [--full] [--verbose] [--reach] [--compare]
-//! [--unlike SEED] [--only NAME] [--folder DIR] PERCENT..`
+//! [--unlike SEED] [--normals] [--only NAME] [--folder DIR] PERCENT..`
 //!
 //! `--reach` also tells how wide the chamfers could be where neighbours leave them half of the way
 //! to each other: width that is lost beyond that is lost to the triangles, not to the shape.
 //! `--compare` also checks each result as `chamfer check` does, by what went in and what came out
 //! alone. `--unlike` gives each vertex and each submesh a factor at random, some of them 0, and takes
-//! a range of angles, a convexity and a width mode at random for each file.
+//! a range of angles, a convexity and a width mode at random for each file. `--normals` counts by
+//! what angles normals differ where vertices are split: what `hard_angle` tells apart.
 
 #[allow(dead_code)] // Tests use more of it.
 #[path = "../../tests/corpus/measure.rs"]
 mod measure;
+mod normals;
 mod reach;
 
 use std::path::{Path, PathBuf};
@@ -19,6 +21,7 @@ use std::path::{Path, PathBuf};
 use chamfer::check::{check, compare};
 use chamfer::{Chamfered, Convexity, Mesh, Options, Verify, Width, WidthMode};
 use measure::{FOLDER, Measured, Sum, Unlike, measure_with, models};
+use normals::Angles;
 
 /// What was asked for on the command line.
 struct Request {
@@ -26,6 +29,7 @@ struct Request {
     is_verbose: bool,
     is_reach_asked: bool,
     is_compared: bool,
+    are_normals_asked: bool,
     unlike: Option<u32>,
     only: Option<String>,
     folder: String,
@@ -39,6 +43,7 @@ impl Request {
             is_verbose: false,
             is_reach_asked: false,
             is_compared: false,
+            are_normals_asked: false,
             unlike: None,
             only: None,
             folder: FOLDER.to_owned(),
@@ -49,6 +54,7 @@ impl Request {
                 "--full" => request.verify = Verify::Full,
                 "--verbose" => request.is_verbose = true,
                 "--reach" => request.is_reach_asked = true,
+                "--normals" => request.are_normals_asked = true,
                 "--compare" => request.is_compared = true,
                 "--unlike" => request.unlike = arguments.next().and_then(|seed| seed.parse().ok()),
                 "--only" => request.only = arguments.next(),
@@ -71,23 +77,37 @@ impl Request {
 fn main() {
     let request = Request::new(std::env::args().skip(1));
     for &percent in &request.percents {
-        let (mut sum, mut reaches) = (Sum::default(), Vec::new());
+        let (mut sum, mut more) = (Sum::default(), More::default());
         for path in request.paths() {
-            sum.extend(&of_file(&request, &path, percent, &mut reaches));
+            sum.extend(&of_file(&request, &path, percent, &mut more));
         }
         println!("{percent} %: {sum}");
         if request.is_reach_asked {
+            let reaches = &more.reaches;
             let mean = reaches.iter().sum::<f64>() / reaches.len().max(1) as f64;
             println!("within reach, by mesh: {:.2} %", mean * 100.0);
+        }
+        if request.are_normals_asked {
+            print!("{}", more.angles);
         }
     }
 }
 
+/// What is only measured where it is asked for.
+#[derive(Default)]
+struct More {
+    reaches: Vec<f64>,
+    angles: Angles,
+}
+
 /// Measures a file, and prints what is wrong with it.
-fn of_file(request: &Request, path: &Path, percent: f32, reaches: &mut Vec<f64>) -> Vec<Measured> {
+fn of_file(request: &Request, path: &Path, percent: f32, more: &mut More) -> Vec<Measured> {
     let inspect = |before: &Mesh, after: &Chamfered| {
         if request.is_reach_asked && after.totals.hard_edges > 0 {
-            reaches.push(reach::reach(before, after));
+            more.reaches.push(reach::reach(before, after));
+        }
+        if request.are_normals_asked {
+            more.angles.add(before);
         }
         if request.is_compared {
             print_compared(path, percent, before, after);
