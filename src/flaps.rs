@@ -11,13 +11,17 @@ use glam::DVec3;
 use crate::chamfers::Chamfers;
 use crate::edges::Parted;
 use crate::ids::Corner;
-use crate::math::unit;
+use crate::math::{area_vector, unit};
 use crate::placement::Placement;
 use crate::report::Blend;
 use crate::surface::Surface;
 use crate::topology::Topology;
 use crate::validity::faces_out;
 use crate::view::View;
+
+/// A flap leans by at most a degree from the face that it continues: rounding tilts a very small one
+/// by more, and then it would show.
+const LEAST_LEVEL_COSINE: f64 = 0.999_85;
 
 /// A triangle in the plane of a source triangle, at an end of an edge that stays hard.
 pub struct Flap {
@@ -49,10 +53,11 @@ pub fn is_open([across, own, _]: [DVec3; 3]) -> bool {
     across != own
 }
 
-/// Whether a flap is closed, or a triangle that faces as its face does.
+/// Whether a flap is closed, or a triangle in the plane of its face.
 pub fn is_valid(surface: Surface, joints: [Corner; 3], points: [DVec3; 3]) -> bool {
     let normal = surface.faces.normal[joints[2].triangle()];
-    !is_open(points) || faces_out(points, [normal; 3], surface.view.resolution)
+    let is_level = unit(area_vector(points)).dot(normal) > LEAST_LEVEL_COSINE;
+    !is_open(points) || is_level && faces_out(points, [normal; 3], surface.view.resolution)
 }
 
 /// A place on the edge, in terms of the vertices of the face that is continued.

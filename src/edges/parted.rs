@@ -14,7 +14,7 @@ use crate::faces::Faces;
 use crate::ids::{Corner, Edge, IdVec};
 use crate::math::{Turn, unit};
 use crate::report::Reason;
-use crate::tolerance::{CREASE_COSINE, FLAT_COSINE, LEAST_SLIDE_SINE, LEVEL_COSINE};
+use crate::tolerance::{CREASE_COSINE, FLAT_COSINE, LEAST_SLIDE_SINE};
 use crate::topology::Topology;
 use crate::view::View;
 
@@ -137,7 +137,7 @@ impl Around<'_> {
         let is_shaded_flat =
             |corner: Corner| unit(self.view.normal_at(corner)).dot(normal) > FLAT_SHADING;
         face.iter().map(|corner| corner.triangle()).all(|triangle| {
-            self.faces.normal[triangle].dot(normal) > LEVEL_COSINE
+            self.faces.normal[triangle].dot(normal) > FLAT_COSINE
                 && triangle.corners().into_iter().all(is_shaded_flat)
         })
     }
