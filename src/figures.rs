@@ -11,6 +11,7 @@ mod result;
 mod scene;
 mod source;
 mod texture;
+mod widths;
 
 use std::fs;
 use std::path::PathBuf;
@@ -21,13 +22,14 @@ use drawing::Drawing;
 type Draw = fn() -> Drawing;
 
 /// The stages, in the order of the pipeline.
-const FIGURES: [(&str, Draw); 18] = [
+const FIGURES: [(&str, Draw); 19] = [
     ("view", source::view),
     ("weld", source::weld),
     ("topology", source::topology),
     ("faces", source::faces),
     ("contacts", contacts::contacts),
     ("selection", result::selection),
+    ("widths", widths::widths),
     ("edges", source::edges),
     ("sectors", moves::sectors),
     ("offsets", moves::offsets),
