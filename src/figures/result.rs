@@ -5,6 +5,7 @@ use glam::{DVec2, DVec3};
 use super::drawing::{Anchor, Drawing, GREEN, INK, ORANGE, Pen, RED};
 use super::models::{add_block, add_card, chamfered, nothing};
 use super::scene::{CLAY, Camera, FILL, FRONT, Facet, Paint, STRIP, Scene, triangles};
+use super::widths::add_row;
 use crate::ids::{Id, Patch};
 use crate::mesh::{Factors, Mesh, MeshBuffers};
 use crate::options::{Convexity, Options, Width};
@@ -14,7 +15,7 @@ use crate::stages::stages_of;
 use crate::strips as stage_strips;
 use crate::view::wide;
 
-const ABOVE: [f64; 3] = [0.6, 3.0, 2.0];
+pub const ABOVE: [f64; 3] = [0.6, 3.0, 2.0];
 
 /// The result's triangles, painted by what they are.
 pub fn draw_result(drawing: &mut Drawing, result: &Chamfered, camera: Camera) -> Scene {
@@ -77,7 +78,7 @@ const LIFT: f64 = 0.05;
 
 /// Results of asking for some edges only, or for unlike widths.
 pub fn selection() -> Drawing {
-    let mut drawing = Drawing::new(720, 300);
+    let mut drawing = Drawing::new(720, 520);
     let asked = |mesh: &MeshBuffers, factors: Factors, options: Options| {
         let mesh = Mesh { factors, ..mesh.as_mesh() };
         crate::chamfer(&mesh, &options).unwrap_or_default()
@@ -111,6 +112,7 @@ pub fn selection() -> Drawing {
         drawing.title(camera.flat(camera.middle()).x, title);
         draw_result(&mut drawing, &result, camera);
     }
+    add_row(&mut drawing, 385.0);
     drawing.legend(&[("#7dafdc", "strip"), ("#f0ba5f", "fill")]);
     drawing
 }

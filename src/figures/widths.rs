@@ -1,30 +1,35 @@
 //! Widths of their own: of edges, in a space of its own, and beside edges that stay hard.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
-use super::drawing::Drawing;
-use super::result::draw_result;
+use super::drawing::{Anchor, Drawing, INK};
+use super::result::{ABOVE, draw_result};
 use super::scene::{Camera, FRONT};
 use crate::mesh::{EdgeFactor, Factors, Mesh, MeshBuffers};
 use crate::options::{Options, Width};
 use crate::report::Chamfered;
 use crate::shapes;
 
-/// Edges of unlike widths, a box that a scene stretches, and edges that end between others.
-pub fn widths() -> Drawing {
-    let mut drawing = Drawing::new(720, 250);
-    let camera = |middle: [f64; 3], size: f64, x: f64| Camera::new(FRONT, middle, size, [x, 130.0]);
+/// Edges of unlike widths at a corner, and a box that a scene stretches: the second row of the
+/// selection's figure.
+pub fn add_row(drawing: &mut Drawing, y: f64) {
     let pictures = [
-        ("three widths at a corner", unlike(), camera([0.0; 3], 46.0, 92.0)),
-        ("a box that a scene stretches", stretched(true), camera([0.0; 3], 40.0, 275.0)),
-        ("the same without its scale", stretched(false), camera([0.0; 3], 40.0, 455.0)),
-        ("upright edges alone", upright(), camera([0.0; 3], 46.0, 630.0)),
+        ("a factor for each edge", unlike(), 56.0, 125.0),
+        ("a box that a scene stretches", stretched(true), 48.0, 360.0),
+        ("the same without its scale", stretched(false), 48.0, 595.0),
     ];
-    for (title, result, camera) in pictures {
-        drawing.title(camera.flat(camera.middle()).x, title);
-        draw_result(&mut drawing, &result, camera);
+    for (title, result, size, x) in pictures {
+        drawing.text(DVec2::new(x, y - 106.0), Anchor::Middle, INK, title);
+        draw_result(drawing, &result, Camera::new(FRONT, [0.0; 3], size, [x, y]));
     }
-    drawing.legend(&[("#7dafdc", "strip"), ("#f0ba5f", "fill")]);
+}
+
+/// Edges that end between others, which stay hard.
+pub fn flaps() -> Drawing {
+    let mut drawing = Drawing::new(720, 300);
+    drawing.title(360.0, "upright edges alone: four flaps give back what the cut takes too much");
+    draw_result(&mut drawing, &upright(), Camera::new(ABOVE, [0.0; 3], 84.0, [360.0, 155.0]));
+    drawing.legend(&[("#7dafdc", "strip"), ("#f0ba5f", "flap")]);
     drawing
 }
 
@@ -60,7 +65,7 @@ fn unlike() -> Chamfered {
             4.0
         })
     });
-    asked(&cube, &edges, options(0.1))
+    asked(&cube, &edges, options(0.12))
 }
 
 /// Chamfered with or without the matrix, and then stretched.
