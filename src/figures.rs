@@ -28,7 +28,7 @@ const FIGURES: [(&str, Draw); 19] = [
     ("topology", source::topology),
     ("faces", source::faces),
     ("contacts", contacts::contacts),
-    ("selection", result::selection),
+    ("selection", widths::selection),
     ("edges", source::edges),
     ("sectors", moves::sectors),
     ("offsets", moves::offsets),

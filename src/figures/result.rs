@@ -5,7 +5,6 @@ use glam::{DVec2, DVec3};
 use super::drawing::{Anchor, Drawing, GREEN, INK, ORANGE, Pen, RED};
 use super::models::{add_block, add_card, chamfered, nothing};
 use super::scene::{CLAY, Camera, FILL, FRONT, Facet, Paint, STRIP, Scene, triangles};
-use super::widths::add_row;
 use crate::ids::{Id, Patch};
 use crate::mesh::{Factors, Mesh, MeshBuffers};
 use crate::options::{Convexity, Options, Width};
@@ -76,9 +75,9 @@ pub fn patches() -> Drawing {
 /// How far patches are drawn above where they are.
 const LIFT: f64 = 0.05;
 
-/// Results of asking for some edges only, or for unlike widths.
+/// Results of asking for some edges only, or for unlike widths: the first row of that figure.
 pub fn selection() -> Drawing {
-    let mut drawing = Drawing::new(720, 520);
+    let mut drawing = Drawing::new(720, 560);
     let asked = |mesh: &MeshBuffers, factors: Factors, options: Options| {
         let mesh = Mesh { factors, ..mesh.as_mesh() };
         crate::chamfer(&mesh, &options).unwrap_or_default()
@@ -112,8 +111,6 @@ pub fn selection() -> Drawing {
         drawing.title(camera.flat(camera.middle()).x, title);
         draw_result(&mut drawing, &result, camera);
     }
-    add_row(&mut drawing, 385.0);
-    drawing.legend(&[("#7dafdc", "strip"), ("#f0ba5f", "fill")]);
     drawing
 }
 

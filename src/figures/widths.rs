@@ -3,32 +3,34 @@
 use glam::{DVec2, DVec3};
 
 use super::drawing::{Anchor, Drawing, INK};
-use super::result::{ABOVE, draw_result};
+use super::result::{self, ABOVE, draw_result};
 use super::scene::{Camera, FRONT};
 use crate::mesh::{EdgeFactor, Factors, Mesh, MeshBuffers};
 use crate::options::{Options, Width};
 use crate::report::Chamfered;
 use crate::shapes;
 
-/// Edges of unlike widths at a corner, and a box that a scene stretches: the second row of the
-/// selection's figure.
-pub fn add_row(drawing: &mut Drawing, y: f64) {
+/// Edges that are chosen, and then unlike widths at a corner, and a box that a scene stretches.
+pub fn selection() -> Drawing {
+    let (mut drawing, y) = (result::selection(), 440.0);
     let pictures = [
         ("a factor for each edge", unlike(), 56.0, 125.0),
         ("a box that a scene stretches", stretched(true), 48.0, 360.0),
         ("the same without its scale", stretched(false), 48.0, 595.0),
     ];
     for (title, result, size, x) in pictures {
-        drawing.text(DVec2::new(x, y - 106.0), Anchor::Middle, INK, title);
-        draw_result(drawing, &result, Camera::new(FRONT, [0.0; 3], size, [x, y]));
+        drawing.text(DVec2::new(x, y - 92.0), Anchor::Middle, INK, title);
+        draw_result(&mut drawing, &result, Camera::new(FRONT, [0.0; 3], size, [x, y]));
     }
+    drawing.legend(&[("#7dafdc", "strip"), ("#f0ba5f", "fill")]);
+    drawing
 }
 
 /// Edges that end between others, which stay hard.
 pub fn flaps() -> Drawing {
     let mut drawing = Drawing::new(720, 300);
     drawing.title(360.0, "upright edges alone: four flaps give back what the cut takes too much");
-    draw_result(&mut drawing, &upright(), Camera::new(ABOVE, [0.0; 3], 84.0, [360.0, 155.0]));
+    draw_result(&mut drawing, &upright(), Camera::new(ABOVE, [0.0; 3], 62.0, [360.0, 155.0]));
     drawing.legend(&[("#7dafdc", "strip"), ("#f0ba5f", "flap")]);
     drawing
 }
