@@ -77,7 +77,7 @@ const LIFT: f64 = 0.05;
 
 /// Results of asking for some edges only, or for unlike widths: the first row of that figure.
 pub fn selection() -> Drawing {
-    let mut drawing = Drawing::new(720, 560);
+    let mut drawing = Drawing::new(720, 520);
     let asked = |mesh: &MeshBuffers, factors: Factors, options: Options| {
         let mesh = Mesh { factors, ..mesh.as_mesh() };
         crate::chamfer(&mesh, &options).unwrap_or_default()

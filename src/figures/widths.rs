@@ -12,14 +12,14 @@ use crate::shapes;
 
 /// Edges that are chosen, and then unlike widths at a corner, and a box that a scene stretches.
 pub fn selection() -> Drawing {
-    let (mut drawing, y) = (result::selection(), 440.0);
+    let (mut drawing, y) = (result::selection(), 385.0);
     let pictures = [
         ("a factor for each edge", unlike(), 56.0, 125.0),
         ("a box that a scene stretches", stretched(true), 48.0, 360.0),
         ("the same without its scale", stretched(false), 48.0, 595.0),
     ];
     for (title, result, size, x) in pictures {
-        drawing.text(DVec2::new(x, y - 92.0), Anchor::Middle, INK, title);
+        drawing.text(DVec2::new(x, y - 106.0), Anchor::Middle, INK, title);
         draw_result(&mut drawing, &result, Camera::new(FRONT, [0.0; 3], size, [x, y]));
     }
     drawing.legend(&[("#7dafdc", "strip"), ("#f0ba5f", "fill")]);
@@ -30,7 +30,7 @@ pub fn selection() -> Drawing {
 pub fn flaps() -> Drawing {
     let mut drawing = Drawing::new(720, 300);
     drawing.title(360.0, "upright edges alone: four flaps give back what the cut takes too much");
-    draw_result(&mut drawing, &upright(), Camera::new(ABOVE, [0.0; 3], 62.0, [360.0, 155.0]));
+    draw_result(&mut drawing, &upright(), Camera::new(ABOVE, [0.0; 3], 84.0, [360.0, 155.0]));
     drawing.legend(&[("#7dafdc", "strip"), ("#f0ba5f", "flap")]);
     drawing
 }
