@@ -1,5 +1,7 @@
 //! Edges: which of them are hard, and which of those are chamfered.
 
+mod parted;
+
 use glam::DVec3;
 
 use crate::breaks::{is_hard, seam_between};
@@ -13,6 +15,8 @@ use crate::tolerance::BACK_TO_BACK_COSINE;
 use crate::topology::Topology;
 use crate::view::View;
 use crate::weld::Weld;
+
+pub use parted::{Parted, parted};
 
 /// A hard edge with two sides.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,9 +57,31 @@ pub struct Edges {
     /// Corners of lines, between the ends of an edge that is chamfered: each stands on that edge, or
     /// on the line between that and an earlier one.
     pub spanned: Vec<Corner>,
+    /// The ends at which edges that stay hard part sectors all the same: see [`parted`]; sorted by
+    /// their corners.
+    pub parted: Vec<Parted>,
 }
 
 impl Edges {
+    /// What is parted by the edge of a half-edge where that starts.
+    pub fn parted_at(&self, corner: Corner) -> Option<&Parted> {
+        if self.parted.is_empty() {
+            return None;
+        }
+        let place = self.parted.binary_search_by_key(&corner, |parted| parted.corner).ok()?;
+        Some(&self.parted[place])
+    }
+
+    /// Whether sectors end at a half-edge where that starts.
+    pub fn parts_at_start(&self, side: Corner) -> bool {
+        self.chamfered_at[side].is_some() || self.parted_at(side).is_some()
+    }
+
+    /// Whether sectors end at a half-edge where that ends: there its twin starts.
+    pub fn parts_at_end(&self, topology: &Topology, side: Corner) -> bool {
+        self.chamfered_at[side].is_some() || self.parted_at(topology.twin[side]).is_some()
+    }
+
     /// The largest width asked for of any edge, and at least a given one.
     pub fn widest(&self, least: f64) -> f64 {
         self.hard.iter().map(HardEdge::widest).fold(least, f64::max)
@@ -104,7 +130,8 @@ pub fn edges(
         }
     }
     let spanned = spanned(view, topology, faces, &chamfered_at);
-    Edges { hard, chamfered_at, spanned }
+    let parted = parted(view, topology, faces, &hard, &chamfered_at);
+    Edges { hard, chamfered_at, spanned, parted }
 }
 
 /// The corners across from the long sides of lines that reach such a side to a chamfered edge.

@@ -11,6 +11,7 @@ mod result;
 mod scene;
 mod source;
 mod texture;
+mod widths;
 
 use std::fs;
 use std::path::PathBuf;
@@ -21,13 +22,13 @@ use drawing::Drawing;
 type Draw = fn() -> Drawing;
 
 /// The stages, in the order of the pipeline.
-const FIGURES: [(&str, Draw); 20] = [
+const FIGURES: [(&str, Draw); 21] = [
     ("view", source::view),
     ("weld", source::weld),
     ("topology", source::topology),
     ("faces", source::faces),
     ("contacts", contacts::contacts),
-    ("selection", result::selection),
+    ("selection", widths::selection),
     ("edges", source::edges),
     ("sectors", moves::sectors),
     ("offsets", moves::offsets),
@@ -39,6 +40,7 @@ const FIGURES: [(&str, Draw); 20] = [
     ("strips", result::strips),
     ("fills", result::fills),
     ("verdicts", result::verdicts),
+    ("flaps", widths::flaps),
     ("attributes", texture::attributes),
     ("charts", texture::charts),
     ("output", result::output),

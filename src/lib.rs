@@ -65,6 +65,7 @@ mod ffi;
 #[cfg(test)]
 mod figures;
 mod fills;
+mod flaps;
 mod foot;
 mod given;
 mod groups;

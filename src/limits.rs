@@ -90,7 +90,7 @@ fn shrink(given: &Given, limits: &mut Limits, mut bad: Vec<Element>) -> Vec<Sect
                 Element::Strip(edge) if !contacts_are_kept(given, &limits.placement, edge) => {
                     Reason::Contact
                 }
-                Element::Strip(_) | Element::Fill(_) => Reason::Folds,
+                Element::Strip(_) | Element::Fill(_) | Element::Flap(_) => Reason::Folds,
             };
             blame(given, limits, element, reason, &mut shrunk);
         }

@@ -26,7 +26,7 @@ use crate::mesh::UV_CHANNELS;
 use crate::sectors::{Fan, Sectors};
 use crate::surface::Surface;
 use crate::threads::Threads;
-use crate::tolerance::{CREASE_COSINE, FLAT_COSINE, LEVEL_COSINE, LEVEL_HEIGHT};
+use crate::tolerance::{CREASE_COSINE, FLAT_COSINE, LEAST_SLIDE_SINE, LEVEL_COSINE, LEVEL_HEIGHT};
 use crate::topology::Topology;
 use crate::view::View;
 
@@ -41,10 +41,6 @@ const MITER_LIMIT: f64 = 3.0;
 /// Past this many times a triangle's sides, rounding of its streams shows in what it tells of a
 /// place: then a larger triangle in its plane is asked.
 const FARTHEST: f64 = 16.0;
-
-/// A vertex slides along a border or crease that is at least this far (as a sine, 5.7 degrees)
-/// from the direction of the chamfered edge; nearer, sliding hardly opens the edge.
-const LEAST_SLIDE_SINE: f64 = 0.1;
 
 /// A vertex slides along a seam of the texture where that opens the narrower of its two edges by at
 /// least this share of the wider.
@@ -106,7 +102,7 @@ pub fn offsets(
         }
         unfold(view, topology, sectors, sector, spread);
         let fan = &sectors.fans[sector];
-        let chosen = course(surface, fan, spread, widths(chamfers, fan))
+        let chosen = course(surface, chamfers.edges, fan, spread)
             .and_then(|course| place(view, faces, spread, &course));
         chosen.unwrap_or(Offset {
             vector: DVec3::ZERO,
@@ -206,8 +202,8 @@ struct Course {
 }
 
 /// The widths asked for at a fan's first and at its last edge; at a border, that of the other.
-fn widths(chamfers: Chamfers, fan: &Fan) -> [f64; 2] {
-    let Edges { hard, chamfered_at, .. } = chamfers.edges;
+fn widths(edges: &Edges, fan: &Fan) -> [f64; 2] {
+    let Edges { hard, chamfered_at, .. } = edges;
     let sides = [fan.first, fan.last.prev()];
     let [first, last] = sides.map(|side| chamfered_at[side]);
     // The last half-edge ends here: the other side of its edge starts here.
@@ -217,14 +213,17 @@ fn widths(chamfers: Chamfers, fan: &Fan) -> [f64; 2] {
     [first.unwrap_or(any), last.unwrap_or(any)]
 }
 
-fn course(surface: Surface, fan: &Fan, spread: &[Blade], widths: [f64; 2]) -> Option<Course> {
-    let Surface { view, topology, faces } = surface;
+fn course(surface: Surface, edges: &Edges, fan: &Fan, spread: &[Blade]) -> Option<Course> {
+    let (Surface { view, topology, faces }, widths) = (surface, widths(edges, fan));
     let (first, last) = (spread.first()?, spread.last()?);
     let total = last.start.plus(last.angle);
     match (fan.starts_at_border, fan.ends_at_border()) {
         // Light would show where one of the solids left the contact.
         _ if holds_contact(topology, spread) => None,
         (true, true) => None,
+        _ if !edges.parted.is_empty() && is_parted(topology, edges, fan) => {
+            slide_parted(surface, edges, (fan, spread), widths)
+        }
         // Parts that only touch, as at a T-junction, would gape where one of them moves.
         (true, false) | (false, true) if fan.borders_meet => None,
         // At a border the vertex has to stay on it, which no hard edge inside the fan allows.
@@ -244,6 +243,32 @@ fn course(surface: Surface, fan: &Fan, spread: &[Blade], widths: [f64; 2]) -> Op
             Crease::Several => None,
         },
     }
+}
+
+/// Whether a fan begins or ends at an edge that stays hard.
+fn is_parted(topology: &Topology, edges: &Edges, fan: &Fan) -> bool {
+    let last = fan.last.prev();
+    edges.parted_at(fan.first).is_some()
+        || edges.chamfered_at[last].is_none() && edges.parts_at_end(topology, last)
+}
+
+/// Along the edge that stays hard: the fan's first one, or the one that it goes on behind.
+fn slide_parted(
+    surface: Surface,
+    edges: &Edges,
+    (fan, spread): (&Fan, &[Blade]),
+    [first, last]: [f64; 2],
+) -> Option<Course> {
+    let Some(parted) = edges.parted_at(fan.first) else {
+        let Crease::Hard(blade) = crease(surface.view, surface.faces, spread) else { return None };
+        return slide(blade.corner, Turn::ZERO, &[(blade.start, first)]);
+    };
+    if edges.chamfered_at[fan.last.prev()].is_some() {
+        let whole = spread.last()?;
+        return slide(fan.first, Turn::ZERO, &[(whole.start.plus(whole.angle), last)]);
+    }
+    let (corner, distance) = (fan.first, parted.width);
+    Some(Course { corner, angle: Turn::ZERO, distance, is_capped: false })
 }
 
 /// Whether solids touch along an edge inside the fan.

@@ -8,13 +8,15 @@ mod submeshes;
 
 use crate::attributes::Attributes;
 use crate::charts::Charts;
+use crate::flaps::Flap;
 use crate::ids::{Cluster, Corner, Id, Patch};
 use crate::mesh::MeshBuffers;
 use crate::options::ChamferSubmesh;
 use crate::patches::Patches;
 use crate::report::{Chamfered, TriangleKind, TriangleSource, VertexSources};
+use crate::resample::blended_normal;
 use crate::scale::Space;
-use crate::view::View;
+use crate::view::{View, wide};
 use crate::weld::Weld;
 
 use submeshes::{Submeshes, Triangles};
@@ -40,19 +42,19 @@ pub fn unchanged(view: &View, target: ChamferSubmesh) -> Chamfered {
 pub fn output(
     space: Space,
     weld: &Weld,
-    patches: &Patches,
-    charts: &Charts,
+    (patches, charts, flaps): (&Patches, &Charts, &[Flap]),
     attributes: Attributes,
     target: ChamferSubmesh,
 ) -> Chamfered {
-    let submeshes =
-        Submeshes::of_source(space.source, target, &attributes, patches.triangle_count());
+    let room = patches.triangle_count() + flaps.len();
+    let submeshes = Submeshes::of_source(space.source, target, &attributes, room);
     let mut result = Result { space, weld, attributes, submeshes, vertices: Vec::new() };
     for patch in (0..patches.len()).map(Patch::new) {
         if !patches.parts(patch).triangles.is_empty() {
             result.add(patches, charts, patch);
         }
     }
+    flaps.iter().for_each(|flap| result.add_flap(flap));
     result.finish()
 }
 
@@ -79,6 +81,20 @@ impl Result<'_> {
             let vertices = triangle.map(|place| self.vertices[place as usize]);
             self.submeshes.add(face, vertices, TriangleSource { kind, index });
         }
+    }
+
+    /// A flap belongs to the face that it continues, whatever becomes of chamfers.
+    fn add_flap(&mut self, Flap { joints, place }: &Flap) {
+        let space = self.space;
+        let [across, own, end] = joints.map(|joint| self.attributes.vertex_at[joint]);
+        let cluster = self.cluster_at(joints[0]);
+        let streams = &mut self.attributes.streams;
+        let at = wide(streams.vertices.positions[across as usize]);
+        let normal = blended_normal(space.source, place);
+        let across = streams.add_between(space.source, cluster, (at, normal), (*place, None));
+        let (kind, index) = (TriangleKind::Corner, space.source.vertex_at(joints[0]).0);
+        let face = joints[2].triangle();
+        self.submeshes.add_beside(face, [across, own, end], TriangleSource { kind, index });
     }
 
     /// Each joint has the vertex of its corner, or a copy of it that takes something from another

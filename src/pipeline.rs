@@ -9,6 +9,7 @@ use crate::edges::{edges, may_be_hard};
 use crate::error::Error;
 use crate::evenness::evenness;
 use crate::faces::faces;
+use crate::flaps::{Flap, flaps};
 use crate::given::{Given, deep};
 use crate::ids::{IdVec, Sector};
 use crate::inside_out::{is_inside_out, turned_back, turned_normals};
@@ -255,12 +256,13 @@ fn chamfer_shape(
     (threads, done): (&Threads, &mut Done),
 ) -> Result<Chamfered, Error> {
     let made = make(space, (&shape, &offsets), options, (threads, done))?;
-    let Made { patches, charts, attributes, verdicts: (verdicts, totals) } = made;
+    let Made { patches, charts, flaps, attributes, verdicts: (verdicts, totals) } = made;
     let largest_width = (shape.edges.widest(space.measured.width) / space.largest()) as f32;
     // What the output does not read is given back: it is where a call needs the most memory.
     let Shape { weld, topology, faces, contacts, edges, sectors } = shape;
     drop((offsets, topology, faces, contacts, edges, sectors));
-    let output = output(space, &weld, &patches, &charts, attributes, options.chamfer_submesh);
+    let parts = (&patches, &charts, &flaps[..]);
+    let output = output(space, &weld, parts, attributes, options.chamfer_submesh);
     let scale = space.scale.map(|_| options.scale);
     Ok(Chamfered { verdicts, totals, largest_width, scale, ..output })
 }
@@ -269,6 +271,7 @@ fn chamfer_shape(
 struct Made {
     patches: Patches,
     charts: Charts,
+    flaps: Vec<Flap>,
     attributes: Attributes,
     verdicts: (Vec<EdgeVerdict>, Totals),
 }
@@ -299,5 +302,6 @@ fn make(
     done(Stage::Attributes)?;
     let charts = charts(surface, chamfers, placement, &patches, &attributes, threads);
     done(Stage::Charts)?;
-    Ok(Made { patches, charts, attributes, verdicts })
+    let flaps = flaps(surface, chamfers, placement);
+    Ok(Made { patches, charts, flaps, attributes, verdicts })
 }

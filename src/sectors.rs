@@ -118,6 +118,9 @@ pub fn sectors(view: &View, topology: &Topology, edges: &Edges, contacts: &Conta
             add_fan(topology, edges, &mut sectors, side.next());
         }
     }
+    for parted in &edges.parted {
+        add_fan(topology, edges, &mut sectors, parted.corner);
+    }
     for hidden in &topology.hidden {
         add_follower(topology, edges, &mut sectors, hidden);
     }
@@ -157,13 +160,13 @@ fn add_fan(topology: &Topology, edges: &Edges, sectors: &mut Sectors, corner: Co
         return;
     }
     let mut first = corner;
-    while edges.chamfered_at[first].is_none() && topology.twin[first].is_some() {
+    while !edges.parts_at_start(first) && topology.twin[first].is_some() {
         first = topology.twin[first].next();
     }
     let sector = Sector::new(sectors.fans.len());
     let mut last = first;
     sectors.sector_of[last] = sector;
-    while edges.chamfered_at[last.prev()].is_none() && topology.twin[last.prev()].is_some() {
+    while !edges.parts_at_end(topology, last.prev()) && topology.twin[last.prev()].is_some() {
         last = topology.twin[last.prev()];
         sectors.sector_of[last] = sector;
     }

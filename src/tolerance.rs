@@ -113,3 +113,7 @@ pub const LEAST_LEAN: f64 = 0.002;
 
 /// Rounding of the angle between faces, as a cosine: a right angle counts as 90 degrees.
 pub const ANGLE_ROUNDING: f64 = 1e-6;
+
+/// A vertex slides along a border or crease that is at least this far (as a sine, 5.7 degrees)
+/// from the direction of the chamfered edge; nearer, sliding hardly opens the edge.
+pub const LEAST_SLIDE_SINE: f64 = 0.1;

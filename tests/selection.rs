@@ -12,8 +12,8 @@ use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 use chamfer::check::{assert_sound, check};
 use chamfer::{
-    Chamfered, Convexity, EdgeFactor, Factors, Mesh, MeshBuffers, Options, Outcome, Reason, Verify,
-    Width, WidthMode, chamfer, shapes,
+    Chamfered, Convexity, EdgeFactor, EdgeVerdict, Factors, Mesh, MeshBuffers, Options, Outcome,
+    Reason, Verify, Width, WidthMode, chamfer, shapes,
 };
 use glam::{DMat3, DVec3};
 use proptest::prelude::*;
@@ -84,6 +84,121 @@ proptest! {
         let result = chamfer(&mesh, &options.with_verify(verify)).unwrap();
         let findings = check(&mesh, &result, verify);
         prop_assert!(findings.is_sound(), "{findings}");
+    }
+}
+
+/// All hard edges of a mesh, each with whether it is wanted.
+fn listed(mesh: &MeshBuffers, wanted: impl Fn(usize, [[f32; 3]; 2]) -> bool) -> Vec<EdgeFactor> {
+    let all = chamfer(&mesh.as_mesh(), &Options::default()).unwrap().verdicts;
+    let place = |v: u32| mesh.positions[v as usize];
+    let is_wanted = |(k, edge): &(usize, [u32; 2])| wanted(*k, edge.map(place));
+    let wanted = all.iter().map(|edge| edge.vertices).enumerate().filter(is_wanted);
+    wanted.map(|(_, vertices)| EdgeFactor { vertices, factor: 1.0 }).collect()
+}
+
+fn with_edges(mesh: &MeshBuffers, edges: &[EdgeFactor], width: f32) -> Chamfered {
+    let factors = Factors { edges, ..Factors::default() };
+    let mesh = Mesh { factors, ..mesh.as_mesh() };
+    let options = Options::default().with_width(Width::Units(width)).with_verify(Verify::Full);
+    let result = chamfer(&mesh, &options).unwrap();
+    assert_sound("some edges", &mesh, &result);
+    result
+}
+
+/// The triangles whose corners all lie at a height along an axis, and so the cap there.
+fn cap(mesh: &MeshBuffers, axis: usize, height: f32) -> Vec<[usize; 3]> {
+    let triangles = mesh.indices.chunks(3).map(|t| [0, 1, 2].map(|k| t[k] as usize));
+    triangles.filter(|t| t.iter().all(|&v| mesh.positions[v][axis] == height)).collect()
+}
+
+fn area(mesh: &MeshBuffers, triangles: &[[usize; 3]]) -> f64 {
+    let at = |v: usize| DVec3::from(mesh.positions[v].map(f64::from));
+    let double = triangles.iter().map(|&[a, b, c]| (at(b) - at(a)).cross(at(c) - at(a)).length());
+    double.sum::<f64>() / 2.0
+}
+
+//   .-----.        .---.     only the upright edges are chamfered: each corner of the caps is cut
+//  /       \      /     \    off, and what is left stays flat and hard, and closes
+// .         .    |       |
+#[test]
+fn chamfers_between_edges_that_stay_hard_cut_the_corners_of_the_caps_off() {
+    for sides in 3..9 {
+        let prism = shapes::prism(sides);
+        let edges = listed(&prism, |_, [from, to]| from[2] != to[2]);
+        assert_eq!(edges.len(), sides as usize);
+        let result = with_edges(&prism, &edges, 0.05);
+        let chamfered = || result.verdicts.iter().filter(|edge| edge.reason == Reason::None);
+        assert_eq!(chamfered().count(), sides as usize, "{sides}");
+        assert!(chamfered().all(|edge| edge.outcome == Outcome::Full));
+        let is_asked = |width: &f32| (width - 0.05).abs() < 1e-6;
+        assert!(chamfered().all(|edge| edge.widths.iter().all(is_asked)), "at both ends");
+        let left = cap(&result.mesh, 2, 1.0);
+        let normal = prism.normals[cap(&prism, 2, 1.0)[0][0]];
+        assert!(left.iter().flatten().all(|&v| result.mesh.normals[v] == normal), "{sides}");
+        let angle = std::f64::consts::PI * (1.0 - 2.0 / f64::from(sides));
+        let cut = f64::from(sides) * 0.05_f64.powi(2) * angle.sin() / 2.0;
+        let whole = area(&prism, &cap(&prism, 2, 1.0));
+        assert!((area(&result.mesh, &left) - (whole - cut)).abs() < 1e-5, "{sides}");
+    }
+}
+
+#[test]
+fn the_texture_goes_on_where_a_face_is_cut() {
+    let cube = shapes::cube(1.0);
+    let edges = listed(&cube, |_, [from, to]| from[1] != to[1]);
+    let result = with_edges(&cube, &edges, 0.1).mesh;
+    let uv = |mesh: &MeshBuffers, v: usize| [0, 1].map(|k| mesh.uvs[0].values[2 * v + k]);
+    for height in [-0.5, 0.5] {
+        // On the whole face the texture is a linear map of the place.
+        let [a, b, c] = cap(&cube, 1, height)[0];
+        let source = |v: usize| DVec3::from(cube.positions[v].map(f64::from));
+        let (ab, ac) = (source(b) - source(a), source(c) - source(a));
+        let normal = ab.cross(ac);
+        let triangles = cap(&result, 1, height);
+        assert_eq!(triangles.len(), 2 + 4, "four corners are cut off");
+        for &v in triangles.iter().flatten() {
+            let way = DVec3::from(result.positions[v].map(f64::from)) - source(a);
+            let along = [way.cross(ac), ab.cross(way)];
+            let [s, t] = along.map(|part| part.dot(normal) / normal.length_squared());
+            let [at_a, at_b, at_c] = [a, b, c].map(|v| uv(&cube, v).map(f64::from));
+            for k in 0..2 {
+                let expected = at_a[k] + s * (at_b[k] - at_a[k]) + t * (at_c[k] - at_a[k]);
+                let found = f64::from(uv(&result, v)[k]);
+                assert!((found - expected).abs() < 1e-6, "{found} for {expected}");
+            }
+            assert_eq!(result.tangents[v], cube.tangents[a]);
+        }
+    }
+}
+
+/// Boxes, prisms and pyramids.
+fn convex() -> impl Strategy<Value = MeshBuffers> {
+    let boxes = prop::array::uniform3(0.5..2.0f32).prop_map(|sizes| {
+        let mut mesh = shapes::plain_cube(1.0);
+        for at in &mut mesh.positions {
+            *at = [0, 1, 2].map(|axis| at[axis] * sizes[axis]);
+        }
+        mesh
+    });
+    prop_oneof![boxes, (3..8u32).prop_map(shapes::prism), (3..7u32).prop_map(shapes::pyramid),]
+}
+
+proptest! {
+    #![proptest_config(config(300))]
+
+    // Whatever meets at its ends, and stays hard: on a convex solid each chamfer opens.
+    #[test]
+    fn any_edges_of_a_convex_solid_can_be_chamfered_alone(
+        mesh in convex(),
+        wanted in any::<u32>(),
+    ) {
+        let edges = listed(&mesh, |k, _| wanted >> (k % 32) & 1 == 1);
+        if edges.is_empty() {
+            return Ok(());
+        }
+        let result = with_edges(&mesh, &edges, 0.02);
+        let opens = |edge: &&EdgeVerdict| edge.outcome != Outcome::Skipped;
+        prop_assert_eq!(result.verdicts.iter().filter(opens).count(), edges.len());
     }
 }
 

@@ -1,20 +1,22 @@
 //! Measures how a folder of models is chamfered: soundness, coverage and width.
 //!
 //! `cargo run --release --example measure -- [--full] [--verbose] [--reach] [--compare]
-//! [--unlike SEED] [--evenness SHARE] [--only NAME] [--folder DIR] PERCENT..`
+//! [--unlike SEED] [--normals] [--evenness SHARE] [--only NAME] [--folder DIR] PERCENT..`
 //!
 //! `--reach` also tells how wide the chamfers could be where neighbours leave them half of the way
 //! to each other: width that is lost beyond that is lost to the triangles, not to the shape; how much
 //! of what has room for the whole width gets it; and how even the widths are.
 //! `--compare` also checks each result as `chamfer check` does, by what went in and what came out
 //! alone. `--unlike` gives each vertex and each submesh a factor at random, some of them 0, and takes
-//! a range of angles, a convexity and a width mode at random for each file.
+//! a range of angles, a convexity and a width mode at random for each file. `--normals` counts by
+//! what angles normals differ where vertices are split: what `hard_angle` tells apart.
 
 mod fits;
 mod ground;
 #[allow(dead_code)] // Tests use more of it.
 #[path = "../../tests/corpus/measure.rs"]
 mod measure;
+mod normals;
 mod reach;
 
 use std::path::{Path, PathBuf};
@@ -23,6 +25,7 @@ use chamfer::check::{check, compare};
 use chamfer::{Chamfered, Convexity, Mesh, Options, Verify, Width, WidthMode};
 use fits::Fits;
 use measure::{FOLDER, Measured, Sum, Unlike, measure_with, models};
+use normals::Angles;
 
 /// What was asked for on the command line.
 struct Request {
@@ -31,6 +34,7 @@ struct Request {
     is_verbose: bool,
     is_reach_asked: bool,
     is_compared: bool,
+    are_normals_asked: bool,
     unlike: Option<u32>,
     only: Option<String>,
     folder: String,
@@ -45,6 +49,7 @@ impl Request {
             is_verbose: false,
             is_reach_asked: false,
             is_compared: false,
+            are_normals_asked: false,
             unlike: None,
             only: None,
             folder: FOLDER.to_owned(),
@@ -55,6 +60,7 @@ impl Request {
                 "--full" => request.verify = Verify::Full,
                 "--verbose" => request.is_verbose = true,
                 "--reach" => request.is_reach_asked = true,
+                "--normals" => request.are_normals_asked = true,
                 "--compare" => request.is_compared = true,
                 "--unlike" => request.unlike = arguments.next().and_then(|seed| seed.parse().ok()),
                 "--evenness" => {
@@ -80,16 +86,19 @@ impl Request {
 fn main() {
     let request = Request::new(std::env::args().skip(1));
     for &percent in &request.percents {
-        let (mut sum, mut reaches) = (Sum::default(), Vec::new());
-        let mut all_fits = Vec::new();
+        let (mut sum, mut more) = (Sum::default(), More::default());
         for path in request.paths() {
-            sum.extend(&of_file(&request, &path, percent, &mut reaches, &mut all_fits));
+            sum.extend(&of_file(&request, &path, percent, &mut more));
         }
         println!("{percent} %: {sum}");
         if request.is_reach_asked {
+            let reaches = &more.reaches;
             let mean = reaches.iter().sum::<f64>() / reaches.len().max(1) as f64;
             println!("within reach, by mesh: {:.2} %", mean * 100.0);
-            print_fits(&all_fits);
+            print_fits(&more.fits);
+        }
+        if request.are_normals_asked {
+            print!("{}", more.angles);
         }
     }
 }
@@ -122,18 +131,23 @@ fn print_fits(all: &[Fits]) {
     );
 }
 
+/// What is only measured where it is asked for.
+#[derive(Default)]
+struct More {
+    reaches: Vec<f64>,
+    fits: Vec<Fits>,
+    angles: Angles,
+}
+
 /// Measures a file, and prints what is wrong with it.
-fn of_file(
-    request: &Request,
-    path: &Path,
-    percent: f32,
-    reaches: &mut Vec<f64>,
-    all_fits: &mut Vec<Fits>,
-) -> Vec<Measured> {
+fn of_file(request: &Request, path: &Path, percent: f32, more: &mut More) -> Vec<Measured> {
     let inspect = |before: &Mesh, after: &Chamfered| {
         if request.is_reach_asked && after.totals.hard_edges > 0 {
-            reaches.push(reach::reach(before, after));
-            all_fits.push(fits::fits(before, after));
+            more.reaches.push(reach::reach(before, after));
+            more.fits.push(fits::fits(before, after));
+        }
+        if request.are_normals_asked {
+            more.angles.add(before);
         }
         if request.is_compared {
             print_compared(path, percent, before, after);

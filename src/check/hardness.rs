@@ -1,8 +1,15 @@
 //! Hard edges that were not there before.
 
+use glam::DVec3;
+
 use super::origins::Origins;
 use super::rules::{Element, Findings, Rule};
+use super::stored::normal_with_area;
 use super::surface::{HalfEdge, Surface};
+
+/// A triangle whose normals lean by less (two degrees) from its own is shaded as flat: those of a
+/// face may by one, and the corners of a small one are rounded.
+const FLAT_COSINE: f64 = 0.999_4;
 
 /// Every hard edge is one of the source's, between the same two triangles; where some of those are
 /// not found, one that is not between two that are may be theirs. Where a chamfer tapers
@@ -29,8 +36,10 @@ pub(super) fn check_hard_edges(
             _ if findings.lost > 0 => true,
             _ => [0, 1].iter().all(|&end| {
                 let corners = [forward.corners[end], backward.corners[1 - end]];
-                let is_left =
-                    |&corner: &u32| old_normals.binary_search(&normal_at(after, corner)).is_ok();
+                let is_left = |&corner: &u32| {
+                    old_normals.binary_search(&normal_at(after, corner)).is_ok()
+                        || continues_face(after, origins, corner / 3)
+                };
                 after.share_normal(corners) || corners.iter().all(is_left)
             }),
         };
@@ -73,6 +82,17 @@ fn hard_corners(surface: &Surface) -> Vec<bool> {
         }
     }
     hard
+}
+
+/// Whether a new triangle lies flat and is shaded so, as the face that a chamfer has cut it from: a
+/// chamfer that ends beside it may be hard there.
+fn continues_face(after: &Surface, origins: &Origins, triangle: u32) -> bool {
+    let own = normal_with_area(after.triangle(triangle)).map(DVec3::normalize);
+    let is_along = |own: DVec3| {
+        let normals = [0, 1, 2].map(|side| after.normal(3 * triangle + side).normalize_or_zero());
+        normals.iter().all(|normal| normal.dot(own) > FLAT_COSINE)
+    };
+    origins.triangles[triangle as usize].is_none() && own.is_some_and(is_along)
 }
 
 /// A cluster, and the bits of a normal there.

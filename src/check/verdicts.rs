@@ -4,7 +4,7 @@ use super::rules::{Element, Findings, MeasuredEdge, Rule};
 use super::surface::{HalfEdge, Surface};
 use super::widths::Ruler;
 use crate::mesh::Mesh;
-use crate::report::{Chamfered, EdgeVerdict, Outcome, TriangleKind};
+use crate::report::{Chamfered, EdgeVerdict, Outcome, Reason, TriangleKind};
 
 /// How far a verdict's width may be off the measured one, as a share of the width asked for:
 /// rounding in a few places, far below what could be seen.
@@ -127,7 +127,16 @@ fn vertices(surface: &Surface, half_edge: &HalfEdge) -> [u32; 2] {
 
 fn agrees(verdict: &EdgeVerdict, measured: &MeasuredEdge, tolerance: f64) -> bool {
     if verdict.outcome == Outcome::Skipped {
-        return verdict.widths == [0.0; 2] && !measured.is_chamfered();
+        // Where a chamfer ends beside it, an edge that stays hard goes on beside what is cut off.
+        let stays = |end: usize| {
+            let [one, other] = measured.distances[end];
+            !measured.is_open[end] || f64::from(one.min(other)) <= tolerance
+        };
+        let is_left = match verdict.reason {
+            Reason::NotSelected => stays(0) && stays(1),
+            _ => !measured.is_chamfered(),
+        };
+        return verdict.widths == [0.0; 2] && is_left;
     }
     verdict.widths.iter().zip(measured.distances).all(|(&told, [one, other])| {
         (f64::from(told) - (f64::from(one) + f64::from(other)) / 2.0).abs() <= tolerance

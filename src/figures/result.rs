@@ -14,7 +14,7 @@ use crate::stages::stages_of;
 use crate::strips as stage_strips;
 use crate::view::wide;
 
-const ABOVE: [f64; 3] = [0.6, 3.0, 2.0];
+pub const ABOVE: [f64; 3] = [0.6, 3.0, 2.0];
 
 /// The result's triangles, painted by what they are.
 pub fn draw_result(drawing: &mut Drawing, result: &Chamfered, camera: Camera) -> Scene {
@@ -75,9 +75,9 @@ pub fn patches() -> Drawing {
 /// How far patches are drawn above where they are.
 const LIFT: f64 = 0.05;
 
-/// Results of asking for some edges only, or for unlike widths.
+/// Results of asking for some edges only, or for unlike widths: the first row of that figure.
 pub fn selection() -> Drawing {
-    let mut drawing = Drawing::new(720, 300);
+    let mut drawing = Drawing::new(720, 520);
     let asked = |mesh: &MeshBuffers, factors: Factors, options: Options| {
         let mesh = Mesh { factors, ..mesh.as_mesh() };
         crate::chamfer(&mesh, &options).unwrap_or_default()
@@ -111,7 +111,6 @@ pub fn selection() -> Drawing {
         drawing.title(camera.flat(camera.middle()).x, title);
         draw_result(&mut drawing, &result, camera);
     }
-    drawing.legend(&[("#7dafdc", "strip"), ("#f0ba5f", "fill")]);
     drawing
 }
 

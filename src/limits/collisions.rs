@@ -12,6 +12,7 @@ use glam::DVec3;
 use crate::bvh::Kin;
 use crate::error::Error;
 use crate::fills::{middle, ring_fill};
+use crate::flaps::is_open;
 use crate::ids::{Corner, Few, Id, IdVec, Ring, Sector};
 use crate::intersect::{self, Triangle, cutting_pairs};
 use crate::memory;
@@ -21,7 +22,7 @@ use crate::strips;
 use crate::topology::solids;
 
 use super::crowds::{Crowd, Crowds, crowds};
-use super::elements::{Element, around, sectors_of};
+use super::elements::{Element, around, flap_joints, sectors_of};
 use super::{Limits, apply, bad_around, blame, shrink};
 use crate::given::Given;
 
@@ -168,7 +169,7 @@ struct Laid {
 impl Part<'_> {
     fn most_triangles(&self) -> usize {
         let of = |element: &Element| match element {
-            Element::Surface(_) => 1,
+            Element::Surface(_) | Element::Flap(_) => 1,
             Element::Strip(_) => 2,
             Element::Fill(ring) => self.given.chamfers.sectors.ring(*ring).len(),
         };
@@ -215,7 +216,7 @@ impl Part<'_> {
                 .iter()
                 .filter_map(|element| match *element {
                     Element::Surface(triangle) => Some(triangle.corners().map(|c| self.source(c))),
-                    Element::Strip(_) | Element::Fill(_) => None,
+                    Element::Strip(_) | Element::Fill(_) | Element::Flap(_) => None,
                 })
                 .collect();
             let kin = intersect::crowds(&triangles).unwrap_or_default();
@@ -284,6 +285,12 @@ impl Part<'_> {
                 triangles.for_each(|corners| add(corners.map(|place| quad.points[place])));
             }
             Element::Fill(ring) => self.each_of_fill(placement, ring, add),
+            Element::Flap(place) => {
+                let points = flap_joints(given, place).map(|joint| placement.position_at(joint));
+                if is_open(points) {
+                    add(points);
+                }
+            }
         }
     }
 
@@ -328,9 +335,12 @@ fn parts<'a>(given: &'a Given<'a>) -> Vec<Part<'a>> {
         .ids()
         .filter(|&ring| given.chamfers.sectors.ring(ring).len() >= 3);
     let fills = fills.map(|ring| (label(first(ring)), Element::Fill(ring)));
+    let flaps = (0u32..).zip(&given.chamfers.edges.parted);
+    let flaps = flaps.map(|(place, parted)| (label(parted.corner), Element::Flap(place)));
     let mut all: Vec<(u32, Element)> = triangles
         .chain(strips)
         .chain(fills)
+        .chain(flaps)
         .filter(|(label, _)| is_chamfered[*label as usize])
         .collect();
     // They stand in the order of their keys.

@@ -9,7 +9,7 @@ use crate::intersect::Around;
 use crate::placement::Placement;
 use crate::topology::Topology;
 
-use super::elements::Element;
+use super::elements::{Element, flap_joints};
 use crate::given::Given;
 
 /// Where fewer meet, comparing each with each costs less than telling them apart.
@@ -86,6 +86,7 @@ impl Crowds {
                 let sectors = given.chamfers.sectors.ring(ring).iter();
                 self.beside(given, sectors.map(|&sector| given.chamfers.sectors.fans[sector].first))
             }
+            Element::Flap(place) => self.beside(given, flap_joints(given, place).into_iter()),
         }
     }
 

@@ -1,5 +1,6 @@
 //! Elements: source triangles, strips and fills, and the sectors that they depend on.
 
+use crate::flaps;
 use crate::ids::{Corner, Edge, Few, Ring, Sector, Triangle};
 use crate::strips;
 
@@ -11,6 +12,8 @@ pub enum Element {
     Surface(Triangle),
     Strip(Edge),
     Fill(Ring),
+    /// By its place among the ends that part sectors.
+    Flap(u32),
 }
 
 impl Element {
@@ -20,6 +23,7 @@ impl Element {
             Element::Surface(triangle) => (0, triangle.0),
             Element::Strip(edge) => (1, edge.0),
             Element::Fill(ring) => (2, ring.0),
+            Element::Flap(place) => (3, place),
         };
         kind << 32 | u64::from(number)
     }
@@ -36,6 +40,10 @@ pub fn sectors_of(given: &Given, element: Element) -> Few<Sector> {
             strips::corners(&given.chamfers.edges.hard[edge]).into_iter().map(sector_of).collect()
         }
         Element::Fill(ring) => Few::from_slice(given.chamfers.sectors.ring(ring)),
+        Element::Flap(place) => {
+            let sectors = flap_joints(given, place).into_iter().map(sector_of);
+            sectors.filter(|sector| sector.is_some()).collect()
+        }
     }
 }
 
@@ -57,4 +65,24 @@ pub fn elements_of<'a>(given: &'a Given<'a>, sector: Sector) -> impl Iterator<It
         .map(|corner| Element::Surface(corner.triangle()))
         .chain(sides.into_iter().filter(|edge| edge.is_some()).map(Element::Strip))
         .chain(std::iter::once(Element::Fill(fan.ring)))
+        .chain(flaps_of(given, sector))
+}
+
+/// The joints of a flap.
+pub fn flap_joints(given: &Given, place: u32) -> [Corner; 3] {
+    flaps::joints(given.surface.topology, &given.chamfers.edges.parted[place as usize])
+}
+
+/// The flaps that depend on a sector.
+fn flaps_of(given: &Given, sector: Sector) -> Few<Element> {
+    let (parted, twin) = (&given.chamfers.edges.parted, &given.surface.topology.twin);
+    if parted.is_empty() {
+        return Few::new();
+    }
+    let sectors = given.chamfers.sectors;
+    let last = sectors.fans[sector].last.prev();
+    let corners = sectors.corners(given.surface.topology, sector);
+    let ends = corners.flat_map(|corner| [corner, twin[corner]]).chain([twin[last]]);
+    let place = |end: Corner| parted.binary_search_by_key(&end, |parted| parted.corner).ok();
+    ends.filter_map(place).map(|place| Element::Flap(place as u32)).collect()
 }

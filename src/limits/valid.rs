@@ -4,13 +4,14 @@ use glam::DVec3;
 
 use crate::contacts::Wedge;
 use crate::fills;
+use crate::flaps;
 use crate::ids::{Edge, Ring, Triangle};
 use crate::math::{area_vector, unit};
 use crate::placement::Placement;
 use crate::strips;
 use crate::validity::{opens_along, stays_line, survives};
 
-use super::elements::Element;
+use super::elements::{Element, flap_joints};
 use crate::given::Given;
 use crate::room::breadth;
 
@@ -28,7 +29,9 @@ pub fn bad_elements(given: &Given, placement: &Placement) -> Vec<Element> {
         threads.filter(given.chamfers.sectors.rings.len(), |ring| is_bad(Element::Fill(ring)));
     let surface = triangles.into_iter().map(Element::Surface);
     let strips = edges.into_iter().map(Element::Strip);
-    surface.chain(strips).chain(rings.into_iter().map(Element::Fill)).collect()
+    let flaps =
+        (0..given.chamfers.edges.parted.len() as u32).map(Element::Flap).filter(|&e| is_bad(e));
+    surface.chain(strips).chain(rings.into_iter().map(Element::Fill)).chain(flaps).collect()
 }
 
 fn is_touched(given: &Given, triangle: Triangle) -> bool {
@@ -43,6 +46,11 @@ pub fn is_valid(given: &Given, placement: &Placement, element: Element) -> bool 
             strip_is_valid(given, placement, edge) && contacts_are_kept(given, placement, edge)
         }
         Element::Fill(ring) => fill_is_valid(given, placement, ring),
+        Element::Flap(place) => {
+            let joints = flap_joints(given, place);
+            let points = joints.map(|joint| placement.position_at(joint));
+            flaps::is_valid(given.surface, joints, points)
+        }
     }
 }
 

@@ -84,12 +84,23 @@ impl Submeshes {
         self.parts[submesh].sources.push(source);
     }
 
+    /// Adds a new triangle to the submesh of a face.
+    pub fn add_beside(&mut self, face: Triangle, vertices: [u32; 3], source: TriangleSource) {
+        let submesh = self.of_source_triangle(face);
+        self.parts[submesh].indices.extend_from_slice(&vertices);
+        self.parts[submesh].sources.push(source);
+    }
+
+    fn of_source_triangle(&self, triangle: Triangle) -> usize {
+        self.starts.partition_point(|&start| start <= triangle.0) - 1
+    }
+
     /// Where a new triangle goes whose owner's face is the given one.
     fn of_new(&self, owner: Triangle) -> usize {
         match self.target {
             ChamferSubmesh::Given(submesh) => submesh as usize,
             ChamferSubmesh::Own => self.parts.len() - 1,
-            ChamferSubmesh::Owner => self.starts.partition_point(|&start| start <= owner.0) - 1,
+            ChamferSubmesh::Owner => self.of_source_triangle(owner),
         }
     }
 

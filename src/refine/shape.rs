@@ -2,7 +2,7 @@
 
 use super::Refined;
 use crate::contacts::Contacts;
-use crate::edges::{Edges, HardEdge, seam_channels};
+use crate::edges::{Edges, HardEdge, parted, seam_channels};
 use crate::faces::{Faces, own_normal};
 use crate::ids::{Cluster, Corner, Edge, Id, IdVec, Triangle};
 use crate::report::Reason;
@@ -103,6 +103,7 @@ fn edges(
         chamfered_at: IdVec::filled(Edge::NONE, fine.corner_count()),
         // Lines are never cut.
         spanned: coarse.spanned.clone(),
+        parted: Vec::new(),
     };
     for edge in coarse.hard.iter() {
         for side in refined.parts_of_side(edge.sides[0]) {
@@ -119,6 +120,7 @@ fn edges(
             }
         }
     }
+    edges.parted = parted(fine, topology, faces, &edges.hard, &edges.chamfered_at);
     edges
 }
 

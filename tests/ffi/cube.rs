@@ -85,6 +85,7 @@ pub fn options() -> chamfer_options {
         convexity: 99,
         hard_angle: 99.0,
         scale: [99.0; 9],
+        evenness: 99.0,
     };
     // SAFETY: the struct states its size.
     let status = unsafe { (crate::library::LIBRARY.chamfer_options_init)(&mut options) };
