@@ -185,8 +185,9 @@ impl<'a> Stream<'a> {
         let Some(was) = self.beside_normal(was, vertex).try_normalize() else { return false };
         let Slack::Exact(share) = slack else { return now.dot(was) > 0.0 };
         let spread = DVec3::from([0, 1, 2].map(|component| self.spread(corners, component)));
-        // Past the sides of its triangle, a blend of unlike directions enlarges what was rounded.
-        let enlarged = match spread.length() < SAME_DIRECTION {
+        // Past the sides of its triangle, a blend of unlike tangents enlarges what turning them
+        // beside the normal took.
+        let enlarged = match self.kind != Kind::Tangent || spread.length() < SAME_DIRECTION {
             true => 1.0,
             false => weights.iter().map(|weight| weight.abs()).sum::<f64>().powi(2),
         };

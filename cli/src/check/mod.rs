@@ -1,6 +1,7 @@
 //! `chamfer check`: is a chamfered file sound? The whole-mesh checker of the core, file by file.
 
 mod light;
+mod materials;
 mod pairs;
 mod report;
 mod table;
@@ -10,7 +11,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use anyhow::{Result, anyhow, ensure};
-use chamfer::check::{Findings, Rule, compare};
+use chamfer::check::{Extras, Findings, Rule, compare_with};
 use chamfer::{Chamfered, EdgeVerdict, MeshBuffers, Options, Outcome, Verify};
 use chamfer_formats as formats;
 use chamfer_formats::paths::identity;
@@ -124,6 +125,14 @@ impl Side<'_> {
         &self.document.normals()[self.mesh]
     }
 
+    /// `#submeshes`: the names of its materials, where the format has any.
+    fn materials(&self) -> Vec<Option<String>> {
+        let known = self.document.materials().get(self.mesh).cloned();
+        known.unwrap_or_else(|| {
+            vec![None; self.document.meshes()[self.mesh].mesh.submesh_index_counts.len()]
+        })
+    }
+
     /// The mesh as it is in the file: with the normals that reading repaired.
     fn as_stored(&self) -> MeshBuffers {
         let mut mesh = self.document.meshes()[self.mesh].mesh.clone();
@@ -171,7 +180,16 @@ fn check_pair(
     args: &CheckArgs,
 ) -> MeshCheck {
     let [before, after] = [source.as_stored(), result.as_stored()];
-    let mut findings = compare(&before.as_mesh(), &after.as_mesh(), args.verify.into());
+    let numbers = materials::numbers([&source.materials(), &result.materials()]);
+    let mut extras = Extras::default();
+    if let Some([source, result]) = &numbers {
+        extras = extras.with_materials([source, result]);
+    }
+    let mut findings =
+        compare_with(&before.as_mesh(), &after.as_mesh(), &extras, args.verify.into());
+    if numbers.is_none() {
+        findings.leave_out(Rule::Materials, "the files do not name them all");
+    }
     if result.normals().computed {
         for rule in [Rule::FlatNormal, Rule::HardEdges] {
             findings.leave_out(rule, "the result's normals are not in its file");
