@@ -15,7 +15,7 @@ use chamfer::check::{Extras, Findings, Rule, compare_with};
 use chamfer::{Chamfered, EdgeVerdict, MeshBuffers, Options, Outcome, Verify};
 use chamfer_formats as formats;
 use chamfer_formats::paths::identity;
-use chamfer_formats::{Document, NormalsRead, ReadOptions};
+use chamfer_formats::{Document, Instance, NormalsRead, ReadOptions};
 
 use crate::args::{CheckArgs, CheckDepth};
 use crate::batch::{USAGE, name_of, one_line};
@@ -52,7 +52,10 @@ fn check(args: &CheckArgs) -> Result<Verdict> {
         let source = Side { document: &*before, mesh: source };
         check_pair(source, Side { document: &*after, mesh: result }, expected, args)
     });
-    let checks: Vec<MeshCheck> = checks.collect();
+    let mut checks: Vec<MeshCheck> = checks.collect();
+    for (check, &[source, _]) in checks.iter_mut().zip(&pairs.both) {
+        check.expect_places(&placed_otherwise([&*before, &*after], source));
+    }
     let documents = [&*before as &dyn Document, &*after];
     let report = CheckReport::new(
         [&args.before, &args.after],
@@ -69,6 +72,28 @@ fn check(args: &CheckArgs) -> Result<Verdict> {
         light::draw(path, &name_of(&args.after), documents, &report.see_through)?;
     }
     Ok(report.verdict)
+}
+
+/// How far an entry of a transform may be off, relative to its largest: a few roundings.
+const SAME_PLACE: f32 = 1e-5;
+
+/// The objects of a mesh of the source, by their numbers, that stand otherwise in the result. Where
+/// there are fewer objects or more, they cannot be told apart by number, and each counts that stands
+/// where none does.
+fn placed_otherwise([before, after]: [&dyn Document; 2], mesh: usize) -> Vec<usize> {
+    let [old, new] = [before.instances(), after.instances()];
+    let is_same = |one: &Instance, other: &Instance| {
+        let [one, other] = [one, other].map(|object| object.transform);
+        let [one, other] = [one.as_flattened(), other.as_flattened()];
+        let largest = one.iter().fold(0.0, |most: f32, entry| most.max(entry.abs()));
+        one.iter().zip(other).all(|(a, b)| (a - b).abs() <= SAME_PLACE * largest)
+    };
+    let stands = |(number, object): (usize, &Instance)| match old.len() == new.len() {
+        true => is_same(object, &new[number]),
+        false => new.iter().any(|other| is_same(object, other)),
+    };
+    let objects = old.iter().enumerate().filter(|(_, object)| object.mesh == mesh);
+    objects.filter(|&object| !stands(object)).map(|(number, _)| number).collect()
 }
 
 /// The names of the meshes that are gone. One without triangles is nothing to lose: not every format
