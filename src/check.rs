@@ -5,8 +5,10 @@
 //! input is not held against the output.
 
 mod borders;
+mod carried;
 mod facts;
 mod flatness;
+mod ground;
 mod hardness;
 mod intersections;
 mod matching;
@@ -16,6 +18,7 @@ mod pieces;
 mod rules;
 mod solids;
 mod stored;
+mod streams;
 mod surface;
 mod triangles;
 mod values;
@@ -26,13 +29,16 @@ use crate::mesh::Mesh;
 use crate::options::Verify;
 use crate::report::Chamfered;
 
+use carried::check_carried;
 use facts::facts;
 use origins::Origins;
 use solids::Solids;
 use surface::Surface;
 use widths::Ruler;
 
+pub use carried::Extras;
 pub use rules::{Breach, Element, Facts, Findings, Matching, MeasuredEdge, Rule, Unchecked};
+pub use streams::ExtraStream;
 
 /// Checks a chamfered mesh against its source, with its provenance and verdicts.
 ///
@@ -48,7 +54,9 @@ pub fn check(before: &Mesh, after: &Chamfered, depth: Verify) -> Findings {
     state_facts(&surfaces, &mut findings);
     verdicts::check_counts(before, after, &mut findings);
     if let Some(origins) = Origins::told(before, after, &mut findings) {
-        check_geometry(&surfaces, &origins, depth, &mut findings);
+        let own: Vec<u32> = (0..mesh.submesh_index_counts.len() as u32).collect();
+        let extras = Extras::default().with_materials([&own; 2]);
+        check_geometry(&surfaces, &origins, &extras, depth, &mut findings);
         let ruler = Ruler::new(&surfaces, &origins).in_space_of(after);
         verdicts::check_verdicts(&ruler, after, &mut findings);
     }
@@ -63,6 +71,11 @@ pub fn check(before: &Mesh, after: &Chamfered, depth: Verify) -> Findings {
 /// is what counts ([`Findings::matching`]). The result may have more streams than the source, and
 /// its triangles in other submeshes.
 pub fn compare(before: &Mesh, after: &Mesh, depth: Verify) -> Findings {
+    compare_with(before, after, &Extras::default(), depth)
+}
+
+/// As [`compare`], with what else is known of the two.
+pub fn compare_with(before: &Mesh, after: &Mesh, extras: &Extras, depth: Verify) -> Findings {
     let mut findings = Findings::default();
     values::check_lost_streams(before, after, &mut findings);
     if !well_formed(before, after, &mut findings) {
@@ -70,7 +83,7 @@ pub fn compare(before: &Mesh, after: &Mesh, depth: Verify) -> Findings {
     }
     let surfaces = [before, after].map(Surface::new);
     state_facts(&surfaces, &mut findings);
-    let (origins, mut findings) = likelier_origins(&surfaces, findings);
+    let (origins, mut findings) = likelier_origins(&surfaces, extras, findings);
     if depth != Verify::Fast {
         let [source, result] = &surfaces;
         let before = Solids::new(source);
@@ -82,23 +95,35 @@ pub fn compare(before: &Mesh, after: &Mesh, depth: Verify) -> Findings {
 }
 
 /// By order or by geometry, with what is found that way.
-fn likelier_origins(surfaces: &[Surface; 2], findings: Findings) -> (Origins<'static>, Findings) {
+fn likelier_origins(
+    surfaces: &[Surface; 2],
+    extras: &Extras,
+    findings: Findings,
+) -> (Origins<'static>, Findings) {
     let found_with = |origins: Origins<'static>, matching: Matching| {
         let mut findings = Findings { matching, ..findings.clone() };
         origins.check_lost(&mut findings);
-        check_geometry(surfaces, &origins, Verify::Fast, &mut findings);
+        check_geometry(surfaces, &origins, extras, Verify::Fast, &mut findings);
         (origins, findings)
     };
-    let in_order = Origins::in_order(surfaces).map(|origins| found_with(origins, Matching::Order));
-    match in_order {
-        Some(in_order) if in_order.1.is_sound() => in_order,
-        in_order => {
-            let by_geometry = found_with(Origins::by_geometry(surfaces), Matching::Geometry);
-            in_order
-                .filter(|in_order| in_order.1.defects() <= by_geometry.1.defects())
-                .unwrap_or(by_geometry)
+    let ways = [
+        (Origins::in_order as fn(&[Surface; 2]) -> Option<Origins<'static>>, Matching::Order),
+        (Origins::in_turned_order, Matching::Order),
+        (|surfaces| Some(Origins::by_geometry(surfaces)), Matching::Geometry),
+    ];
+    let mut best: Option<(Origins<'static>, Findings)> = None;
+    for (way, matching) in ways {
+        let Some(found) = way(surfaces).map(|origins| found_with(origins, matching)) else {
+            continue;
+        };
+        if best.as_ref().is_none_or(|(_, best)| found.1.defects() < best.defects()) {
+            best = Some(found);
+        }
+        if best.as_ref().is_some_and(|(_, best)| best.defects() == 0) {
+            break;
         }
     }
+    best.unwrap_or_else(|| found_with(Origins::by_geometry(surfaces), Matching::Geometry))
 }
 
 /// Passes if [`check`] in full depth finds nothing.
@@ -133,6 +158,7 @@ fn state_facts([before, after]: &[Surface; 2], findings: &mut Findings) {
 fn check_geometry(
     surfaces: &[Surface; 2],
     origins: &Origins,
+    extras: &Extras,
     depth: Verify,
     findings: &mut Findings,
 ) {
@@ -148,6 +174,7 @@ fn check_geometry(
     hardness::check_hard_edges(source, result, origins, findings);
     let solids = Solids::new(source);
     findings.edges = Ruler::new(surfaces, origins).measure_all(&solids);
+    check_carried([source, result], origins, extras, findings);
     let solids = [&solids, &solids.carried(result, origins)];
     findings.after.non_manifold_edges = solids[1].crowded_edges(result);
     solids::check_sides([source, result], solids, origins, findings);

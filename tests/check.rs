@@ -432,14 +432,14 @@ fn tangents_that_are_not_right() {
         [before.tangents[5][0], before.tangents[5][1], before.tangents[5][2], 0.5],
     ] {
         let rules = broken(&before, |after| after.mesh.tangents[5] = tangent);
-        assert_eq!(rules, [Rule::Tangents], "{tangent:?}");
+        assert!(rules.contains(&Rule::Tangents), "{tangent:?}: {rules:?}");
     }
 }
 
 #[test]
 fn a_colour_brighter_than_any_before() {
     let rules = broken(&shapes::table(), |after| after.mesh.colors[0][1] = 0.9);
-    assert_eq!(rules, [Rule::Colors]);
+    assert_eq!(rules, [Rule::Colors, Rule::ColorChanged]);
 }
 
 #[test]
@@ -476,7 +476,7 @@ fn a_flat_face_that_bends() {
     let rules = broken(&shapes::plain_cube(1.0), |after| {
         move_cluster(&mut after.mesh, [0.5; 3], [0.5, 0.5, 0.499]);
     });
-    assert_eq!(rules, [Rule::FlatFace]);
+    assert_eq!(rules, [Rule::FlatFace, Rule::Shading]);
 }
 
 #[test]

@@ -72,6 +72,17 @@ impl<'a> Origins<'a> {
         })
     }
 
+    /// By the order of the triangles, each of which may begin at another corner. Pieces are not
+    /// looked for.
+    pub fn in_turned_order(surfaces: &[Surface; 2]) -> Option<Self> {
+        let in_order = Origins::in_order(surfaces)?;
+        let turned = |(triangle, corners): (usize, Option<[u32; 3]>)| {
+            corners.map(|corners| nearest_turn(surfaces, triangle as u32, corners))
+        };
+        let triangles = in_order.triangles.into_iter().enumerate().map(turned).collect();
+        Some(Origins { triangles, cuts: Cuts::new(), vertices: None })
+    }
+
     /// By where the triangles are.
     pub fn by_geometry([before, after]: &[Surface; 2]) -> Self {
         let triangles = match_triangles(before, after);
@@ -178,6 +189,20 @@ impl<'a> Origins<'a> {
         let is_own = self.cuts.get(&triangle).is_none_or(|cut| cut.is_own[side]);
         is_own.then_some(corners[side])
     }
+}
+
+/// The source corners of a triangle's, from the one on that brings them nearest.
+fn nearest_turn([before, after]: &[Surface; 2], triangle: u32, corners: [u32; 3]) -> [u32; 3] {
+    let turned = |by: usize| [0, 1, 2].map(|k| corners[(k + by) % 3]);
+    let distance = |turn: &[u32; 3]| {
+        let apart = |k: usize| {
+            let [old, new] = [turn[k], 3 * triangle + k as u32];
+            before.position(old).distance_squared(after.position(new))
+        };
+        (0..3).map(apart).sum::<f64>()
+    };
+    let turns = [0, 1, 2].map(turned);
+    turns.into_iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(corners)
 }
 
 /// Whether every source triangle is there, in its submesh, in its order; pieces may follow.

@@ -57,6 +57,26 @@ pub enum Rule {
     FlatNormal,
     /// No hard edge where the source has none: strips and fills shade smoothly into their sides.
     HardEdges,
+    /// What is no chamfer lies on the source's surface, and chamfers near it.
+    Place,
+    /// The surface of the source is there, but for what chamfers take.
+    Covered,
+    /// Normals are those of the source at the same place.
+    Shading,
+    /// Tangents are those of the source at the same place, and so is their handedness.
+    TangentTurned,
+    /// Texture coordinates are those of the source at the same place; on chamfers, near it.
+    Texture,
+    /// So are colours.
+    ColorChanged,
+    /// So are the weights of a skin.
+    Skin,
+    /// So are morph targets.
+    Morph,
+    /// So are further values of vertices.
+    Attribute,
+    /// What is no chamfer has the material that the source has there.
+    Materials,
     /// No solid cuts through itself that did not in the source. What is closed across edges of two
     /// sides is a solid; open parts are one where they share an edge.
     SelfIntersection,
@@ -85,6 +105,16 @@ impl Rule {
             Rule::FlatFace => "flat face bent",
             Rule::FlatNormal => "flat normal bent",
             Rule::HardEdges => "new hard edge",
+            Rule::Place => "off the surface",
+            Rule::Covered => "surface missing",
+            Rule::Shading => "normal turned",
+            Rule::TangentTurned => "tangent turned",
+            Rule::Texture => "texture coordinate changed",
+            Rule::ColorChanged => "colour changed",
+            Rule::Skin => "skin changed",
+            Rule::Morph => "morph target changed",
+            Rule::Attribute => "attribute changed",
+            Rule::Materials => "material changed",
             Rule::SelfIntersection => "self-intersection",
         }
     }
@@ -108,6 +138,8 @@ pub enum Element {
     Triangles(u32, u32),
     /// A hard edge of the source, by its vertices.
     SourceEdge(u32, u32),
+    /// A triangle of the source.
+    SourceTriangle(u32),
 }
 
 impl fmt::Display for Element {
@@ -119,6 +151,7 @@ impl fmt::Display for Element {
             Element::Triangle(triangle) => write!(f, "triangle {triangle}"),
             Element::Edge(a, b) => write!(f, "edge {a}-{b}"),
             Element::Triangles(a, b) => write!(f, "triangles {a} and {b}"),
+            Element::SourceTriangle(triangle) => write!(f, "source triangle {triangle}"),
             Element::SourceEdge(a, b) => write!(f, "source edge {a}-{b}"),
         }
     }

@@ -137,11 +137,11 @@ pub(super) fn count_odd(mesh: &Mesh) -> [usize; 2] {
     [odd_normals.count(), odd_tangents.count()]
 }
 
-fn has_right_normal(mesh: &Mesh, vertex: usize) -> bool {
+pub(super) fn has_right_normal(mesh: &Mesh, vertex: usize) -> bool {
     is_unit(vector(&mesh.normals[vertex]))
 }
 
-fn has_right_tangent(mesh: &Mesh, vertex: usize) -> bool {
+pub(super) fn has_right_tangent(mesh: &Mesh, vertex: usize) -> bool {
     let [x, y, z, handedness] = mesh.tangents[vertex];
     let (tangent, normal) = (vector(&[x, y, z]), vector(&mesh.normals[vertex]));
     is_unit(tangent)

@@ -1,6 +1,7 @@
 //! `chamfer check`: is a chamfered file sound? The whole-mesh checker of the core, file by file.
 
 mod light;
+mod materials;
 mod pairs;
 mod report;
 mod table;
@@ -10,11 +11,11 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use anyhow::{Result, anyhow, ensure};
-use chamfer::check::{Findings, Rule, compare};
+use chamfer::check::{Extras, Findings, Rule, compare_with};
 use chamfer::{Chamfered, EdgeVerdict, MeshBuffers, Options, Outcome, Verify};
 use chamfer_formats as formats;
 use chamfer_formats::paths::identity;
-use chamfer_formats::{Document, NormalsRead, ReadOptions};
+use chamfer_formats::{Document, Instance, NormalsRead, ReadOptions};
 
 use crate::args::{CheckArgs, CheckDepth};
 use crate::batch::{USAGE, name_of, one_line};
@@ -51,7 +52,10 @@ fn check(args: &CheckArgs) -> Result<Verdict> {
         let source = Side { document: &*before, mesh: source };
         check_pair(source, Side { document: &*after, mesh: result }, expected, args)
     });
-    let checks: Vec<MeshCheck> = checks.collect();
+    let mut checks: Vec<MeshCheck> = checks.collect();
+    for (check, &[source, _]) in checks.iter_mut().zip(&pairs.both) {
+        check.expect_places(&placed_otherwise([&*before, &*after], source));
+    }
     let documents = [&*before as &dyn Document, &*after];
     let report = CheckReport::new(
         [&args.before, &args.after],
@@ -68,6 +72,28 @@ fn check(args: &CheckArgs) -> Result<Verdict> {
         light::draw(path, &name_of(&args.after), documents, &report.see_through)?;
     }
     Ok(report.verdict)
+}
+
+/// How far an entry of a transform may be off, relative to its largest: a few roundings.
+const SAME_PLACE: f32 = 1e-5;
+
+/// The objects of a mesh of the source, by their numbers, that stand otherwise in the result. Where
+/// there are fewer objects or more, they cannot be told apart by number, and each counts that stands
+/// where none does.
+fn placed_otherwise([before, after]: [&dyn Document; 2], mesh: usize) -> Vec<usize> {
+    let [old, new] = [before.instances(), after.instances()];
+    let is_same = |one: &Instance, other: &Instance| {
+        let [one, other] = [one, other].map(|object| object.transform);
+        let [one, other] = [one.as_flattened(), other.as_flattened()];
+        let largest = one.iter().fold(0.0, |most: f32, entry| most.max(entry.abs()));
+        one.iter().zip(other).all(|(a, b)| (a - b).abs() <= SAME_PLACE * largest)
+    };
+    let stands = |(number, object): (usize, &Instance)| match old.len() == new.len() {
+        true => is_same(object, &new[number]),
+        false => new.iter().any(|other| is_same(object, other)),
+    };
+    let objects = old.iter().enumerate().filter(|(_, object)| object.mesh == mesh);
+    objects.filter(|&object| !stands(object)).map(|(number, _)| number).collect()
 }
 
 /// The names of the meshes that are gone. One without triangles is nothing to lose: not every format
@@ -124,6 +150,14 @@ impl Side<'_> {
         &self.document.normals()[self.mesh]
     }
 
+    /// `#submeshes`: the names of its materials, where the format has any.
+    fn materials(&self) -> Vec<Option<String>> {
+        let known = self.document.materials().get(self.mesh).cloned();
+        known.unwrap_or_else(|| {
+            vec![None; self.document.meshes()[self.mesh].mesh.submesh_index_counts.len()]
+        })
+    }
+
     /// The mesh as it is in the file: with the normals that reading repaired.
     fn as_stored(&self) -> MeshBuffers {
         let mut mesh = self.document.meshes()[self.mesh].mesh.clone();
@@ -171,7 +205,16 @@ fn check_pair(
     args: &CheckArgs,
 ) -> MeshCheck {
     let [before, after] = [source.as_stored(), result.as_stored()];
-    let mut findings = compare(&before.as_mesh(), &after.as_mesh(), args.verify.into());
+    let numbers = materials::numbers([&source.materials(), &result.materials()]);
+    let mut extras = Extras::default();
+    if let Some([source, result]) = &numbers {
+        extras = extras.with_materials([source, result]);
+    }
+    let mut findings =
+        compare_with(&before.as_mesh(), &after.as_mesh(), &extras, args.verify.into());
+    if numbers.is_none() {
+        findings.leave_out(Rule::Materials, "the files do not name them all");
+    }
     if result.normals().computed {
         for rule in [Rule::FlatNormal, Rule::HardEdges] {
             findings.leave_out(rule, "the result's normals are not in its file");

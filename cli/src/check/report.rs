@@ -303,6 +303,19 @@ impl MeshCheck {
         }
     }
 
+    /// Adds the objects of the scene that stand otherwise.
+    pub fn expect_places(&mut self, placed_otherwise: &[usize]) {
+        if !placed_otherwise.is_empty() {
+            self.sound = false;
+            let named = placed_otherwise.iter().take(NAMED_EDGES);
+            self.defects.push(Defect {
+                rule: "object placed otherwise".into(),
+                count: placed_otherwise.len(),
+                first: named.map(|number| format!("object {number}")).collect(),
+            });
+        }
+    }
+
     /// Adds what is known where the width asked for is.
     pub fn expect(&mut self, width: f32, left_without_need: &[[u32; 2]]) {
         self.counts.chamfers.asked = Some(width);

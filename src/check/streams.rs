@@ -1,0 +1,225 @@
+//! The values of vertices, and whether one is that of a place on the source.
+
+use glam::DVec3;
+
+use super::ground::Foot;
+use super::rules::Rule;
+use super::stored::vector;
+use super::surface::Surface;
+use super::values::{has_right_normal, has_right_tangent};
+use crate::mesh::Mesh;
+
+/// How far (two degrees) a unit vector may turn: importers store them in eight bits, and a blend of
+/// some is made unit length.
+const SAME_DIRECTION: f64 = 0.035;
+
+/// A blend of unit vectors that is shorter than this is what is left of ones that cancel out, and
+/// points anywhere.
+const LEAST_DIRECTION: f64 = 0.1;
+
+/// How far a value may be off, relative to the largest of its stream: what formats of twelve bits
+/// and more leave behind.
+const VALUE_TOLERANCE: f64 = 1e-4;
+
+/// The same for colours, which are stored in eight bits.
+const COLOR_TOLERANCE: f64 = 3e-3;
+
+/// The same for weights of a skin, of which only the strongest may stay, in eight bits.
+const SKIN_TOLERANCE: f64 = 3e-2;
+
+/// A stream of the source and what it became.
+pub(super) struct Stream<'a> {
+    /// What is broken where a value is another one.
+    pub rule: Rule,
+    kind: Kind,
+    components: usize,
+    /// `#vertices by components`, of the source and of the result.
+    values: [&'a [f32]; 2],
+    /// How far a value may be off.
+    tolerance: f64,
+    /// `#vertices by 3`, of the result: what a tangent is at a right angle to.
+    normals: &'a [[f32; 3]],
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    /// Three components; the length does not matter.
+    Direction,
+    /// A direction, and its handedness.
+    Tangent,
+    /// Numbers that are blended.
+    Number,
+}
+
+/// How far a value may be off, as a share of how much it differs over a triangle of the source.
+#[derive(Clone, Copy)]
+pub(super) enum Slack {
+    /// That of a place which is known.
+    Exact(f64),
+    /// That of what is new, and only near: its normals bend from one side to the other, and its
+    /// texture may go on from across a seam.
+    Near(f64),
+}
+
+/// A further value of every vertex, such as the weights of a skin.
+#[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
+pub struct ExtraStream<'a> {
+    /// What is broken where a value is another one.
+    pub rule: Rule,
+    /// Floats per vertex.
+    pub components: usize,
+    /// `#vertices by components`, of the source and of the result.
+    pub values: [&'a [f32]; 2],
+}
+
+impl<'a> ExtraStream<'a> {
+    /// Values of the source and of the result (`#vertices by components`), and the rule that they
+    /// follow.
+    pub fn new(rule: Rule, components: usize, values: [&'a [f32]; 2]) -> ExtraStream<'a> {
+        ExtraStream { rule, components, values }
+    }
+}
+
+impl<'a> Stream<'a> {
+    /// All streams that both meshes have. What one of them has alone is judged elsewhere.
+    pub fn all<'b: 'a>(
+        [before, after]: [&'a Mesh<'a>; 2],
+        extras: &[ExtraStream<'b>],
+    ) -> Vec<Stream<'a>> {
+        let [normals, tangents, colors] = [
+            [before.normals.as_flattened(), after.normals.as_flattened()],
+            [before.tangents.as_flattened(), after.tangents.as_flattened()],
+            [before.colors.as_flattened(), after.colors.as_flattened()],
+        ];
+        let new = |rule, kind, components, values| Stream {
+            normals: after.normals,
+            ..Stream::new(rule, kind, components, values)
+        };
+        let mut streams = vec![
+            new(Rule::Shading, Kind::Direction, 3, normals),
+            new(Rule::TangentTurned, Kind::Tangent, 4, tangents),
+            new(Rule::ColorChanged, Kind::Number, 4, colors),
+        ];
+        for (before, after) in before.uvs.iter().zip(&after.uvs) {
+            if before.components == after.components {
+                let values = [before.values, after.values];
+                let components = before.components as usize;
+                streams.push(new(Rule::Texture, Kind::Number, components, values));
+            }
+        }
+        let extra = |e: &ExtraStream<'b>| new(e.rule, Kind::Number, e.components, e.values);
+        streams.extend(extras.iter().map(extra));
+        let vertices = [before.positions.len(), after.positions.len()];
+        streams.retain(|stream| {
+            let counts = stream.values.map(|values| values.len() / stream.components.max(1));
+            stream.components > 0 && counts == vertices && counts[0] > 0
+        });
+        streams
+    }
+
+    fn new(rule: Rule, kind: Kind, components: usize, values: [&'a [f32]; 2]) -> Stream<'a> {
+        let largest = values[0].iter().fold(0.0, |most: f32, value| most.max(value.abs()));
+        let share = match rule {
+            Rule::ColorChanged => COLOR_TOLERANCE,
+            Rule::Skin => SKIN_TOLERANCE,
+            _ => VALUE_TOLERANCE,
+        };
+        Stream {
+            rule,
+            kind,
+            components,
+            values,
+            tolerance: share * f64::from(largest),
+            normals: &[],
+        }
+    }
+
+    /// Whether the value of a vertex of the result is that of a place on a triangle of the source.
+    pub fn is_at(&self, vertex: usize, source: &Surface, foot: Foot, slack: Slack) -> bool {
+        let corners = [0, 1, 2].map(|k| source.vertex(3 * foot.triangle + k));
+        match self.kind {
+            Kind::Number => self.is_number(vertex, corners, foot.weights, slack),
+            // What points nowhere in the source may point anywhere.
+            Kind::Direction => {
+                !corners.iter().all(|&corner| has_right_normal(source.mesh, corner))
+                    || self.is_direction(vertex, corners, foot.weights, slack)
+            }
+            Kind::Tangent => {
+                !corners.iter().all(|&corner| has_right_tangent(source.mesh, corner))
+                    || self.has_handedness(vertex, corners)
+                        && (matches!(slack, Slack::Near(_))
+                            || self.is_direction(vertex, corners, foot.weights, slack))
+            }
+        }
+    }
+
+    fn is_number(
+        &self,
+        vertex: usize,
+        corners: [usize; 3],
+        weights: [f64; 3],
+        slack: Slack,
+    ) -> bool {
+        let (Slack::Exact(share) | Slack::Near(share)) = slack;
+        (0..self.components).all(|component| {
+            let was = self.mean(corners, weights, component);
+            let slack = self.tolerance + share * self.spread(corners, component);
+            (self.value(1, vertex, component) - was).abs() <= slack
+        })
+    }
+
+    fn is_direction(
+        &self,
+        vertex: usize,
+        corners: [usize; 3],
+        weights: [f64; 3],
+        slack: Slack,
+    ) -> bool {
+        let now = DVec3::from([0, 1, 2].map(|component| self.value(1, vertex, component)));
+        let was = DVec3::from([0, 1, 2].map(|component| self.mean(corners, weights, component)));
+        let Some(now) = now.try_normalize() else { return false };
+        if was.length() < LEAST_DIRECTION {
+            return true;
+        }
+        let Some(was) = self.beside_normal(was, vertex).try_normalize() else { return false };
+        let Slack::Exact(share) = slack else { return now.dot(was) > 0.0 };
+        let spread = DVec3::from([0, 1, 2].map(|component| self.spread(corners, component)));
+        // Past the sides of its triangle, a blend of unlike tangents enlarges what turning them
+        // beside the normal took.
+        let enlarged = match self.kind != Kind::Tangent || spread.length() < SAME_DIRECTION {
+            true => 1.0,
+            false => weights.iter().map(|weight| weight.abs()).sum::<f64>().powi(2),
+        };
+        now.distance(was) <= enlarged * SAME_DIRECTION + share * spread.length()
+    }
+
+    /// A tangent without what it has along the normal that the vertex has now.
+    fn beside_normal(&self, tangent: DVec3, vertex: usize) -> DVec3 {
+        match self.kind {
+            Kind::Tangent => {
+                tangent.reject_from(vector(&self.normals[vertex]).normalize_or(tangent))
+            }
+            _ => tangent,
+        }
+    }
+
+    /// Handedness is that of one of the corners.
+    fn has_handedness(&self, vertex: usize, corners: [usize; 3]) -> bool {
+        let sign = |side: usize, vertex: usize| self.value(side, vertex, 3).signum();
+        corners.iter().any(|&corner| sign(0, corner) == sign(1, vertex))
+    }
+
+    fn value(&self, side: usize, vertex: usize, component: usize) -> f64 {
+        f64::from(self.values[side][vertex * self.components + component])
+    }
+
+    fn mean(&self, corners: [usize; 3], weights: [f64; 3], component: usize) -> f64 {
+        (0..3).map(|k| weights[k] * self.value(0, corners[k], component)).sum()
+    }
+
+    fn spread(&self, corners: [usize; 3], component: usize) -> f64 {
+        let [a, b, c] = corners.map(|vertex| self.value(0, vertex, component));
+        a.max(b).max(c) - a.min(b).min(c)
+    }
+}
