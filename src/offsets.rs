@@ -551,13 +551,18 @@ fn narrow(
 ) -> Option<Offset> {
     let Surface { view, topology, faces } = surface;
     let [first, last] = parts(surface, sectors, sector, offset)?;
-    let vector = first * fronts[0] + last * fronts[1];
-    let at = view.position_at(offset.within);
-    let feet = sectors
-        .corners(topology, sector)
-        .filter_map(|corner| Some((corner, locate(view, carrier(faces, corner), at, vector)?)));
+    let sum = first * fronts[0] + last * fronts[1];
+    let corners = sectors.corners(topology, sector);
+    let feet = corners.filter(|corner| !faces.is_line(corner.triangle())).filter_map(|corner| {
+        // Fans are never quite flat: it goes down onto the triangle that it leads over.
+        let normal = faces.normal[corner.triangle()];
+        let vector = sum - normal * sum.dot(normal);
+        let foot = locate(view, corner, view.position_at(corner), vector)?;
+        Some((corner, vector, foot))
+    });
     let inside = |foot: &Foot| foot.along[0].min(foot.along[1]);
-    let (within, foot) = feet.max_by(|one, other| inside(&one.1).total_cmp(&inside(&other.1)))?;
+    let (within, vector, foot) =
+        feet.max_by(|one, other| inside(&one.2).total_cmp(&inside(&other.2)))?;
     Some(Offset { vector, within, foot, fronts, ..*offset })
 }
 
