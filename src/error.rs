@@ -98,6 +98,10 @@ pub enum Error {
     BadWidth(f32),
     /// The breadth that has to stay is no share between 0 and 1.
     BadBreadth(f32),
+    /// The number of segments is none of 1 to 32.
+    BadSegments(u32),
+    /// The profile is no share between 0 and 1.
+    BadProfile(f32),
     /// An angle is out of its range.
     BadAngle {
         /// The option's name.
@@ -187,6 +191,15 @@ impl fmt::Display for Error {
             Error::BadBreadth(share) => {
                 write!(f, "the least breadth is {share}: give a share between 0 and 1")
             }
+            Error::BadSegments(segments) => write!(
+                f,
+                "the number of segments is {segments}: give 1 to {}",
+                crate::options::MOST_SEGMENTS
+            ),
+            Error::BadProfile(profile) => write!(
+                f,
+                "the profile is {profile}: give 0 (flat) to 1 (the old edge), 0.5 for a circle"
+            ),
             Error::BadAngle { option, degrees, most } => {
                 write!(f, "{option} is {degrees}: give degrees from 0 to {most}")
             }

@@ -26,7 +26,9 @@ use crate::rests::Rests;
 use crate::surface::Surface;
 use crate::threads::Threads;
 
-use elements::{Element, around, elements_of, sectors_of};
+pub use elements::Element;
+
+use elements::{around, elements_of, sectors_of};
 use given::Given;
 use valid::{bad_elements, contacts_are_kept, is_valid};
 
@@ -77,6 +79,22 @@ pub fn limits<'a>(
         collisions::resolve(given, &mut limits)?;
     }
     Ok(limits)
+}
+
+/// What cuts where strips and fills are rounded gets less so: see [`collisions::lessen_cuts`].
+///
+/// # Errors
+/// [`Error::OutOfMemory`] where what collisions need is not to be had.
+pub fn lessen_cuts<S: Sync>(
+    (surface, chamfers): (Surface, Chamfers),
+    (offsets, rests): (&IdVec<Sector, Offset>, &Rests),
+    (placement, threads): (&Placement, &Threads),
+    (state, rounded): (&mut S, &collisions::Rounded<S>),
+    lessen: impl FnMut(&mut S, &[Element]) -> bool,
+) -> Result<(), Error> {
+    let deep = given::deep(surface.topology, chamfers.sectors);
+    let given = &Given { surface, chamfers, offsets, rests, deep, threads };
+    collisions::lessen_cuts(given, placement, state, rounded, lessen)
 }
 
 /// Every sector at the width that its own triangles leave room for.

@@ -8,8 +8,8 @@ use crate::contacts::contacts;
 use crate::edges::{edges, may_be_hard};
 use crate::error::Error;
 use crate::faces::faces;
-use crate::ids::{IdVec, Sector};
-use crate::limits::limits;
+use crate::ids::{IdVec, Patch, Sector};
+use crate::limits::{Element, lessen_cuts, limits};
 use crate::memory;
 use crate::mesh::Mesh;
 use crate::offsets::{Known, Offset, offsets as find_offsets};
@@ -19,6 +19,9 @@ use crate::patches::{Patches, patches};
 use crate::refine::{Origins, Refined, refine, restored, shape as finer_shape};
 use crate::report::{Chamfered, EdgeVerdict, Totals};
 use crate::rests::rests;
+use crate::rounding::{
+    Given as Rounds, Lessen, Rounding, Rows, Search, Triangles, rounding,
+};
 use crate::scale::{Scale, Space};
 use crate::scene::{Placed, chamfer_scene};
 use crate::sectors::sectors;
@@ -237,12 +240,13 @@ fn chamfer_shape(
     (threads, done): (&Threads, &mut Done),
 ) -> Result<Chamfered, Error> {
     let made = make(space, (&shape, &offsets), options, (threads, done))?;
-    let Made { patches, charts, attributes, verdicts: (verdicts, totals) } = made;
+    let Made { patches, rounding, charts, attributes, verdicts: (verdicts, totals) } = made;
     let largest_width = (shape.edges.widest(space.measured.width) / space.largest()) as f32;
     // What the output does not read is given back: it is where a call needs the most memory.
     let Shape { weld, topology, faces, contacts, edges, sectors } = shape;
     drop((offsets, topology, faces, contacts, edges, sectors));
-    let output = output(space, &weld, &patches, &charts, attributes, options.chamfer_submesh);
+    let patches = (&patches, rounding.as_ref());
+    let output = output(space, &weld, patches, &charts, attributes, options.chamfer_submesh);
     let scale = space.scale.map(|_| options.scale);
     Ok(Chamfered { verdicts, totals, largest_width, scale, ..output })
 }
@@ -250,6 +254,7 @@ fn chamfer_shape(
 /// All that the output is put together from.
 struct Made {
     patches: Patches,
+    rounding: Option<Rounding>,
     charts: Charts,
     attributes: Attributes,
     verdicts: (Vec<EdgeVerdict>, Totals),
@@ -270,11 +275,28 @@ fn make(
     let placement = &limits.placement;
     done(Stage::Limits)?;
     let patches = patches(view, chamfers, placement, threads);
-    let verdicts = verdicts(view, chamfers, &limits, &patches);
+    let search = |rows: &mut Rows, triangles: &Triangles, lessen: &mut Lessen| {
+        let patch = |element: Element| match element {
+            Element::Surface(_) => None,
+            Element::Strip(edge) => Some(Patch(edge.0)),
+            Element::Fill(ring) => Some(patches.fill_of(ring)),
+        };
+        let rounded = |rows: &Rows, element: Element| triangles(rows, patch(element)?);
+        let lessen = |rows: &mut Rows, cutting: &[Element]| {
+            lessen(rows, &cutting.iter().filter_map(|&e| patch(e)).collect::<Vec<_>>())
+        };
+        let of = (surface, chamfers);
+        lessen_cuts(of, (offsets, &rests), (placement, threads), (rows, &rounded), lessen)
+    };
+    let profile = options.profile.into();
+    let round = Rounds { view, chamfers, placement, profile };
+    let search: Option<&Search> = (options.verify != Verify::Fast).then_some(&search);
+    let rounding = rounding(round, &patches, options.segments, threads, search)?;
+    let verdicts = verdicts(view, chamfers, &limits, (&patches, rounding.as_ref()));
     done(Stage::Patches)?;
     let attributes = attributes(space, surface, weld, chamfers, placement);
     done(Stage::Attributes)?;
     let charts = charts(surface, chamfers, placement, &patches, &attributes, threads);
     done(Stage::Charts)?;
-    Ok(Made { patches, charts, attributes, verdicts })
+    Ok(Made { patches, rounding, charts, attributes, verdicts })
 }

@@ -113,3 +113,10 @@ pub const LEAST_LEAN: f64 = 0.002;
 
 /// Rounding of the angle between faces, as a cosine: a right angle counts as 90 degrees.
 pub const ANGLE_ROUNDING: f64 = 1e-6;
+
+/// A curve that turns by less than this, in radians, is straight: it bends by less than a
+/// thousandth of its length.
+pub const LEAST_TURN: f64 = 1e-3;
+
+/// Between directions whose sine is less than this, the share of the turn is that of the way.
+pub const LEAST_SLERP_SINE: f64 = 1e-6;

@@ -1,7 +1,7 @@
 //! Measures how a folder of models is chamfered: soundness, coverage and width.
 //!
 //! `cargo run --release --example measure -- [--full] [--verbose] [--reach] [--compare]
-//! [--unlike SEED] [--only NAME] [--folder DIR] PERCENT..`
+//! [--unlike SEED] [--segments N] [--profile P] [--only NAME] [--folder DIR] PERCENT..`
 //!
 //! `--reach` also tells how wide the chamfers could be where neighbours leave them half of the way
 //! to each other: width that is lost beyond that is lost to the triangles, not to the shape.
@@ -30,6 +30,8 @@ struct Request {
     only: Option<String>,
     folder: String,
     percents: Vec<f32>,
+    segments: u32,
+    profile: f32,
 }
 
 impl Request {
@@ -43,6 +45,8 @@ impl Request {
             only: None,
             folder: FOLDER.to_owned(),
             percents: Vec::new(),
+            segments: 1,
+            profile: 0.5,
         };
         while let Some(argument) = arguments.next() {
             match argument.as_str() {
@@ -51,6 +55,12 @@ impl Request {
                 "--reach" => request.is_reach_asked = true,
                 "--compare" => request.is_compared = true,
                 "--unlike" => request.unlike = arguments.next().and_then(|seed| seed.parse().ok()),
+                "--segments" => {
+                    request.segments = arguments.next().and_then(|n| n.parse().ok()).unwrap_or(1);
+                }
+                "--profile" => {
+                    request.profile = arguments.next().and_then(|n| n.parse().ok()).unwrap_or(0.5);
+                }
                 "--only" => request.only = arguments.next(),
                 "--folder" => request.folder = arguments.next().unwrap_or(request.folder),
                 percent => request.percents.extend(percent.parse::<f32>().ok()),
@@ -93,8 +103,11 @@ fn of_file(request: &Request, path: &Path, percent: f32, reaches: &mut Vec<f64>)
             print_compared(path, percent, before, after);
         }
     };
-    let options =
-        Options::default().with_width(Width::PercentOfExtent(percent)).with_verify(request.verify);
+    let options = Options::default()
+        .with_width(Width::PercentOfExtent(percent))
+        .with_verify(request.verify)
+        .with_segments(request.segments)
+        .with_profile(request.profile);
     let measured = match request.unlike {
         Some(seed) => {
             let mut noise = Noise(path.as_os_str().len() as u32 ^ seed.wrapping_mul(2_654_435_761));

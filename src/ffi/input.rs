@@ -189,6 +189,8 @@ pub unsafe fn read_options(options: *const chamfer_options) -> Result<Options, F
             zeros if zeros == [0.0; 9] => Options::default().scale,
             axes => [0, 3, 6].map(|first| [axes[first], axes[first + 1], axes[first + 2]]),
         },
+        segments: if options.segments == 0 { 1 } else { options.segments },
+        profile: or_default(options.profile, Options::default().profile),
     })
 }
 
@@ -238,7 +240,8 @@ unsafe impl StatesSize for chamfer_mesh {
 // SAFETY: numbers only, the size first.
 unsafe impl StatesSize for chamfer_options {
     // Before the least breadth there were seven fields, before the width mode eight.
-    const SIZES: &'static [usize] = &[28, 32, size_of::<chamfer_options>()];
+    const SIZES: &'static [usize] =
+        &[28, 32, offset_of!(chamfer_options, segments), size_of::<chamfer_options>()];
 
     fn defaults() -> Self {
         let options = Options::default();
@@ -270,6 +273,8 @@ unsafe impl StatesSize for chamfer_options {
             convexity: CHAMFER_CONVEXITY_BOTH,
             hard_angle: options.hard_angle,
             scale: array::from_fn(|k| options.scale[k / 3][k % 3]),
+            segments: options.segments,
+            profile: options.profile,
         }
     }
 }

@@ -6,6 +6,7 @@ use super::Refined;
 use crate::edges::HardEdge;
 use crate::ids::{Corner, Edge, Few, IdVec, Triangle};
 use crate::math::unit;
+use crate::rounding::joined;
 use crate::mesh::Mesh;
 use crate::report::{
     Blend, Chamfered, EdgeVerdict, Outcome, Piece, Reason, Totals, TriangleKind, TriangleSource,
@@ -66,6 +67,10 @@ impl<'a> Origins<'a> {
                     }
                 }
             }
+        }
+        if terms.len() > 3 {
+            // As on rounded patches: the two that weigh most, and the rest on the first.
+            return joined(|vertex| vertex, terms.into_iter().map(|(v, w)| (Blend::one(v), w)));
         }
         let first = terms[0].0;
         terms.retain(|(vertex, weight)| *vertex == first || *weight != 0.0);
@@ -239,7 +244,9 @@ impl<'a> Verdicts<'a> {
             is_free(one).cmp(&is_free(other)).then(rank(one).total_cmp(&rank(other)))
         });
         let reason = worst.map_or(Reason::None, |verdict| verdict.reason);
-        EdgeVerdict { vertices: self.ends(edge), outcome, reason, widths }
+        let segments = parts.iter().map(|&part| self.of(part).segments);
+        let segments = segments.filter(|&segments| segments > 0).min().unwrap_or(0);
+        EdgeVerdict { vertices: self.ends(edge), outcome, reason, widths, segments }
     }
 
     /// The mean distance of both sides from the old edge at one of its ends.
