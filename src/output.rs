@@ -120,8 +120,9 @@ impl Result<'_> {
     /// lies between points that there are by then.
     fn find_rounded(&mut self, rounded: Rounded, (parts, chart): (Parts, Chart)) {
         let (source, first) = (self.space.source, parts.joints.len());
-        let cluster = self.cluster_at(parts.joints[0]);
         for (point, at) in rounded.points.iter().zip(first..) {
+            let joint = parts.joints.get(point.parents.places[0] as usize);
+            let cluster = self.cluster_at(*joint.unwrap_or(&parts.joints[0]));
             let place = (self.space.back(point.position), self.space.normal_back(point.normal));
             let streams = &mut self.attributes.streams;
             self.vertices.push(if at < first + parts.middles.len() {

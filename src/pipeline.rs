@@ -19,9 +19,7 @@ use crate::patches::{Patches, patches};
 use crate::refine::{Origins, Refined, refine, restored, shape as finer_shape};
 use crate::report::{Chamfered, EdgeVerdict, Totals};
 use crate::rests::rests;
-use crate::rounding::{
-    Given as Rounds, Lessen, Rounding, Rows, Search, Triangles, rounding,
-};
+use crate::rounding::{Given as Rounds, Lessen, Rounding, Rows, Search, Triangles, rounding};
 use crate::scale::{Scale, Space};
 use crate::scene::{Placed, chamfer_scene};
 use crate::sectors::sectors;

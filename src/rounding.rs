@@ -301,7 +301,8 @@ impl Rounding {
 fn ask_for_memory(given: Given, patches: &Patches, rows: &Rows) -> Result<(), Error> {
     let rows_at = |end: End| given.rows_at(rows, end) as u64;
     let (mut points, mut triangles) = (0_u64, 0_u64);
-    for edge in given.chamfers.edges.hard.ids().filter(|&e| !patches.strip(e).triangles.is_empty()) {
+    for edge in given.chamfers.edges.hard.ids().filter(|&e| !patches.strip(e).triangles.is_empty())
+    {
         let [one, other] = rows[edge].map(u64::from);
         points += one + other;
         triangles += one + other;

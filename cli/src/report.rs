@@ -52,6 +52,10 @@ pub struct Asked {
     pub convexity: String,
     /// In degrees.
     pub hard_angle: f32,
+    /// How many segments a chamfer has across.
+    pub segments: u32,
+    /// How these are bent.
+    pub profile: f32,
     /// What stays of the breadth of each face, in percent.
     pub least_breadth: f32,
     /// "seen", "full" or "fast".

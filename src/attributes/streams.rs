@@ -242,12 +242,7 @@ impl Streams {
     }
 
     /// Where a vertex comes from that lies between three others.
-    fn source_between(
-        &self,
-        near: Blend,
-        parents: [u32; 3],
-        weights: [f64; 3],
-    ) -> VertexSource {
+    fn source_between(&self, near: Blend, parents: [u32; 3], weights: [f64; 3]) -> VertexSource {
         let sources = parents.map(|parent| self.sources.get(parent as usize));
         let between = |of: fn(&VertexSource) -> Blend| {
             let blends = sources.iter().map(of).zip(weights);
@@ -390,7 +385,8 @@ fn mean(values: [f32; 3], weights: [f64; 3]) -> f32 {
 /// The mean direction, at a right angle to the normal, with the handedness of what weighs most.
 fn mean_tangent(tangents: [[f32; 4]; 3], weights: [f64; 3], normal: DVec3) -> [f32; 4] {
     let directions = tangents.map(|[x, y, z, _]| wide([x, y, z]));
-    let mixed = directions[0] * weights[0] + directions[1] * weights[1] + directions[2] * weights[2];
+    let mixed =
+        directions[0] * weights[0] + directions[1] * weights[1] + directions[2] * weights[2];
     let mut most = 0;
     for k in 1..3 {
         if weights[k] > weights[most] {

@@ -300,12 +300,7 @@ impl Part<'_> {
     }
 
     /// All triangles of the part where the sectors stand now.
-    fn lay_out(
-        &self,
-        placement: &Placement,
-        open: &[Element],
-        rounded: Option<&Lay>,
-    ) -> Vec<Laid> {
+    fn lay_out(&self, placement: &Placement, open: &[Element], rounded: Option<&Lay>) -> Vec<Laid> {
         let mut laid = Vec::with_capacity(2 * self.elements.len());
         let mut open = open.iter().peekable();
         for (place, &element) in (0..).zip(&self.elements) {

@@ -6,11 +6,11 @@ use super::Refined;
 use crate::edges::HardEdge;
 use crate::ids::{Corner, Edge, Few, IdVec, Triangle};
 use crate::math::unit;
-use crate::rounding::joined;
 use crate::mesh::Mesh;
 use crate::report::{
     Blend, Chamfered, EdgeVerdict, Outcome, Piece, Reason, Totals, TriangleKind, TriangleSource,
 };
+use crate::rounding::joined;
 use crate::view::wide;
 
 /// What the elements of a refined mesh are in the source.

@@ -102,8 +102,7 @@ impl Arc {
         let angle = bend.half_turn * (2.0 * share - 1.0);
         let along = (1.0 + libm::tan(angle / 2.0) / libm::tan(bend.half_turn / 2.0)) / 2.0;
         let rest = 1.0 - along;
-        let [one, control, other] =
-            [rest * rest, 2.0 * bend.weight * along * rest, along * along];
+        let [one, control, other] = [rest * rest, 2.0 * bend.weight * along * rest, along * along];
         let sum = self.from.point * one + bend.control * control + self.to.point * other;
         sum / (one + control + other)
     }

@@ -94,9 +94,7 @@ impl Given<'_> {
     pub fn twin_of(&self, end: End) -> Option<End> {
         let ring = self.ring_of(end);
         match (self.chamfers.sectors.ring(ring), self.chamfers.sectors.rings[ring].closed) {
-            (&[one, two], true) => {
-                self.after(if self.sectors(end)[0] == one { two } else { one })
-            }
+            (&[one, two], true) => self.after(if self.sectors(end)[0] == one { two } else { one }),
             _ => None,
         }
     }

@@ -191,8 +191,10 @@ impl FillLay<'_> {
         let points = self.inner.entry(pair).or_insert_with(|| {
             let step = |step: usize| {
                 let share = step as f64 / count as f64;
-                let parents =
-                    Parents { places: [pair[0], pair[1], pair[0]], weights: [1.0 - share, share, 0.0] };
+                let parents = Parents {
+                    places: [pair[0], pair[1], pair[0]],
+                    weights: [1.0 - share, share, 0.0],
+                };
                 lay.push(stored(arc.at(share)), Added { parents, end: None })
             };
             (1..count).map(step).collect()

@@ -75,10 +75,7 @@ impl Lay {
     pub fn begin(&mut self, parts: Parts, at: impl Fn(Corner) -> Place) {
         self.clear();
         self.places.extend(parts.joints.iter().map(|&joint| at(joint)));
-        let middle = |middle: &Middle| Place {
-            point: middle.position,
-            normal: middle.normal,
-        };
+        let middle = |middle: &Middle| Place { point: middle.position, normal: middle.normal };
         self.places.extend(parts.middles.iter().map(middle));
     }
 }
@@ -131,8 +128,5 @@ fn zip(lay: &mut Lay, start: &[u32], stop: &[u32]) {
 
 /// Where the joint of a fill stands.
 pub fn joint(given: &Given, sector: Sector) -> Place {
-    Place {
-        point: given.placement.point[sector],
-        normal: unit(given.placement.normals[sector][0]),
-    }
+    Place { point: given.placement.point[sector], normal: unit(given.placement.normals[sector][0]) }
 }

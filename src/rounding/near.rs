@@ -79,7 +79,10 @@ mod tests {
     fn the_two_that_weigh_most_stay_and_the_rest_goes_to_the_first() {
         let even = Blend { vertices: [1, 2, 3], weights: [0.5, 0.25, 0.25] };
         let other = Blend { vertices: [4, 2, 1], weights: [1.0, 0.0, 0.0] };
-        let blend = joined(|vertex| vertex, [(Blend::one(0), 0.25), (even, 0.25), (other, 0.5)].into_iter());
+        let blend = joined(
+            |vertex| vertex,
+            [(Blend::one(0), 0.25), (even, 0.25), (other, 0.5)].into_iter(),
+        );
         assert_eq!(blend.vertices, [0, 4, 1]);
         assert_eq!(blend.weights, [0.375, 0.5, 0.125]);
     }
