@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 
-use super::arc::{Arc, Place};
+use super::arc::{Arc, Place, sharpness};
 use super::ends::{End, Given, Rows, ends_of, stored};
 use super::lay::{Added, Lay, Parents, joint};
 use crate::fills::names;
@@ -135,7 +135,7 @@ impl FillLay<'_> {
             let round = point + normal * rise;
             let lifted = match self.given.profile {
                 flat if flat <= 0.5 => point.lerp(round, 2.0 * flat),
-                sharp => round.lerp(base, 2.0 * sharp - 1.0),
+                sharp => round.lerp(base, sharpness(sharp)),
             };
             lay.places[middle as usize] = stored(Place { point: lifted, normal });
         }
