@@ -8,6 +8,7 @@
 mod arc;
 mod ends;
 mod fill;
+mod given;
 mod lay;
 mod near;
 
@@ -25,7 +26,8 @@ use fill::{lay_fill, loose_ends};
 use lay::{Lay, lay_strip};
 use near::near;
 
-pub use ends::{Given, Rows};
+pub use ends::Rows;
+pub use given::Given;
 pub use lay::Parents;
 pub use near::joined;
 

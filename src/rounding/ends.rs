@@ -7,23 +7,12 @@
 use glam::DVec3;
 
 use super::arc::{Arc, Place};
+use super::given::Given;
 use super::near::near;
-use crate::chamfers::Chamfers;
 use crate::edges::HardEdge;
 use crate::ids::{Corner, Edge, Few, IdVec, Ring, Sector};
 use crate::math::unit;
-use crate::placement::Placement;
 use crate::report::Blend;
-use crate::view::View;
-
-/// What rounded patches are made from.
-#[derive(Clone, Copy)]
-pub struct Given<'a> {
-    pub view: &'a View<'a>,
-    pub chamfers: Chamfers<'a>,
-    pub placement: &'a Placement<'a>,
-    pub profile: f64,
-}
 
 /// `#hard edges`: how many segments it has at the start and at the end of its first side.
 pub type Rows = IdVec<Edge, [u8; 2]>;

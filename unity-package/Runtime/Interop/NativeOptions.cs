@@ -20,5 +20,7 @@ namespace Chamfer.Interop
         public uint Convexity;
         public float HardAngle;
         public fixed float Scale[9];
+        public uint Segments;
+        public float Profile;
     }
 }

@@ -26,7 +26,9 @@ namespace Chamfer.Streams
                 MinAngle = edges.minAngle,
                 MaxAngle = edges.maxAngle,
                 Convexity = (uint)edges.convexity,
-                HardAngle = edges.hardAngle
+                HardAngle = edges.hardAngle,
+                Segments = (uint)settings.segments,
+                Profile = settings.profile
             };
             options.Scale[0] = scale.x;
             options.Scale[4] = scale.y;
