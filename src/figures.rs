@@ -8,6 +8,7 @@ mod drawing;
 mod models;
 mod moves;
 mod result;
+mod rounding;
 mod scene;
 mod source;
 mod texture;
@@ -21,7 +22,7 @@ use drawing::Drawing;
 type Draw = fn() -> Drawing;
 
 /// The stages, in the order of the pipeline.
-const FIGURES: [(&str, Draw); 18] = [
+const FIGURES: [(&str, Draw); 19] = [
     ("view", source::view),
     ("weld", source::weld),
     ("topology", source::topology),
@@ -36,6 +37,7 @@ const FIGURES: [(&str, Draw); 18] = [
     ("patches", result::patches),
     ("strips", result::strips),
     ("fills", result::fills),
+    ("rounding", rounding::rounding),
     ("verdicts", result::verdicts),
     ("attributes", texture::attributes),
     ("charts", texture::charts),

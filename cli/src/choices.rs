@@ -91,10 +91,10 @@ pub struct Choices {
     #[arg(default_value = "1")]
     pub hard_angle: f32,
 
-    /// How many segments a chamfer has across: 1 is flat, more are round
-    #[arg(long, value_name = "N", default_value = "1")]
+    /// How many segments a chamfer has across: 1 is flat, more are round [default: 1]
+    #[arg(long, value_name = "N")]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_SEGMENTS)))]
-    pub segments: u32,
+    pub segments: Option<u32>,
 
     /// How a chamfer of several segments is bent: 0 flat, 0.5 a circle, 1 the old edge
     #[arg(long, value_name = "P", value_parser = share, allow_negative_numbers = true)]
@@ -228,7 +228,7 @@ impl Choices {
                 .with_angles(self.min_angle, self.max_angle)
                 .with_convexity(self.convexity.into())
                 .with_hard_angle(self.hard_angle)
-                .with_segments(self.segments)
+                .with_segments(self.segments.unwrap_or(1))
                 .with_profile(self.profile)
                 .with_least_breadth(self.least_breadth / 100.0)
                 .with_verify(self.verify.into())
@@ -262,7 +262,7 @@ impl Choices {
             max_angle: self.max_angle,
             convexity: name(self.convexity),
             hard_angle: self.hard_angle,
-            segments: self.segments,
+            segments: self.segments.unwrap_or(1),
             profile: self.profile,
             least_breadth: self.least_breadth,
             verify: name(self.verify),

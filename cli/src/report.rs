@@ -146,6 +146,8 @@ pub struct EdgeReport {
     /// At each end, the distance from the old edge to the pulled ones, in mesh units; where the mesh
     /// stands stretched, on the mean of its axes.
     pub widths: [f32; 2],
+    /// How many segments it has across; 0 where it is skipped.
+    pub segments: u32,
 }
 
 /// What can be counted in a mesh, a file or a whole run.
@@ -276,6 +278,7 @@ impl MeshReport {
             outcome: verdict.outcome.name(),
             reason: verdict.reason.name(),
             widths: verdict.widths,
+            segments: verdict.segments,
         };
         MeshReport { edges: Some(result.verdicts.iter().map(edge).collect()), ..self }
     }
