@@ -118,3 +118,91 @@ fn all_demo_models_are_sound_with_any_number_of_segments() {
         }
     }
 }
+
+/// Vertices at one place follow the surface alike, or a mesh that is bent would open.
+#[test]
+fn what_stands_at_one_place_comes_from_one_blend() {
+    for (name, mesh) in shapes::demo_models() {
+        let options = Options::default().with_width(Width::PercentOfExtent(2.0)).with_segments(4);
+        let result = chamfer(&mesh.as_mesh(), &options).unwrap();
+        let sources = result.vertex_sources.iter().zip(&result.mesh.positions);
+        let mut between: Vec<_> = sources
+            .filter(|(source, _)| source.is_between())
+            .map(|(source, at)| (at.map(f32::to_bits), place_of(&mesh, &source.surface)))
+            .collect();
+        between.sort_by_key(|(at, _)| *at);
+        for pair in between.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
+            assert!(pair[0].1.distance(pair[1].1) < 1e-6, "{name}: {pair:?}");
+        }
+    }
+}
+
+fn place_of(mesh: &MeshBuffers, blend: &chamfer::Blend) -> DVec3 {
+    let terms = blend.vertices.iter().zip(blend.weights);
+    terms.map(|(&v, weight)| wide(mesh.positions[v as usize]) * f64::from(weight)).sum()
+}
+
+/// What a point comes from is never farther from it than the width.
+#[test]
+fn blends_are_near_their_points() {
+    let (cube, result) = rounded(8, 0.5);
+    for (source, &position) in result.vertex_sources.iter().zip(&result.mesh.positions) {
+        let off = place_of(&cube, &source.surface).distance(wide(position));
+        assert!(off < if source.is_between() { WIDTH } else { 1e-6 }, "{off}");
+    }
+}
+
+// The texture of a cube is an atlas with a chart for each face: what a chart has freed around
+// itself is all that its chamfers may show.
+#[test]
+fn rows_stay_in_the_band_of_their_owner() {
+    let cube = shapes::cube(1.0);
+    let with = |segments: u32| {
+        let options = Options::default().with_width(Width::Units(0.1)).with_segments(segments);
+        chamfer(&cube.as_mesh(), &options).unwrap()
+    };
+    let area = |result: &Chamfered| -> f64 {
+        let uv = |vertex: u32| {
+            let values = &result.mesh.uvs[0].values;
+            [0, 1].map(|k| f64::from(values[2 * vertex as usize + k]))
+        };
+        let twice = |triangle: &[u32]| {
+            let [a, b, c] = [0, 1, 2].map(|k| uv(triangle[k]));
+            (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+        };
+        let all = result.mesh.indices.chunks(3).map(|triangle| twice(triangle).abs());
+        all.sum::<f64>() / 2.0
+    };
+    let (flat, round) = (area(&with(1)), area(&with(4)));
+    // Neither more nor less of the texture is shown than with one segment.
+    assert!((flat - round).abs() < 1e-6, "{flat} and {round}");
+    for (vertex, source) in with(4).vertex_sources.iter().enumerate() {
+        assert!(source.uv(0).weights.iter().all(|weight| *weight > -1e-6), "{vertex}: {source:?}");
+    }
+}
+
+// Each vertex of the rim is a ring of two sectors: the strips on both sides share an arc.
+#[test]
+fn a_rim_of_two_sectors_is_rounded_all_around() {
+    let cylinder = shapes::cylinder(24);
+    let options = Options::default().with_width(Width::Units(0.1)).with_segments(4);
+    let result = chamfer(&cylinder.as_mesh(), &options).unwrap();
+    assert_sound("cylinder", &cylinder.as_mesh(), &result);
+    let strips = result.triangle_sources.iter().filter(|t| t.kind == TriangleKind::Edge).count();
+    assert_eq!(strips, 2 * 24 * 2 * 4);
+    assert!(result.verdicts.iter().all(|edge| edge.segments == 4));
+}
+
+#[test]
+fn out_of_range_is_refused() {
+    let cube = shapes::plain_cube(1.0);
+    let told = |options: Options| chamfer(&cube.as_mesh(), &options).unwrap_err().to_string();
+    let default = Options::default();
+    for segments in [0, 33] {
+        let expected = format!("the number of segments is {segments}: give 1 to 32");
+        assert_eq!(told(default.with_segments(segments)), expected);
+    }
+    for profile in [-0.1, 1.1, f32::NAN] {
+        assert!(told(default.with_profile(profile)).starts_with("the profile is "));
+    }
+}
