@@ -398,6 +398,7 @@ fn mean_tangent(tangents: [[f32; 4]; 3], weights: [f64; 3], normal: DVec3) -> [f
 }
 
 /// The first of some directions that has a part at a right angle to the normal: that part, unit.
+#[inline]
 fn across(normal: DVec3, directions: [DVec3; 2]) -> DVec3 {
     let across = |direction: DVec3| {
         let rest = direction - normal * direction.dot(normal);
