@@ -238,6 +238,9 @@ extern "C" {
 /** `kind`: the triangle fills the corner at the source vertex of that index. */
 #define CHAMFER_TRIANGLE_CORNER 2
 
+/** `owner_channels`: the bit of a vertex on a rounded chamfer that lies on no face of the source. */
+#define CHAMFER_VERTEX_BETWEEN 2147483648
+
 /**
  * What a call made: a mesh, where each of its elements came from, and a verdict for each hard
  * edge. It never changes, so any number of threads may read it at once.
@@ -290,6 +293,18 @@ typedef struct chamfer_options {
      * default, the mesh as it is.
      */
     float scale[9];
+    /**
+     * How far the widths of a chamfer are held to each other: up to 1, one width for each edge. 0
+     * for the default, a half; a tiny share for not at all.
+     */
+    float evenness;
+    /** How many segments a chamfer has across: 1 (flat) to 32. 0 for the default, 1. */
+    uint32_t segments;
+    /**
+     * How a chamfer of several segments is bent: towards 0 flat, 0.5 a circle, 1 the old edge. 0 for
+     * the default, 0.5; a tiny share for a flat one.
+     */
+    float profile;
 } chamfer_options;
 
 /** One UV channel of a mesh. */
@@ -439,6 +454,8 @@ typedef struct chamfer_edge_verdict {
      * units.
      */
     float widths[2];
+    /** How many segments it has across, at the end that has fewer; 0 where it is skipped. */
+    uint32_t segments;
 } chamfer_edge_verdict;
 
 /** A weighted mean of up to three source vertices. */
@@ -465,7 +482,8 @@ typedef struct chamfer_vertex_source {
     struct chamfer_blend owner;
     /**
      * The UV channels that follow `owner`: channel `k` where bit `k` is set. The tangent goes with
-     * channel 0.
+     * channel 0. With `CHAMFER_VERTEX_BETWEEN` the vertex is on a rounded chamfer and on no face:
+     * its blends do not rebuild its position and normal.
      */
     uint32_t owner_channels;
 } chamfer_vertex_source;

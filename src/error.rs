@@ -100,6 +100,10 @@ pub enum Error {
     BadBreadth(f32),
     /// The evenness is no share between 0 and 1.
     BadEvenness(f32),
+    /// The number of segments is none of 1 to 32.
+    BadSegments(u32),
+    /// The profile is no share between 0 and 1.
+    BadProfile(f32),
     /// An angle is out of its range.
     BadAngle {
         /// The option's name.
@@ -192,6 +196,15 @@ impl fmt::Display for Error {
             Error::BadEvenness(share) => {
                 write!(f, "the evenness is {share}: give a share between 0 and 1")
             }
+            Error::BadSegments(segments) => write!(
+                f,
+                "the number of segments is {segments}: give 1 to {}",
+                crate::options::MOST_SEGMENTS
+            ),
+            Error::BadProfile(profile) => write!(
+                f,
+                "the profile is {profile}: give 0 (flat) to 1 (the old edge), 0.5 for a circle"
+            ),
             Error::BadAngle { option, degrees, most } => {
                 write!(f, "{option} is {degrees}: give degrees from 0 to {most}")
             }

@@ -8,6 +8,7 @@ mod drawing;
 mod models;
 mod moves;
 mod result;
+mod rounding;
 mod scene;
 mod source;
 mod texture;
@@ -22,7 +23,7 @@ use drawing::Drawing;
 type Draw = fn() -> Drawing;
 
 /// The stages, in the order of the pipeline.
-const FIGURES: [(&str, Draw); 21] = [
+const FIGURES: [(&str, Draw); 22] = [
     ("view", source::view),
     ("weld", source::weld),
     ("topology", source::topology),
@@ -39,6 +40,7 @@ const FIGURES: [(&str, Draw); 21] = [
     ("patches", result::patches),
     ("strips", result::strips),
     ("fills", result::fills),
+    ("rounding", rounding::rounding),
     ("verdicts", result::verdicts),
     ("flaps", widths::flaps),
     ("attributes", texture::attributes),

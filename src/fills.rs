@@ -109,7 +109,7 @@ fn holes(points: &[DVec3]) -> SmallVec<[Few<usize>; 1]> {
 }
 
 /// `#points`: a place that stands for all at that position.
-fn names(points: &[DVec3]) -> Few<usize> {
+pub fn names(points: &[DVec3]) -> Few<usize> {
     if points.len() <= FEW_POINTS {
         let first = |place: usize| points.iter().position(|point| *point == points[place]);
         return (0..points.len()).map(|place| first(place).unwrap_or(place)).collect();

@@ -87,6 +87,7 @@ mod report;
 mod resample;
 mod rests;
 mod room;
+mod rounding;
 mod scale;
 mod scene;
 mod sectors;
@@ -108,7 +109,7 @@ mod weld;
 
 pub use error::{Error, Stream};
 pub use mesh::{EdgeFactor, Factors, Held, Mesh, MeshBuffers, UV_CHANNELS, Uv, UvBuffer};
-pub use options::{ChamferSubmesh, Convexity, Options, Verify, Width, WidthMode};
+pub use options::{ChamferSubmesh, Convexity, MOST_SEGMENTS, Options, Verify, Width, WidthMode};
 pub use pipeline::{chamfer, chamfer_with_progress};
 pub use report::{
     Blend, ByReason, Chamfered, EdgeVerdict, Outcome, Piece, Reason, Totals, TriangleKind,

@@ -19,7 +19,9 @@ use crate::options::Verify;
 use crate::placement::Placement;
 use crate::report::Reason;
 
-use elements::{Element, around, elements_of, sectors_of};
+pub use elements::Element;
+
+use elements::{around, elements_of, sectors_of};
 use valid::{bad_elements, contacts_are_kept, is_valid};
 
 /// How much a sector that takes part in something bad keeps in each round.
@@ -65,6 +67,19 @@ pub fn limits<'a>(
         collisions::resolve(given, &mut limits)?;
     }
     Ok(limits)
+}
+
+/// What cuts where strips and fills are rounded gets less so: see [`collisions::lessen_cuts`].
+///
+/// # Errors
+/// [`Error::OutOfMemory`] where what collisions need is not to be had.
+pub fn lessen_cuts<S: Sync>(
+    given: &Given,
+    placement: &Placement,
+    (state, rounded): (&mut S, &collisions::Rounded<S>),
+    lessen: impl FnMut(&mut S, &[Element]) -> bool,
+) -> Result<(), Error> {
+    collisions::lessen_cuts(given, placement, state, rounded, lessen)
 }
 
 /// Every sector at the width that its own triangles leave room for.

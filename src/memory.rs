@@ -41,6 +41,12 @@ const BYTES_PER_SECTOR: u64 = 256;
 /// For each hard edge: the new triangles, and how they lie on the texture.
 const BYTES_PER_STRIP: u64 = 240;
 
+/// For each point of a rounded patch: itself, and its copy on another chart.
+const BYTES_PER_ROUNDED_POINT: u64 = 320;
+
+/// For each triangle of a rounded patch: itself, and its corners and provenance in the result.
+const BYTES_PER_ROUNDED_TRIANGLE: u64 = 96;
+
 /// A stream that grows stands there twice for a moment, the larger one twice as large.
 const GROWTH: u64 = 3;
 
@@ -127,6 +133,14 @@ pub fn of_chamfers(mesh: &Mesh, work: Work) -> u64 {
         + sectors * BYTES_PER_SECTOR
         + hard_edges * BYTES_PER_STRIP
         + mesh.submesh_index_counts.len() as u64 * BYTES_PER_SUBMESH
+}
+
+/// So many points and triangles of rounded patches, and all vertices that there are by then.
+pub fn of_rounding(mesh: &Mesh, points: u64, triangles: u64) -> u64 {
+    let vertices = 2 * points;
+    vertices * (GROWTH * bytes_per_vertex(mesh) + BYTES_PER_VERTEX)
+        + points * BYTES_PER_ROUNDED_POINT
+        + triangles * BYTES_PER_ROUNDED_TRIANGLE
 }
 
 /// A mesh that gets so many vertices on so many of its edges, and its shape anew.

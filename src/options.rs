@@ -1,5 +1,9 @@
 //! What a caller can ask for.
 
+/// The most segments that a chamfer can have across: a point in the middle of a fill with more would
+/// not be seen on any screen.
+pub const MOST_SEGMENTS: u32 = 32;
+
 /// How to chamfer a mesh: the defaults, with what a caller wants otherwise.
 ///
 /// ```
@@ -47,6 +51,12 @@ pub struct Options {
     /// measured, such as that of the scene: a box that is stretched to a wall gets chamfers of one
     /// width there. It may mirror and shear, but not flatten. The default is the mesh as it is.
     pub scale: [[f32; 3]; 3],
+    /// How many segments a chamfer has across (1 to 32). The default is 1, a flat one; more are
+    /// rounded. Where so many would fold or cut, there are fewer.
+    pub segments: u32,
+    /// How a chamfer of several segments is bent: 0 is flat, 0.5 a circle, 1 the old edge. The
+    /// default is 0.5.
+    pub profile: f32,
 }
 
 impl Default for Options {
@@ -64,6 +74,8 @@ impl Default for Options {
             convexity: Convexity::Both,
             hard_angle: 1.0,
             scale: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+            segments: 1,
+            profile: 0.5,
         }
     }
 }
@@ -137,6 +149,18 @@ impl Options {
     #[must_use]
     pub const fn with_scale(self, scale: [[f32; 3]; 3]) -> Options {
         Options { scale, ..self }
+    }
+
+    /// The same with another number of [`segments`](Options::segments).
+    #[must_use]
+    pub const fn with_segments(self, segments: u32) -> Options {
+        Options { segments, ..self }
+    }
+
+    /// The same with another [`profile`](Options::profile).
+    #[must_use]
+    pub const fn with_profile(self, profile: f32) -> Options {
+        Options { profile, ..self }
     }
 }
 
@@ -227,6 +251,8 @@ mod tests {
             (default.with_convexity(convexity), Options { convexity, ..default }),
             (default.with_hard_angle(2.0), Options { hard_angle: 2.0, ..default }),
             (default.with_scale(scale), Options { scale, ..default }),
+            (default.with_segments(4), Options { segments: 4, ..default }),
+            (default.with_profile(0.25), Options { profile: 0.25, ..default }),
         ];
         for (options, expected) in set {
             assert_eq!(options, expected);

@@ -7,14 +7,15 @@
 mod submeshes;
 
 use crate::attributes::Attributes;
-use crate::charts::Charts;
+use crate::charts::{Chart, Charts};
 use crate::flaps::Flap;
 use crate::ids::{Cluster, Corner, Id, Patch};
 use crate::mesh::MeshBuffers;
 use crate::options::ChamferSubmesh;
-use crate::patches::Patches;
+use crate::patches::{Parts, Patches};
 use crate::report::{Chamfered, TriangleKind, TriangleSource, VertexSources};
 use crate::resample::blended_normal;
+use crate::rounding::{Rounded, Rounding};
 use crate::scale::Space;
 use crate::view::{View, wide};
 use crate::weld::Weld;
@@ -42,13 +43,16 @@ pub fn unchanged(view: &View, target: ChamferSubmesh) -> Chamfered {
 pub fn output(
     space: Space,
     weld: &Weld,
-    (patches, charts, flaps): (&Patches, &Charts, &[Flap]),
+    (patches, rounding): (&Patches, Option<&Rounding>),
+    (charts, flaps): (&Charts, &[Flap]),
     attributes: Attributes,
     target: ChamferSubmesh,
 ) -> Chamfered {
-    let room = patches.triangle_count() + flaps.len();
+    let count = rounding
+        .map_or_else(|| patches.triangle_count(), |rounding| rounding.triangle_count(patches));
+    let room = count + flaps.len();
     let submeshes = Submeshes::of_source(space.source, target, &attributes, room);
-    let mut result = Result { space, weld, attributes, submeshes, vertices: Vec::new() };
+    let mut result = Result { space, weld, attributes, submeshes, rounding, vertices: Vec::new() };
     for patch in (0..patches.len()).map(Patch::new) {
         if !patches.parts(patch).triangles.is_empty() {
             result.add(patches, charts, patch);
@@ -64,6 +68,7 @@ struct Result<'a> {
     weld: &'a Weld,
     attributes: Attributes,
     submeshes: Submeshes,
+    rounding: Option<&'a Rounding>,
     /// Those of the points of the patch that is being added.
     vertices: Vec<u32>,
 }
@@ -77,7 +82,8 @@ impl Result<'_> {
             Err(_) => (TriangleKind::Corner, self.space.source.vertex_at(parts.joints[0]).0),
         };
         let face = charts.of(patch).face;
-        for triangle in parts.triangles {
+        let rounded = self.rounding.and_then(|rounding| rounding.of(patch));
+        for triangle in rounded.map_or(parts.triangles, |rounded| rounded.triangles) {
             let vertices = triangle.map(|place| self.vertices[place as usize]);
             self.submeshes.add(face, vertices, TriangleSource { kind, index });
         }
@@ -111,6 +117,10 @@ impl Result<'_> {
                 self.vertices[point] = streams.add_copy(space.source, cluster, own, taken);
             }
         }
+        if let Some(rounded) = self.rounding.and_then(|rounding| rounding.of(patch)) {
+            self.find_rounded(rounded, (parts, chart));
+            return;
+        }
         for (middle, point) in parts.middles.iter().zip(joints.len()..) {
             let (cluster, taken) = (self.cluster_at(joints[0]), chart.taken_at(point));
             let at = (space.back(middle.position), space.normal_back(middle.normal));
@@ -121,6 +131,25 @@ impl Result<'_> {
                 at,
                 (middle.near, taken),
             ));
+        }
+    }
+
+    /// Those of the points of a rounded patch, which follow its joints: first the middles, then what
+    /// lies between points that there are by then.
+    fn find_rounded(&mut self, rounded: Rounded, (parts, chart): (Parts, Chart)) {
+        let (source, first) = (self.space.source, parts.joints.len());
+        for (point, at) in rounded.points.iter().zip(first..) {
+            let joint = parts.joints.get(point.parents.places[0] as usize);
+            let cluster = self.cluster_at(*joint.unwrap_or(&parts.joints[0]));
+            let place = (self.space.back(point.position), self.space.normal_back(point.normal));
+            let streams = &mut self.attributes.streams;
+            self.vertices.push(if at < first + parts.middles.len() {
+                streams.add_between(source, cluster, place, (point.near, chart.taken_at(at)))
+            } else {
+                let parents = point.parents.places.map(|place| self.vertices[place as usize]);
+                let rounded = (point.near, parents, point.parents.weights, point.is_shared);
+                streams.add_rounded(cluster, place, rounded)
+            });
         }
     }
 

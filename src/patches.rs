@@ -89,6 +89,16 @@ impl Patches {
         self.parts(Patch(edge.0))
     }
 
+    /// What becomes of a ring.
+    pub fn fill(&self, ring: Ring) -> Parts<'_> {
+        self.parts(self.fill_of(ring))
+    }
+
+    /// The patch that fills a ring.
+    pub fn fill_of(&self, ring: Ring) -> Patch {
+        Patch::new(self.strips + ring.index())
+    }
+
     /// The edge that a patch is the strip of, or the ring that it fills.
     pub fn edge_or_ring(&self, patch: Patch) -> Result<Edge, Ring> {
         match patch.index().checked_sub(self.strips) {
@@ -161,7 +171,7 @@ const MOST_TRIED: usize = 64;
 /// The blend of a ring's cluster and two of its neighbours, none of negative weight, that comes
 /// nearest to a point: a middle lies on no face of the source, and is the mean of more than three
 /// source vertices.
-fn nearest(view: &View, corners: &[Corner], point: DVec3) -> Blend {
+pub fn nearest(view: &View, corners: &[Corner], point: DVec3) -> Blend {
     let corner = view.vertex_at(corners[0]);
     let at = view.position(corner);
     let step = corners.len().div_ceil(MOST_TRIED);

@@ -11,9 +11,9 @@ use crate::evenness::evenness;
 use crate::faces::faces;
 use crate::flaps::{Flap, flaps};
 use crate::given::{Given, deep};
-use crate::ids::{IdVec, Sector};
+use crate::ids::{IdVec, Patch, Sector};
 use crate::inside_out::{is_inside_out, turned_back, turned_normals};
-use crate::limits::limits;
+use crate::limits::{Element, lessen_cuts, limits};
 use crate::memory;
 use crate::mesh::Mesh;
 use crate::offsets::{Known, Offset, narrowed, offsets as find_offsets};
@@ -24,6 +24,7 @@ use crate::refine::{Origins, Refined, refine, restored, shape as finer_shape};
 use crate::report::{Chamfered, EdgeVerdict, Totals};
 use crate::rests::rests;
 use crate::room::room;
+use crate::rounding::{Given as Rounds, Lessen, Rounding, Rows, Search, Triangles, rounding};
 use crate::scale::{Scale, Space};
 use crate::scene::{Placed, chamfer_scene};
 use crate::sectors::sectors;
@@ -256,13 +257,14 @@ fn chamfer_shape(
     (threads, done): (&Threads, &mut Done),
 ) -> Result<Chamfered, Error> {
     let made = make(space, (&shape, &offsets), options, (threads, done))?;
-    let Made { patches, charts, flaps, attributes, verdicts: (verdicts, totals) } = made;
+    let Made { patches, rounding, charts, flaps, attributes, verdicts: (verdicts, totals) } = made;
     let largest_width = (shape.edges.widest(space.measured.width) / space.largest()) as f32;
     // What the output does not read is given back: it is where a call needs the most memory.
     let Shape { weld, topology, faces, contacts, edges, sectors } = shape;
     drop((offsets, topology, faces, contacts, edges, sectors));
-    let parts = (&patches, &charts, &flaps[..]);
-    let output = output(space, &weld, parts, attributes, options.chamfer_submesh);
+    let patches = (&patches, rounding.as_ref());
+    let laid = (&charts, &flaps[..]);
+    let output = output(space, &weld, patches, laid, attributes, options.chamfer_submesh);
     let scale = space.scale.map(|_| options.scale);
     Ok(Chamfered { verdicts, totals, largest_width, scale, ..output })
 }
@@ -270,6 +272,7 @@ fn chamfer_shape(
 /// All that the output is put together from.
 struct Made {
     patches: Patches,
+    rounding: Option<Rounding>,
     charts: Charts,
     flaps: Vec<Flap>,
     attributes: Attributes,
@@ -296,12 +299,28 @@ fn make(
     let placement = &limits.placement;
     done(Stage::Limits)?;
     let patches = patches(view, chamfers, placement, threads);
-    let verdicts = verdicts(view, chamfers, &limits, &patches);
+    let search = |rows: &mut Rows, triangles: &Triangles, lessen: &mut Lessen| {
+        let patch = |element: Element| match element {
+            Element::Surface(_) | Element::Flap(_) => None,
+            Element::Strip(edge) => Some(Patch(edge.0)),
+            Element::Fill(ring) => Some(patches.fill_of(ring)),
+        };
+        let rounded = |rows: &Rows, element: Element| triangles(rows, patch(element)?);
+        let lessen = |rows: &mut Rows, cutting: &[Element]| {
+            lessen(rows, &cutting.iter().filter_map(|&e| patch(e)).collect::<Vec<_>>())
+        };
+        lessen_cuts(given, placement, (rows, &rounded), lessen)
+    };
+    let profile = options.profile.into();
+    let round = Rounds { view, chamfers, placement, profile };
+    let search: Option<&Search> = (options.verify != Verify::Fast).then_some(&search);
+    let rounding = rounding(round, &patches, options.segments, threads, search)?;
+    let verdicts = verdicts(view, chamfers, &limits, (&patches, rounding.as_ref()));
     done(Stage::Patches)?;
     let attributes = attributes(space, surface, weld, chamfers, placement);
     done(Stage::Attributes)?;
     let charts = charts(surface, chamfers, placement, &patches, &attributes, threads);
     done(Stage::Charts)?;
     let flaps = flaps(surface, chamfers, placement);
-    Ok(Made { patches, charts, flaps, attributes, verdicts })
+    Ok(Made { patches, rounding, charts, flaps, attributes, verdicts })
 }

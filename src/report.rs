@@ -77,11 +77,22 @@ pub struct VertexSource {
     /// `owner_channels` is 0.
     pub owner: Blend,
     /// The UV channels that follow `owner`, as bits: channel `k` where bit `k` is set. The tangent
-    /// goes with channel 0.
+    /// goes with channel 0. Bit 31 says that the vertex lies on no face: see
+    /// [`VertexSource::is_between`].
     pub owner_channels: u32,
 }
 
 impl VertexSource {
+    /// The bit of `owner_channels` that [`VertexSource::is_between`] tells of.
+    pub const BETWEEN: u32 = 1 << 31;
+
+    /// Whether the vertex is on a rounded chamfer, and lies on no face: three source vertices do not
+    /// rebuild its position and normal, which whoever does that takes from the result. Blends are
+    /// right for what has to follow about there, such as skin weights and morph targets.
+    pub fn is_between(&self) -> bool {
+        self.owner_channels & VertexSource::BETWEEN != 0
+    }
+
     /// A vertex whose streams are all of its own chart.
     pub fn new(surface: Blend, chart: Blend) -> VertexSource {
         VertexSource { surface, chart, owner: chart, owner_channels: 0 }
@@ -147,6 +158,9 @@ pub struct EdgeVerdict {
     /// At each end, the mean of the distances from the old edge to its two pulled sides, in mesh
     /// units. In between, a chamfer may be wider where the edge got vertices.
     pub widths: [f32; 2],
+    /// How many segments it has across: of its ends that opened, that of the one with fewer; 0 where
+    /// it is skipped. Where more segments fold or cut, there are fewer than asked for.
+    pub segments: u32,
 }
 
 /// What became of a hard edge.

@@ -215,7 +215,7 @@ mod tests {
         for edge in result.verdicts.iter().filter(is_upright) {
             let [least, most] =
                 [edge.widths[0].min(edge.widths[1]), edge.widths[0].max(edge.widths[1])];
-            assert!((most - 0.1).abs() < 1e-6 && least == 0.0, "{edge:?}");
+            assert!((most - 0.1).abs() < 1e-6 && least <= 0.1 / 16.0, "{edge:?}");
         }
         let skipped = result.verdicts.iter().filter(|edge| edge.reason == Reason::NotSelected);
         assert_eq!(skipped.count(), 4, "those of the bottom");

@@ -117,3 +117,10 @@ pub const ANGLE_ROUNDING: f64 = 1e-6;
 /// A vertex slides along a border or crease that is at least this far (as a sine, 5.7 degrees)
 /// from the direction of the chamfered edge; nearer, sliding hardly opens the edge.
 pub const LEAST_SLIDE_SINE: f64 = 0.1;
+
+/// A curve that turns by less than this, in radians, is straight: it bends by less than a
+/// thousandth of its length.
+pub const LEAST_TURN: f64 = 1e-3;
+
+/// Between directions whose sine is less than this, the share of the turn is that of the way.
+pub const LEAST_SLERP_SINE: f64 = 1e-6;

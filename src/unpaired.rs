@@ -35,7 +35,7 @@ pub fn with_verdicts(mut chamfered: Chamfered, further: Vec<EdgeVerdict>) -> Cha
 
 fn left(view: &View, side: Corner, reason: Reason) -> EdgeVerdict {
     let vertices = [side, side.next()].map(|end| view.vertex_at(end).0);
-    EdgeVerdict { vertices, outcome: Outcome::Skipped, reason, widths: [0.0; 2] }
+    EdgeVerdict { vertices, outcome: Outcome::Skipped, reason, widths: [0.0; 2], segments: 0 }
 }
 
 /// Of each two half-edges that run the same way along a hard edge and have no twin, the first.

@@ -2,11 +2,12 @@
 
 use crate::chamfers::Chamfers;
 use crate::edges::HardEdge;
-use crate::ids::Sector;
+use crate::ids::{Edge, Sector};
 use crate::limits::Limits;
 use crate::math::{area_vector, unit};
 use crate::patches::Patches;
 use crate::report::{EdgeVerdict, Outcome, Reason, Totals};
+use crate::rounding::Rounding;
 use crate::sectors::Sectors;
 use crate::strips;
 use crate::view::View;
@@ -16,11 +17,15 @@ pub fn verdicts(
     view: &View,
     chamfers: Chamfers,
     limits: &Limits,
-    patches: &Patches,
+    (patches, rounding): (&Patches, Option<&Rounding>),
 ) -> (Vec<EdgeVerdict>, Totals) {
     let Chamfers { edges, sectors } = chamfers;
     let is_open = |edge| !patches.strip(edge).triangles.is_empty();
-    let of_edge = |edge| verdict(view, sectors, limits, (&edges.hard[edge], is_open(edge)));
+    let of_edge = |edge| {
+        let verdict = verdict(view, sectors, limits, (&edges.hard[edge], is_open(edge)));
+        let segments = segments(limits, rounding, (edge, &edges.hard[edge]));
+        EdgeVerdict { segments: if is_open(edge) { segments } else { 0 }, ..verdict }
+    };
     let verdicts: Vec<EdgeVerdict> = edges.hard.ids().map(of_edge).collect();
     let totals = totals(view, chamfers, limits, &verdicts);
     (verdicts, totals)
@@ -49,7 +54,16 @@ fn verdict(
             }
         }
     };
-    EdgeVerdict { vertices: ends.map(|end| view.vertex_at(end).0), outcome, reason, widths }
+    let vertices = ends.map(|end| view.vertex_at(end).0);
+    EdgeVerdict { vertices, outcome, reason, widths, segments: 0 }
+}
+
+/// The least that an end which opens has.
+fn segments(limits: &Limits, rounding: Option<&Rounding>, (edge, hard): (Edge, &HardEdge)) -> u32 {
+    let Some(rounding) = rounding else { return 1 };
+    let [b1, a1, a2, b2] = strips::corners(hard).map(|corner| limits.placement.position_at(corner));
+    let open = [a1 != a2, b1 != b2].into_iter().zip(rounding.rows(edge));
+    open.filter(|(is_open, _)| *is_open).map(|(_, rows)| rows.into()).min().unwrap_or(1)
 }
 
 /// Whether a face beside an edge is wound against its own normals: no chamfer can face along with
@@ -155,7 +169,7 @@ mod tests {
         let stages = stages_of(mesh, width);
         let limits = stages.limits(Verify::Fast);
         let patches = stages.patches(&limits.placement);
-        verdicts(&stages.view, stages.chamfers(), &limits, &patches)
+        verdicts(&stages.view, stages.chamfers(), &limits, (&patches, None))
     }
 
     #[test]

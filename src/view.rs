@@ -8,7 +8,7 @@ use crate::error::{Error, Stream};
 use crate::ids::{Corner, Id, Triangle, Vertex};
 use crate::memory;
 use crate::mesh::{Factors, Held, Mesh, UV_CHANNELS, Uv};
-use crate::options::{ChamferSubmesh, Options, Width};
+use crate::options::{ChamferSubmesh, MOST_SEGMENTS, Options, Width};
 use crate::tolerance::{ALIKE_COSINE, ALIKE_SHARE, HARD_COSINE, RESOLUTION_STEPS};
 
 /// New elements are fewer than eight for each source corner, so ids stay within 32 bits.
@@ -45,6 +45,7 @@ pub fn view<'a>(mesh: &Mesh<'a>, options: &Options) -> Result<View<'a>, Error> {
         }
     }
     check_angles(options)?;
+    check_rounding(options)?;
     check_factors(mesh)?;
     let width = width_in_units(mesh, options.width)?;
     let least_breadth = checked_share(options.least_breadth, Error::BadBreadth)?;
@@ -123,6 +124,14 @@ impl<'a> View<'a> {
 #[inline]
 pub fn wide(value: [f32; 3]) -> DVec3 {
     DVec3::new(f64::from(value[0]), f64::from(value[1]), f64::from(value[2]))
+}
+
+fn check_rounding(options: &Options) -> Result<(), Error> {
+    if !(1..=MOST_SEGMENTS).contains(&options.segments) {
+        return Err(Error::BadSegments(options.segments));
+    }
+    let is_share = (0.0..=1.0).contains(&options.profile);
+    if is_share { Ok(()) } else { Err(Error::BadProfile(options.profile)) }
 }
 
 fn checked_share(share: f32, wrong: fn(f32) -> Error) -> Result<f64, Error> {

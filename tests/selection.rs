@@ -143,6 +143,22 @@ fn chamfers_between_edges_that_stay_hard_cut_the_corners_of_the_caps_off() {
 }
 
 #[test]
+fn rounded_chamfers_between_edges_that_stay_hard_close() {
+    for sides in [3, 4, 6] {
+        let prism = shapes::prism(sides);
+        let upright = listed(&prism, |_, [one, other]| one[2] != other[2]);
+        let factors = Factors { edges: &upright, ..Factors::default() };
+        let mesh = Mesh { factors, ..prism.as_mesh() };
+        for segments in [2, 5] {
+            let options = Options::default().with_width(Width::Units(0.05)).with_segments(segments);
+            let result = chamfer(&mesh, &options).unwrap();
+            assert_sound(&format!("{sides} sides, {segments} segments"), &mesh, &result);
+            assert_eq!(result.totals.chamfered, sides);
+        }
+    }
+}
+
+#[test]
 fn the_texture_goes_on_where_a_face_is_cut() {
     let cube = shapes::cube(1.0);
     let edges = listed(&cube, |_, [from, to]| from[1] != to[1]);

@@ -92,6 +92,15 @@ pub struct Args {
     #[arg(long, requires = "preview")]
     pub preview_verdicts: bool,
 
+    /// Take the most segments, up to --segments (or 32), that keep each file within so many triangles;
+    /// one segment at least
+    #[arg(long, value_name = "N")]
+    pub max_triangles: Option<u64>,
+
+    /// Write no models: only say how many triangles and vertices would come out
+    #[arg(long)]
+    pub dry_run: bool,
+
     /// Compress the geometry of results in .glb and .gltf, without loss
     #[arg(long, value_enum)]
     pub compress: Option<Compression>,

@@ -10,10 +10,12 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use anyhow::{Error, Result, anyhow};
+use chamfer::MOST_SEGMENTS;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::args::Args;
 use crate::console::warn;
+use crate::fit::Wish;
 use crate::jobs::{Job, Plan, plan};
 use crate::outcome::{Done, Finished, Outcome};
 use crate::pictures::Studio;
@@ -83,14 +85,27 @@ fn share<'a>(args: &Args, plan: &'a Plan) -> (Shared<'a>, usize) {
     let workers = threads.min(jobs.len());
     let settings = Settings {
         read: args.choices.read_options(),
-        wish: args.choices.wish((threads / workers) as u32),
+        wish: wish(args, (threads / workers) as u32),
         report_edges: args.report_edges,
         compresses: args.compress.is_some(),
+        max_triangles: args.max_triangles,
+        is_dry: args.dry_run,
         taken: Taken::new(jobs),
     };
     let studio = Studio::new(args, jobs.len());
     let bar = progress_bar(jobs.len());
     (Shared { jobs, settings, studio, next: AtomicUsize::new(0), bar }, workers)
+}
+
+/// What to ask of the meshes. Where triangles are counted, nothing but they bound the segments that
+/// nobody has given.
+fn wish(args: &Args, threads: u32) -> Wish {
+    let wish = args.choices.wish(threads);
+    let most = args.max_triangles.filter(|_| args.choices.segments.is_none());
+    match most {
+        Some(_) => Wish { core: wish.core.with_segments(MOST_SEGMENTS), ..wish },
+        None => wish,
+    }
 }
 
 /// Reports files in their order until all are done; whether they are.

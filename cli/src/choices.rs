@@ -1,7 +1,7 @@
 //! How to chamfer: what can be asked for on the command line, and in a file of options.
 
 use anyhow::{Result, ensure};
-use chamfer::{ChamferSubmesh, Convexity, Options, Verify, WidthMode};
+use chamfer::{ChamferSubmesh, Convexity, MOST_SEGMENTS, Options, Verify, WidthMode};
 use chamfer_formats::{Normals, ReadOptions, Weld};
 use clap::{Args, ValueEnum};
 
@@ -90,6 +90,16 @@ pub struct Choices {
     #[arg(long, value_name = "DEG", value_parser = hard_angle, allow_negative_numbers = true)]
     #[arg(default_value = "1")]
     pub hard_angle: f32,
+
+    /// How many segments a chamfer has across: 1 is flat, more are round [default: 1]
+    #[arg(long, value_name = "N")]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_SEGMENTS)))]
+    pub segments: Option<u32>,
+
+    /// How a chamfer of several segments is bent: 0 flat, 0.5 a circle, 1 the old edge
+    #[arg(long, value_name = "P", value_parser = share, allow_negative_numbers = true)]
+    #[arg(default_value = "0.5")]
+    pub profile: f32,
 
     /// How much of the breadth of each face has to stay between its chamfers, in percent; narrow
     /// faces get narrower chamfers for it
@@ -224,6 +234,8 @@ impl Choices {
                 .with_angles(self.min_angle, self.max_angle)
                 .with_convexity(self.convexity.into())
                 .with_hard_angle(self.hard_angle)
+                .with_segments(self.segments.unwrap_or(1))
+                .with_profile(self.profile)
                 .with_least_breadth(self.least_breadth / 100.0)
                 .with_evenness(self.evenness / 100.0)
                 .with_verify(self.verify.into())
@@ -257,6 +269,8 @@ impl Choices {
             max_angle: self.max_angle,
             convexity: name(self.convexity),
             hard_angle: self.hard_angle,
+            segments: self.segments.unwrap_or(1),
+            profile: self.profile,
             least_breadth: self.least_breadth,
             evenness: self.evenness,
             verify: name(self.verify),
@@ -329,6 +343,13 @@ fn hard_angle(text: &str) -> Result<f32, String> {
     match text.parse::<f32>() {
         Ok(angle) if 0.0 < angle && angle <= 90.0 => Ok(angle),
         _ => Err("give degrees above 0, up to 90".into()),
+    }
+}
+
+fn share(text: &str) -> Result<f32, String> {
+    match text.parse::<f32>() {
+        Ok(share) if (0.0..=1.0).contains(&share) => Ok(share),
+        _ => Err("give a number from 0 to 1".into()),
     }
 }
 

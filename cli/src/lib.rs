@@ -8,6 +8,7 @@ pub mod scene;
 
 mod args;
 mod batch;
+mod budget;
 mod busiest;
 mod check;
 mod choices;

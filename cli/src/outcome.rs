@@ -28,7 +28,8 @@ pub struct Finished {
     pub notes: Vec<String>,
     /// Pictures, where some were asked for and there is something to see.
     pub drawn: Drawn,
-    pub written: Written,
+    /// None where nothing is written.
+    pub written: Option<Written>,
 }
 
 /// What is left of a run.

@@ -15,7 +15,7 @@ use crate::choices::Choices;
 use crate::report::Asked;
 
 /// The keys of a file, each with the flag that it stands for. `docs/options.md` tells of them.
-const KEYS: [(&str, &str); 18] = [
+const KEYS: [(&str, &str); 20] = [
     ("width", "width"),
     ("width_unit", "width"),
     ("per_mesh", "per-mesh"),
@@ -26,6 +26,8 @@ const KEYS: [(&str, &str); 18] = [
     ("max_angle", "max-angle"),
     ("convexity", "convexity"),
     ("hard_angle", "hard-angle"),
+    ("segments", "segments"),
+    ("profile", "profile"),
     ("least_breadth", "least-breadth"),
     ("evenness", "evenness"),
     ("verify", "verify"),
@@ -201,6 +203,8 @@ pub fn text(choices: &Choices) -> String {
         ("max_angle", Some(max_angle.to_string())),
         ("convexity", Some(quoted(&asked.convexity))),
         ("hard_angle", Some(hard_angle.to_string())),
+        ("segments", Some(asked.segments.to_string())),
+        ("profile", Some(asked.profile.to_string())),
         ("least_breadth", Some((asked.least_breadth / 100.0).to_string())),
         ("evenness", Some((asked.evenness / 100.0).to_string())),
         ("verify", Some(quoted(&asked.verify))),

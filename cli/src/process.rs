@@ -18,6 +18,7 @@ use chamfer_formats::weld;
 use chamfer_formats::{Document, Encoded, OutputFile, ReadOptions, SourceMesh};
 use glam::{Mat4, Vec3};
 
+use crate::budget::{Count, count, within};
 use crate::fit::{Wish, fit, unmet};
 use crate::jobs::Job;
 use crate::nothing;
@@ -35,6 +36,10 @@ pub struct Settings {
     pub report_edges: bool,
     /// Whether results are compressed.
     pub compresses: bool,
+    /// How many triangles a file may have.
+    pub max_triangles: Option<u64>,
+    /// Whether nothing is written.
+    pub is_dry: bool,
     /// Files that must not be written, and those that were.
     pub taken: Taken,
 }
@@ -49,8 +54,8 @@ pub struct Processed {
     pub reports: Vec<MeshReport>,
     /// What the user should know.
     pub notes: Vec<String>,
-    /// Kept until the file is told of.
-    pub written: Written,
+    /// Kept until the file is told of; none where nothing is written.
+    pub written: Option<Written>,
 }
 
 /// Chamfers one file. `progress` is told the share done (0 to 1).
@@ -77,6 +82,13 @@ pub fn process(job: &Job, settings: &Settings, progress: &dyn Fn(f32)) -> Result
     }
     notes.extend(reasons);
     notes.extend(nothing::little(&reports));
+    if settings.is_dry {
+        let Count { triangles, vertices } = count(&*document, &chamfered);
+        notes.push(format!("not written: {triangles} triangles, {vertices} vertices"));
+        let mut told = BTreeSet::new();
+        notes.retain(|note| told.insert(note.clone()));
+        return Ok(Processed { document, chamfered, reports, notes, written: None });
+    }
     let mut encoded = formats::encode(&*document, &job.output, &chamfered)?;
     if settings.compresses {
         formats::compress(&mut encoded)?;
@@ -87,7 +99,7 @@ pub fn process(job: &Job, settings: &Settings, progress: &dyn Fn(f32)) -> Result
     let mut told = BTreeSet::new();
     notes.retain(|note| told.insert(note.clone()));
     settings.taken.claim(job, &files)?;
-    let written = write::model(&files)?;
+    let written = Some(write::model(&files)?);
     Ok(Processed { document, chamfered, reports, notes, written })
 }
 
@@ -153,7 +165,14 @@ fn chamfer_all(
     notes: &mut Vec<String>,
 ) -> Result<(Vec<Chamfered>, Vec<MeshReport>)> {
     let start = Instant::now();
-    let scene = chamfer_document(document, &settings.wish, progress)?;
+    let scene = match settings.max_triangles {
+        None => chamfer_document(document, &settings.wish, progress)?,
+        Some(most) => {
+            let (scene, told) = within(document, &settings.wish, most, progress)?;
+            notes.push(told);
+            scene
+        }
+    };
     if !scene.leaks.is_empty() {
         notes.push(format!(
             "light still shows in {} places after {} tries: see \"chamfer check\"",

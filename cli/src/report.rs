@@ -52,6 +52,10 @@ pub struct Asked {
     pub convexity: String,
     /// In degrees.
     pub hard_angle: f32,
+    /// How many segments a chamfer has across.
+    pub segments: u32,
+    /// How these are bent.
+    pub profile: f32,
     /// What stays of the breadth of each face, in percent.
     pub least_breadth: f32,
     /// How far the widths of a chamfer are held to each other, in percent.
@@ -144,6 +148,8 @@ pub struct EdgeReport {
     /// At each end, the distance from the old edge to the pulled ones, in mesh units; where the mesh
     /// stands stretched, on the mean of its axes.
     pub widths: [f32; 2],
+    /// How many segments it has across; 0 where it is skipped.
+    pub segments: u32,
 }
 
 /// What can be counted in a mesh, a file or a whole run.
@@ -274,6 +280,7 @@ impl MeshReport {
             outcome: verdict.outcome.name(),
             reason: verdict.reason.name(),
             widths: verdict.widths,
+            segments: verdict.segments,
         };
         MeshReport { edges: Some(result.verdicts.iter().map(edge).collect()), ..self }
     }

@@ -1,7 +1,8 @@
 //! Measures how a folder of models is chamfered: soundness, coverage and width.
 //!
 //! `cargo run --release --example measure -- [--full] [--verbose] [--reach] [--compare]
-//! [--unlike SEED] [--normals] [--evenness SHARE] [--only NAME] [--folder DIR] PERCENT..`
+//! [--unlike SEED] [--normals] [--evenness SHARE] [--segments N] [--profile P] [--only NAME]
+//! [--folder DIR] PERCENT..`
 //!
 //! `--reach` also tells how wide the chamfers could be where neighbours leave them half of the way
 //! to each other: width that is lost beyond that is lost to the triangles, not to the shape; how much
@@ -39,6 +40,8 @@ struct Request {
     only: Option<String>,
     folder: String,
     percents: Vec<f32>,
+    segments: u32,
+    profile: f32,
 }
 
 impl Request {
@@ -54,6 +57,8 @@ impl Request {
             only: None,
             folder: FOLDER.to_owned(),
             percents: Vec::new(),
+            segments: 1,
+            profile: 0.5,
         };
         while let Some(argument) = arguments.next() {
             match argument.as_str() {
@@ -65,6 +70,12 @@ impl Request {
                 "--unlike" => request.unlike = arguments.next().and_then(|seed| seed.parse().ok()),
                 "--evenness" => {
                     request.evenness = arguments.next().and_then(|e| e.parse().ok()).unwrap_or(0.0);
+                }
+                "--segments" => {
+                    request.segments = arguments.next().and_then(|n| n.parse().ok()).unwrap_or(1);
+                }
+                "--profile" => {
+                    request.profile = arguments.next().and_then(|n| n.parse().ok()).unwrap_or(0.5);
                 }
                 "--only" => request.only = arguments.next(),
                 "--folder" => request.folder = arguments.next().unwrap_or(request.folder),
@@ -156,7 +167,9 @@ fn of_file(request: &Request, path: &Path, percent: f32, more: &mut More) -> Vec
     let options = Options::default()
         .with_width(Width::PercentOfExtent(percent))
         .with_verify(request.verify)
-        .with_evenness(request.evenness);
+        .with_evenness(request.evenness)
+        .with_segments(request.segments)
+        .with_profile(request.profile);
     let measured = match request.unlike {
         Some(seed) => {
             let mut noise = Noise(path.as_os_str().len() as u32 ^ seed.wrapping_mul(2_654_435_761));

@@ -81,6 +81,8 @@ pub struct Wishes {
     submesh: Option<u8>,
     own: bool,
     threads: u8,
+    segments: u8,
+    profile: Option<Result<u8, f32>>,
 }
 
 #[derive(Arbitrary, Debug)]
@@ -110,6 +112,12 @@ impl Wishes {
                 (false, Some(submesh)) => ChamferSubmesh::Given(u32::from(submesh % 4)),
             })
             .with_threads(u32::from(self.threads % 4))
+            // Out of range now and then: nothing else takes as long as the most.
+            .with_segments(u32::from(self.segments % 8))
+            .with_profile(self.profile.map_or(0.5, |profile| match profile {
+                Ok(part) => f32::from(part) / 250.0,
+                Err(any) => any,
+            }))
     }
 }
 

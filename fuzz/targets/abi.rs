@@ -153,6 +153,8 @@ struct Options {
     /// In eighths.
     scale: Option<[i8; 9]>,
     any_scale: Option<(u8, f32)>,
+    segments: Option<u32>,
+    profile: Option<f32>,
 }
 
 #[derive(Arbitrary, Debug)]
@@ -323,6 +325,8 @@ fn raw_options(wish: &Options) -> chamfer_options {
         convexity,
         hard_angle,
         scale,
+        segments: wish.segments.unwrap_or_default(),
+        profile: wish.profile.unwrap_or_default(),
     }
 }
 

@@ -57,6 +57,12 @@ impl Index {
         (listed != NONE).then_some(listed)
     }
 
+    /// Leaves the next new vertex out of all lists, and tells its number.
+    pub fn skip(&mut self) -> u32 {
+        self.next.push(NONE);
+        self.next.len() as u32 - 1
+    }
+
     /// Puts the next new vertex at the head of a list, and tells its number.
     pub fn add(&mut self, list: usize) -> u32 {
         let vertex = self.next.len() as u32;

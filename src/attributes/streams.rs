@@ -13,6 +13,7 @@ use crate::math::unit;
 use crate::mesh::{MeshBuffers, Uv, UvBuffer};
 use crate::report::{Blend, VertexSource, VertexSources};
 use crate::resample::{blended_normal, weighted_sum};
+use crate::rounding::joined;
 use crate::tolerance::{LEAST_REST, ORTHOGONAL};
 use crate::view::{View, wide};
 use crate::weld::Weld;
@@ -208,6 +209,57 @@ impl Streams {
         self.add(cluster, &row, |sources| sources.push(source))
     }
 
+    /// A vertex of a cluster on a rounded patch, with a place and a normal of its own, near a blend. All
+    /// else is the mean of three vertices of the result, by weight. If it is shared with another
+    /// patch, it is looked up.
+    pub fn add_rounded(
+        &mut self,
+        cluster: Cluster,
+        (position, normal): (DVec3, DVec3),
+        (near, parents, weights, is_shared): (Blend, [u32; 3], [f64; 3], bool),
+    ) -> u32 {
+        let rows = parents.map(|parent| self.row(parent));
+        let mut row = Row([0.0; MOST_VALUES]);
+        for column in &self.columns {
+            for k in column.start..column.start + column.width {
+                row.0[k] = mean(rows.each_ref().map(|row| row.0[k]), weights);
+            }
+        }
+        row.0[POSITION..NORMAL].copy_from_slice(&position.as_vec3().to_array());
+        row.0[NORMAL..NORMAL + 3].copy_from_slice(&normal.as_vec3().to_array());
+        if let Some(column) = self.columns.iter().find(|column| column.stream == Stream::Tangent) {
+            let tangents = rows.map(|row| row.at(column.start));
+            row.set(column, &mean_tangent(tangents, weights, wide(row.at(NORMAL))));
+        }
+        let list = self.index.list_at(cluster, row.at(POSITION));
+        let known = is_shared.then(|| self.index.find(list, |listed| self.has(listed, &row)));
+        known.flatten().unwrap_or_else(|| {
+            let source = self.source_between(near, parents, weights);
+            self.columns.iter().for_each(|column| column.push(&mut self.vertices, &row));
+            self.sources.push(source);
+            if is_shared { self.index.add(list) } else { self.index.skip() }
+        })
+    }
+
+    /// Where a vertex comes from that lies between three others.
+    fn source_between(&self, near: Blend, parents: [u32; 3], weights: [f64; 3]) -> VertexSource {
+        let sources = parents.map(|parent| self.sources.get(parent as usize));
+        let between = |of: fn(&VertexSource) -> Blend| {
+            let blends = sources.iter().map(of).zip(weights);
+            joined(|vertex| vertex, blends.filter(|(_, weight)| *weight != 0.0))
+        };
+        let channels = sources.iter().fold(0, |all, source| all | source.owner_channels);
+        let chart = between(|source| source.chart);
+        let owner = if channels & !VertexSource::BETWEEN == 0 {
+            chart
+        } else {
+            // What takes nothing from there has its own chart in these channels.
+            between(|source| source.owner)
+        };
+        let owner_channels = channels | VertexSource::BETWEEN;
+        VertexSource { surface: near, chart, owner, owner_channels }
+    }
+
     /// The vertex of a cluster that has a row: appended, if there is none.
     fn add(
         &mut self,
@@ -320,6 +372,46 @@ fn blend_value(blend: &Blend, values: [f32; 3]) -> f32 {
     blended.clamp(f32::MIN.into(), f32::MAX.into()) as f32
 }
 
+/// Equal values stay equal to the bit, whatever the weights. What has no weight has no say.
+fn mean(values: [f32; 3], weights: [f64; 3]) -> f32 {
+    let differs = |k: &usize| weights[*k] != 0.0 && values[*k] != values[0];
+    if weights[0] != 0.0 && !(1..3).any(|k| differs(&k)) {
+        return values[0];
+    }
+    let terms = [0, 1, 2].map(|k| weights[k] * f64::from(values[k]));
+    (terms[0] + terms[1] + terms[2]) as f32
+}
+
+/// The mean direction, at a right angle to the normal, with the handedness of what weighs most.
+fn mean_tangent(tangents: [[f32; 4]; 3], weights: [f64; 3], normal: DVec3) -> [f32; 4] {
+    let directions = tangents.map(|[x, y, z, _]| wide([x, y, z]));
+    let mixed =
+        directions[0] * weights[0] + directions[1] * weights[1] + directions[2] * weights[2];
+    let mut most = 0;
+    for k in 1..3 {
+        if weights[k] > weights[most] {
+            most = k;
+        }
+    }
+    let [x, y, z] = across(normal, [mixed, directions[most]]).as_vec3().to_array();
+    [x, y, z, tangents[most][3]]
+}
+
+/// The first of some directions that has a part at a right angle to the normal: that part, unit.
+#[inline]
+fn across(normal: DVec3, directions: [DVec3; 2]) -> DVec3 {
+    let across = |direction: DVec3| {
+        let rest = direction - normal * direction.dot(normal);
+        if rest.length() > LEAST_REST * direction.length() { unit(rest) } else { DVec3::ZERO }
+    };
+    directions
+        .into_iter()
+        .chain([normal.any_orthonormal_vector()])
+        .map(across)
+        .find(|direction| *direction != DVec3::ZERO)
+        .unwrap_or(DVec3::X)
+}
+
 /// A blend may reach past its triangle: it stays within what the source holds.
 fn color_range(colors: &[[f32; 4]]) -> [[f32; 2]; 4] {
     let mut range = [[f32::INFINITY, f32::NEG_INFINITY]; 4];
@@ -346,16 +438,7 @@ fn tangent(view: &View, chart: &Blend, normal: DVec3) -> [f32; 4] {
         wide([x, y, z])
     });
     let mixed = turned(weighted_sum(chart, directions), blended_normal(view, chart), normal);
-    let across = |direction: DVec3| {
-        let rest = direction - normal * direction.dot(normal);
-        if rest.length() > LEAST_REST * direction.length() { unit(rest) } else { DVec3::ZERO }
-    };
-    let direction = [mixed, directions[0], normal.any_orthonormal_vector()]
-        .into_iter()
-        .map(across)
-        .find(|direction| *direction != DVec3::ZERO)
-        .unwrap_or(DVec3::X);
-    let [x, y, z] = direction.as_vec3().to_array();
+    let [x, y, z] = across(normal, [mixed, directions[0]]).as_vec3().to_array();
     [x, y, z, own[3]]
 }
 

@@ -190,6 +190,8 @@ pub unsafe fn read_options(options: *const chamfer_options) -> Result<Options, F
             axes => [0, 3, 6].map(|first| [axes[first], axes[first + 1], axes[first + 2]]),
         },
         evenness: or_default(options.evenness, Options::default().evenness),
+        segments: if options.segments == 0 { 1 } else { options.segments },
+        profile: or_default(options.profile, Options::default().profile),
     })
 }
 
@@ -273,6 +275,8 @@ unsafe impl StatesSize for chamfer_options {
             hard_angle: options.hard_angle,
             scale: array::from_fn(|k| options.scale[k / 3][k % 3]),
             evenness: options.evenness,
+            segments: options.segments,
+            profile: options.profile,
         }
     }
 }

@@ -18,6 +18,7 @@ const _: () = {
     assert!(offset_of!(EdgeVerdict, outcome) == offset_of!(chamfer_edge_verdict, outcome));
     assert!(offset_of!(EdgeVerdict, reason) == offset_of!(chamfer_edge_verdict, reason));
     assert!(offset_of!(EdgeVerdict, widths) == offset_of!(chamfer_edge_verdict, widths));
+    assert!(offset_of!(EdgeVerdict, segments) == offset_of!(chamfer_edge_verdict, segments));
     assert!(size_of::<EdgeFactor>() == size_of::<chamfer_edge_factor>());
     assert!(offset_of!(EdgeFactor, factor) == offset_of!(chamfer_edge_factor, factor));
     assert!(size_of::<Blend>() == size_of::<chamfer_blend>());
@@ -29,6 +30,7 @@ const _: () = {
         offset_of!(VertexSource, owner_channels)
             == offset_of!(chamfer_vertex_source, owner_channels)
     );
+    assert!(VertexSource::BETWEEN == CHAMFER_VERTEX_BETWEEN);
     assert!(size_of::<TriangleSource>() == size_of::<chamfer_triangle_source>());
     assert!(offset_of!(TriangleSource, kind) == offset_of!(chamfer_triangle_source, kind));
     assert!(offset_of!(TriangleSource, index) == offset_of!(chamfer_triangle_source, index));

@@ -66,6 +66,7 @@ fn status_and_element(error: &Error) -> (i32, u32) {
         Error::BadWidth(_) => (CHAMFER_STATUS_BAD_WIDTH, NONE),
         Error::BadBreadth(_) | Error::BadEvenness(_) => (CHAMFER_STATUS_BAD_OPTION, NONE),
         Error::BadAngle { option: SMOOTHING_ANGLE, .. } => (CHAMFER_STATUS_BAD_ANGLE, NONE),
+        Error::BadSegments(_) | Error::BadProfile(_) => (CHAMFER_STATUS_BAD_OPTION, NONE),
         Error::BadAngle { .. } | Error::AngleOrder { .. } | Error::BadScale => {
             (CHAMFER_STATUS_BAD_OPTION, NONE)
         }

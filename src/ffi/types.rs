@@ -156,6 +156,9 @@ pub const CHAMFER_TRIANGLE_EDGE: u32 = 1;
 /// `kind`: the triangle fills the corner at the source vertex of that index.
 pub const CHAMFER_TRIANGLE_CORNER: u32 = 2;
 
+/// `owner_channels`: the bit of a vertex on a rounded chamfer that lies on no face of the source.
+pub const CHAMFER_VERTEX_BETWEEN: u32 = 0x8000_0000;
+
 /// One UV channel of a mesh.
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -289,6 +292,11 @@ pub struct chamfer_options {
     /// How far the widths of a chamfer are held to each other: up to 1, one width for each edge. 0
     /// for the default, a half; a tiny share for not at all.
     pub evenness: f32,
+    /// How many segments a chamfer has across: 1 (flat) to 32. 0 for the default, 1.
+    pub segments: u32,
+    /// How a chamfer of several segments is bent: towards 0 flat, 0.5 a circle, 1 the old edge. 0 for
+    /// the default, 0.5; a tiny share for a flat one.
+    pub profile: f32,
 }
 
 /// What went wrong, in detail. Callers set `struct_size`; a call fills in the rest, also when it
@@ -347,6 +355,8 @@ pub struct chamfer_edge_verdict {
     /// At each end, the mean of the distances from the old edge to its two pulled sides, in mesh
     /// units.
     pub widths: [f32; 2],
+    /// How many segments it has across, at the end that has fewer; 0 where it is skipped.
+    pub segments: u32,
 }
 
 /// A weighted mean of up to three source vertices.
@@ -372,7 +382,8 @@ pub struct chamfer_vertex_source {
     /// `owner_channels` is 0.
     pub owner: chamfer_blend,
     /// The UV channels that follow `owner`: channel `k` where bit `k` is set. The tangent goes with
-    /// channel 0.
+    /// channel 0. With `CHAMFER_VERTEX_BETWEEN` the vertex is on a rounded chamfer and on no face:
+    /// its blends do not rebuild its position and normal.
     pub owner_channels: u32,
 }
 

@@ -26,6 +26,9 @@ use super::elements::{Element, around, flap_joints, sectors_of};
 use super::{Limits, apply, bad_around, blame, shrink};
 use crate::given::Given;
 
+/// The triangles of a strip or a fill that has more than one segment, in a state.
+pub type Rounded<'a, S> = dyn Fn(&S, Element) -> Option<Vec<[DVec3; 3]>> + Sync + 'a;
+
 /// Rounds in which width is given back: the rest is within an eighth of what would fit.
 const GIVE_BACK_ROUNDS: usize = 3;
 
@@ -47,6 +50,51 @@ pub fn resolve(given: &Given, limits: &mut Limits) -> Result<(), Error> {
     }
     Ok(())
 }
+
+/// Looks for what cuts where strips and fills are rounded, and lets the state have fewer rounded ones,
+/// until nothing cuts that did not in the source, or `lessen` leaves the state as it is.
+///
+/// # Errors
+/// [`Error::OutOfMemory`] where what searching the parts needs is not to be had.
+pub fn lessen_cuts<S: Sync>(
+    given: &Given,
+    placement: &Placement,
+    state: &mut S,
+    rounded: &Rounded<S>,
+    mut lessen: impl FnMut(&mut S, &[Element]) -> bool,
+) -> Result<(), Error> {
+    let parts = parts(given);
+    let mut left: Vec<&Part> = parts.iter().collect();
+    loop {
+        let shared: &S = state;
+        let lay = |element: Element| rounded(shared, element);
+        memory::ask(memory::of_collisions(most_rounded(given, &left, &lay)))?;
+        let cuts = |(): &mut (), part: &&Part| {
+            let open = part.elements.iter().copied().filter(|&element| lay(element).is_some());
+            let open: Vec<Element> = open.collect();
+            part.new_cuts_of(placement, &open, Some(&lay))
+        };
+        let cuts = given.threads.map_large(&left, || (), cuts);
+        left = left.into_iter().zip(&cuts).filter(|(_, c)| !c.is_empty()).map(|(p, _)| p).collect();
+        if left.is_empty() || !lessen(state, &cuts.concat()) {
+            return Ok(());
+        }
+    }
+}
+
+/// As [`most_searched`], where strips and fills are rounded.
+fn most_rounded(given: &Given, parts: &[&Part], lay: &Lay) -> usize {
+    let of = |part: &&Part| -> usize {
+        let more = part.elements.iter().filter_map(|&element| lay(element));
+        part.most_triangles() + more.map(|triangles| triangles.len()).sum::<usize>()
+    };
+    let sizes: Vec<usize> = parts.iter().map(of).collect();
+    let largest = sizes.iter().copied().max().unwrap_or(0);
+    sizes.iter().sum::<usize>().min(largest.saturating_mul(given.threads.count()))
+}
+
+/// The triangles of what is rounded.
+type Lay<'a> = dyn Fn(Element) -> Option<Vec<[DVec3; 3]>> + Sync + 'a;
 
 /// How many triangles are searched at a time, at most: each thread has a part.
 fn most_searched(given: &Given, parts: &[Part]) -> usize {
@@ -192,7 +240,16 @@ impl Part<'_> {
     /// The elements that take part in a cut in which one of the open ones does, in order; none
     /// where the part cut through itself already. `open` in order.
     fn new_cuts(&self, placement: &Placement, open: &[Element]) -> Vec<Element> {
-        let laid = self.lay_out(placement, open);
+        self.new_cuts_of(placement, open, None)
+    }
+
+    fn new_cuts_of(
+        &self,
+        placement: &Placement,
+        open: &[Element],
+        rounded: Option<&Lay>,
+    ) -> Vec<Element> {
+        let laid = self.lay_out(placement, open, rounded);
         let triangles: Vec<Triangle> = laid.iter().map(|each| each.corners).collect();
         let is_asked = |a: u32, b: u32| {
             let [a, b] = [a, b].map(|number| &laid[number as usize]);
@@ -244,7 +301,7 @@ impl Part<'_> {
     }
 
     /// All triangles of the part where the sectors stand now.
-    fn lay_out(&self, placement: &Placement, open: &[Element]) -> Vec<Laid> {
+    fn lay_out(&self, placement: &Placement, open: &[Element], rounded: Option<&Lay>) -> Vec<Laid> {
         let mut laid = Vec::with_capacity(2 * self.elements.len());
         let mut open = open.iter().peekable();
         for (place, &element) in (0..).zip(&self.elements) {
@@ -255,7 +312,10 @@ impl Part<'_> {
                 let corners = corners.map(|point| point.as_vec3().to_array());
                 laid.push(Laid { corners, element: place, is_changed, is_open });
             };
-            self.each_triangle(placement, element, &mut add);
+            match rounded.and_then(|lay| lay(element)) {
+                Some(triangles) => triangles.into_iter().for_each(add),
+                None => self.each_triangle(placement, element, &mut add),
+            }
         }
         laid
     }
@@ -393,7 +453,7 @@ mod tests {
 
     /// The same by comparing each with each.
     fn each_with_each(part: &Part, placement: &Placement) -> Vec<Element> {
-        let laid = part.lay_out(placement, &part.elements);
+        let laid = part.lay_out(placement, &part.elements, None);
         let cuts = |one: &Laid, other: &Laid| {
             (one.is_changed || other.is_changed) && cut_each_other(&one.corners, &other.corners)
         };

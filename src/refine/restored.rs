@@ -10,6 +10,7 @@ use crate::mesh::Mesh;
 use crate::report::{
     Blend, Chamfered, EdgeVerdict, Outcome, Piece, Reason, Totals, TriangleKind, TriangleSource,
 };
+use crate::rounding::joined;
 use crate::view::wide;
 
 /// What the elements of a refined mesh are in the source.
@@ -66,6 +67,10 @@ impl<'a> Origins<'a> {
                     }
                 }
             }
+        }
+        if terms.len() > 3 {
+            // As on rounded patches: the two that weigh most, and the rest on the first.
+            return joined(|vertex| vertex, terms.into_iter().map(|(v, w)| (Blend::one(v), w)));
         }
         let first = terms[0].0;
         terms.retain(|(vertex, weight)| *vertex == first || *weight != 0.0);
@@ -239,7 +244,9 @@ impl<'a> Verdicts<'a> {
             is_free(one).cmp(&is_free(other)).then(rank(one).total_cmp(&rank(other)))
         });
         let reason = worst.map_or(Reason::None, |verdict| verdict.reason);
-        EdgeVerdict { vertices: self.ends(edge), outcome, reason, widths }
+        let segments = parts.iter().map(|&part| self.of(part).segments);
+        let segments = segments.filter(|&segments| segments > 0).min().unwrap_or(0);
+        EdgeVerdict { vertices: self.ends(edge), outcome, reason, widths, segments }
     }
 
     /// The mean distance of both sides from the old edge at one of its ends.

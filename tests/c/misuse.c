@@ -510,6 +510,20 @@ static void wrong_scales(int32_t expected) {
     }
 }
 
+static void wrong_rounding(int32_t expected) {
+    const float wrong[] = {-0.1f, 1.1f, (float)NAN};
+    size_t i;
+    for (i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
+        options.profile = wrong[i];
+        run(expected, &mesh, &options);
+    }
+    reset();
+    options.segments = 33;
+    run(expected, &mesh, &options);
+    options.segments = 0xFFFFFFFF;
+    run(expected, &mesh, &options);
+}
+
 static void wrong_factors(int32_t expected) {
     const float wrong[] = {-1e-30f, (float)NAN, (float)INFINITY};
     size_t i;
@@ -937,6 +951,8 @@ static const struct row rows[] = {
         "second",
         BAD_OPTION, wrong_ranges),
     ROW("`scale` is not finite, or flattens the mesh", BAD_OPTION, wrong_scales),
+    ROW("`segments` is above 32, or `profile` is negative, above 1 or NaN", BAD_OPTION,
+        wrong_rounding),
     ROW("a factor of `submesh_factors`, `vertex_factors` or `edge_factors` is negative, infinite "
         "or NaN",
         BAD_FACTOR, wrong_factors),

@@ -36,6 +36,8 @@ pub struct Measured {
     pub length: f64,
     /// The mean width at the ends that open, as a share of what was asked; none if no end does.
     pub open_width: Option<f64>,
+    /// How many segments the chamfered edges have, summed over them.
+    pub segments: u64,
     pub findings: Findings,
     pub seconds: f64,
 }
@@ -109,6 +111,7 @@ pub fn measure_with(
             totals: after.totals,
             length: lengths.sum::<f64>() / extent,
             open_width: open_width(&before, &after),
+            segments: after.verdicts.iter().map(|verdict| u64::from(verdict.segments)).sum(),
             findings: check(&before, &after, verify),
             seconds,
         })
@@ -126,6 +129,7 @@ pub struct Sum {
     pub skipped: ByReason,
     pub unsound: u32,
     pub seconds: f64,
+    segments: u64,
     length: f64,
     width: f64,
     /// The sum of the open widths of the meshes that have any, and how many have.
@@ -146,6 +150,7 @@ impl Sum {
             self.skipped[reason] += count;
         }
         self.unsound += u32::from(!mesh.findings.is_sound());
+        self.segments += mesh.segments;
         self.seconds += mesh.seconds;
         self.length += mesh.length;
         self.width += mesh.length * f64::from(mesh.totals.mean_width);
@@ -178,7 +183,7 @@ impl fmt::Display for Sum {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         write!(
             f,
-            "{} meshes, {} unsound; {} hard edges, {:.2} % chamfered ({} full, {} narrowed), mean width {:.2} %, of open ends by mesh {:.2} %; {:.2} s; skipped:",
+            "{} meshes, {} unsound; {} hard edges, {:.2} % chamfered ({} full, {} narrowed), mean width {:.2} %, of open ends by mesh {:.2} %, {:.3} segments; {:.2} s; skipped:",
             self.meshes,
             self.unsound,
             self.hard_edges,
@@ -187,6 +192,7 @@ impl fmt::Display for Sum {
             self.narrowed,
             self.mean_width() * 100.0,
             self.mean_open_width() * 100.0,
+            self.segments as f64 / f64::from((self.chamfered + self.narrowed).max(1)),
             self.seconds,
         )?;
         for (reason, count) in self.skipped.iter().filter(|(_, count)| *count > 0) {

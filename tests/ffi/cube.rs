@@ -84,6 +84,8 @@ pub fn options() -> chamfer_options {
         max_angle: 99.0,
         convexity: 99,
         hard_angle: 99.0,
+        segments: 99,
+        profile: 99.0,
         scale: [99.0; 9],
         evenness: 99.0,
     };

@@ -188,6 +188,14 @@ sheared, across = np.eye(3), np.eye(3)
 sheared[2, 0], across[0, 2] = 1, 1  # x leans along the ridge: the ridge stays, and what is across it.
 assert np.isclose(ridge_x(sheared), 0.1 / 2**0.5) and not np.isclose(ridge_x(across), 0.1 / 2**0.5)
 
+# A roof has one edge: two triangles for each segment, and the verdict tells how many.
+round_roof = chamfer.chamfer(roof(), width=0.1, width_unit="mesh", segments=3)
+assert round_roof.verdicts["segments"].tolist() == [3]
+assert (round_roof.triangle_sources["kind"] == 1).sum() == 6
+says(ValueError, "segments is 0: give 1 to 32", lambda: chamfer.chamfer(roof(), segments=0))
+says(ValueError, "segments is 33", lambda: chamfer.chamfer(roof(), segments=33))
+says(ValueError, "the profile is", lambda: chamfer.chamfer(roof(), profile=1.5))
+
 # Factors: of submeshes the smaller counts, of vertices the mean at each end.
 near(width(roof(submesh_factors=[0.5, 2])), 0.05, 0.05)
 assert width(roof(submesh_factors=[1, 0])) == "not_selected"

@@ -47,23 +47,38 @@ namespace ChamferEditor
         internal static string LabelOf(ChamferSettings settings)
         {
             string unit = settings.unit == WidthUnit.PercentOfExtent ? "%" : "";
-            return Label + "=" + SettingsText.Number(settings.width) + unit;
+            string rounding = settings.segments > 1 ? "," + settings.segments : "";
+            return Label + "=" + SettingsText.Number(settings.width) + unit + rounding;
         }
 
-        /// <summary>Reads <c>Chamfer</c>, <c>Chamfer=0.02</c> (mesh units) or <c>Chamfer=2%</c>.</summary>
+        /// <summary>
+        /// Reads <c>Chamfer</c>, <c>Chamfer=0.02</c> (mesh units) or <c>Chamfer=2%</c>, each width with segments behind it
+        /// or without: <c>Chamfer=2%,3</c>.
+        /// </summary>
         private static bool TryParse(string label, ChamferSettings common, out ChamferSettings settings)
         {
             settings = common;
             if (!IsLabel(label)) { return false; }
             if (label.Length == Label.Length) { return true; }
-            string width = label.Substring(Label.Length + 1).Trim();
+            string[] parts = label.Substring(Label.Length + 1).Split(',');
+            string width = parts[0].Trim();
+            bool hasSegments = parts.Length == 1 || HasSegments(parts, ref settings);
             bool isPercent = width.EndsWith("%", StringComparison.Ordinal);
             settings.unit = isPercent ? WidthUnit.PercentOfExtent : WidthUnit.MeshUnits;
-            if (float.TryParse(width.TrimEnd('%'), NumberStyles.Float, CultureInfo.InvariantCulture, out settings.width))
+            bool hasWidth = float.TryParse(
+                width.TrimEnd('%'), NumberStyles.Float, CultureInfo.InvariantCulture, out settings.width);
+            if (hasWidth && hasSegments)
             {
                 return true;
             }
-            throw new FormatException("The label '" + label + "' holds no width: write Chamfer=0.02 or Chamfer=2%");
+            throw new FormatException("The label '" + label + "' holds no width: write Chamfer=0.02 or Chamfer=2%, or Chamfer=2%,3 for three segments");
+        }
+
+        private static bool HasSegments(string[] parts, ref ChamferSettings settings)
+        {
+            return parts.Length == 2
+                && int.TryParse(parts[1].Trim(), NumberStyles.None, CultureInfo.InvariantCulture, out settings.segments)
+                && settings.segments >= 1 && settings.segments <= ChamferSettings.MostSegments;
         }
     }
 }

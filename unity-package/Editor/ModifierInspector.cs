@@ -42,8 +42,8 @@ namespace ChamferEditor
 
         private void DrawOwnSettings()
         {
-            Draw("settings.width", "settings.unit", "settings.verify", "settings.leastBreadth", "settings.evenness");
-            Draw("settings.submeshMode");
+            Draw("settings.width", "settings.unit", "settings.segments", "settings.profile", "settings.verify",
+                "settings.leastBreadth", "settings.evenness", "settings.submeshMode");
             var mode = serializedObject.FindProperty("settings.submeshMode");
             if (mode.intValue == (int)ChamferSubmesh.Given) { Draw("settings.submesh"); }
             Draw("settings.edges");

@@ -9,12 +9,19 @@ namespace ChamferEditor
         internal static string Of(ChamferSettings settings)
         {
             return Number(settings.width) + " " + settings.unit + " " + settings.verify + " " + settings.submeshMode + " "
-                + settings.submesh + " " + Number(settings.leastBreadth) + Even(settings) + Of(settings.edges);
+                + settings.submesh + " " + Number(settings.leastBreadth) + Even(settings) + Rounding(settings)
+                + Of(settings.edges);
         }
 
         private static string Even(ChamferSettings settings)
         {
             return settings.evenness == 0 ? "" : " even " + Number(settings.evenness);
+        }
+
+        /// <summary>Nothing for flat chamfers: texts of an earlier version are still equal.</summary>
+        private static string Rounding(ChamferSettings settings)
+        {
+            return settings.segments < 2 ? "" : " round " + settings.segments + " " + Number(settings.profile);
         }
 
         /// <summary>Nothing where nothing is asked for: texts of an earlier version are still equal.</summary>
@@ -37,7 +44,8 @@ namespace ChamferEditor
         internal static string Words(ChamferSettings settings)
         {
             string unit = settings.unit == WidthUnit.PercentOfExtent ? " percent, " : " units, ";
-            return Number(settings.width) + unit + settings.verify + (Of(settings.edges).Length > 0 ? ", chosen edges" : "");
+            return Number(settings.width) + unit + settings.verify
+                + (settings.segments > 1 ? ", " + settings.segments + " segments" : "") + (Of(settings.edges).Length > 0 ? ", chosen edges" : "");
         }
 
         /// <summary>As it is written on every machine, to the last bit.</summary>

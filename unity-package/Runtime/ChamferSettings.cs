@@ -41,6 +41,9 @@ namespace Chamfer
     [Serializable]
     public struct ChamferSettings
     {
+        /// <summary>More segments than these nobody sees.</summary>
+        public const int MostSegments = 32;
+
         [Tooltip("The distance between an old edge and the pulled one."), Min(0)]
         public float width;
 
@@ -61,6 +64,12 @@ namespace Chamfer
 
         [Tooltip("How far widths are held to each other: 1 for one width on each edge; 0 for the usual half.")]
         [Range(0, 1)] public float evenness;
+
+        [Tooltip("How many segments a chamfer has across: 1, or 0, is flat, more are round."), Range(0, MostSegments)]
+        public int segments;
+
+        [Tooltip("How a chamfer of several segments is bent: towards 0 flat, 0.5 a circle, 1 the old edge; 0 for the usual 0.5.")]
+        [Range(0, 1)] public float profile;
 
         [Tooltip("Which edges are chamfered, what the width measures, and where it differs.")]
         public EdgeSettings edges;

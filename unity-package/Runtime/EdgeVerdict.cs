@@ -62,5 +62,8 @@ namespace Chamfer
 
         /// <summary>The width at its second end, in mesh units.</summary>
         public float SecondWidth { get; internal set; }
+
+        /// <summary>How many segments it has across; 0 where it is skipped.</summary>
+        public int Segments { get; internal set; }
     }
 }

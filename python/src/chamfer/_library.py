@@ -20,11 +20,14 @@ FILES = {"win32": "chamfer.dll", "darwin": "libchamfer.dylib"}
 OUTCOMES = ("full", "narrowed", "skipped")
 
 #: A hard edge: its vertices in the source, its outcome, the reason (see `reason_name`), and the
-#: width at each of its ends.
-VERDICT = np.dtype([("vertices", "u4", 2), ("outcome", "u4"), ("reason", "u4"), ("widths", "f4", 2)])
+#: width at each of its ends, and how many segments it has across.
+VERDICT = np.dtype(
+    [("vertices", "u4", 2), ("outcome", "u4"), ("reason", "u4"), ("widths", "f4", 2), ("segments", "u4")]
+)
 _BLEND = np.dtype([("vertices", "u4", 3), ("weights", "f4", 3)])
 #: What a vertex is a blend of: `surface` in position, normal, skin and morph targets, `chart` in
-#: colours, UVs and tangent, except for the UV channels in the bits `owner_channels`: `owner`.
+#: colours, UVs and tangent, except for the UV channels in the bits `owner_channels`: `owner`. With
+#: bit 31 the vertex is on a rounded chamfer: its blends do not rebuild its position and normal.
 VERTEX_SOURCE = np.dtype(
     [("surface", _BLEND), ("chart", _BLEND), ("owner", _BLEND), ("owner_channels", "u4")]
 )
@@ -53,6 +56,8 @@ class COptions(ctypes.Structure):
         ("hard_angle", c_float),
         ("scale", c_float * 9),
         ("evenness", c_float),
+        ("segments", c_uint32),
+        ("profile", c_float),
     ]
 
 

@@ -54,6 +54,8 @@ class Options(TypedDict, total=False):
     #: 3 by 3, multiplied from the left: the space in which widths and angles are measured, such as
     #: a matrix from mesh to scene
     scale: ArrayLike
+    segments: int  #: how many a chamfer has across, up to 32: 1 is flat, more are round; 1
+    profile: float  #: how several segments are bent: 0 flat, 0.5 a circle, 1 the old edge; 0.5
 
 
 def fill(struct: Any, options: Mapping[str, Any]) -> None:
@@ -65,6 +67,10 @@ def fill(struct: Any, options: Mapping[str, Any]) -> None:
             struct.submesh_mode, struct.submesh = _submesh(value)
         elif name == "width":
             struct.width = number(name, value)
+        elif name == "segments":
+            struct.segments = _segments(name, value)
+        elif name == "profile":
+            struct.profile = number(name, value) or _NOTHING
         elif name in ("least_breadth", "evenness"):
             setattr(struct, name, number(name, value) or _NOTHING)
         elif name == "scale":
@@ -91,6 +97,13 @@ def number(name: str, value: Any) -> float:
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
         raise TypeError(f"{name} is a number, not {value!r}")
     return float(value)
+
+
+def _segments(name: str, value: Any) -> int:
+    segments = _count(name, value)
+    if segments == 0:  # To the library, that is the default.
+        raise ValueError(f"{name} is 0: give 1 to 32")
+    return segments
 
 
 def _angle(name: str, value: Any) -> float:

@@ -103,6 +103,18 @@ namespace Chamfer.Tests
             Check.Equal(2, mesh.bindposes.Length);
         }
 
+        public static void A_label_may_name_segments()
+        {
+            var mesh = Shapes.FullCube();
+            Check.Equal(0, Import(mesh, "Chamfer=0.1,3").warnings.Count);
+            // Of each face two triangles, of each edge two for each segment, of each corner their square.
+            Check.Equal((12 + 12 * 2 * 3 + 8 * 9) * 3, mesh.GetTriangles(0).Length);
+            foreach (string label in new[] { "Chamfer=0.1,0", "Chamfer=0.1,33", "Chamfer=0.1,x", "Chamfer=0.1,2,2" })
+            {
+                Check.That(Import(Shapes.Cube(), label).warnings.Single().Contains("Chamfer=2%,3"), label);
+            }
+        }
+
         public static void A_submesh_of_their_own_is_imported_with_a_material()
         {
             var mesh = Shapes.Cube();

@@ -10,5 +10,6 @@ namespace Chamfer.Interop
         public uint Outcome;
         public uint Reason;
         public fixed float Widths[2];
+        public uint Segments;
     }
 }

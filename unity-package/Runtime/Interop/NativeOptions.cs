@@ -21,5 +21,7 @@ namespace Chamfer.Interop
         public float HardAngle;
         public fixed float Scale[9];
         public float Evenness;
+        public uint Segments;
+        public float Profile;
     }
 }

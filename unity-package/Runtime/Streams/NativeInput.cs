@@ -27,7 +27,9 @@ namespace Chamfer.Streams
                 MaxAngle = edges.maxAngle,
                 Convexity = (uint)edges.convexity,
                 HardAngle = edges.hardAngle,
-                Evenness = settings.evenness
+                Evenness = settings.evenness,
+                Segments = (uint)settings.segments,
+                Profile = settings.profile
             };
             options.Scale[0] = scale.x;
             options.Scale[4] = scale.y;

@@ -45,7 +45,8 @@ namespace Chamfer.Streams
                 Outcome = (EdgeOutcome)native->Outcome,
                 Reason = (EdgeReason)native->Reason,
                 FirstWidth = native->Widths[0],
-                SecondWidth = native->Widths[1]
+                SecondWidth = native->Widths[1],
+                Segments = (int)native->Segments
             };
         }
     }

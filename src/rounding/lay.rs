@@ -1,0 +1,133 @@
+//! Lay: one rounded patch, its points and its triangles.
+
+use super::arc::Place;
+use super::ends::{End, EndPoint, Rows};
+use super::given::Given;
+use crate::ids::{Corner, Sector};
+use crate::math::unit;
+use crate::patches::{Middle, Parts};
+use crate::strips::{Quad, cut};
+use crate::validity::faces_out;
+
+/// Where a point of a rounded patch comes from: up to three points of the patch with one segment,
+/// and how much of each.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parents {
+    pub places: [u32; 3],
+    pub weights: [f64; 3],
+}
+
+/// A point that a rounded patch has more than that with one segment.
+#[derive(Clone, Copy)]
+pub struct Added {
+    pub parents: Parents,
+    /// The end on whose curve it lies.
+    pub end: Option<(End, EndPoint)>,
+}
+
+/// A rounded patch: first the points of the patch with one segment, then those that are added.
+#[derive(Default)]
+pub struct Lay {
+    pub places: Vec<Place>,
+    pub added: Vec<Added>,
+    pub triangles: Vec<[u32; 3]>,
+}
+
+impl Lay {
+    pub fn clear(&mut self) {
+        self.places.clear();
+        self.added.clear();
+        self.triangles.clear();
+    }
+
+    pub fn push(&mut self, place: Place, added: Added) -> u32 {
+        self.places.push(place);
+        self.added.push(added);
+        self.places.len() as u32 - 1
+    }
+
+    /// The points of an end's curve, with the places of its two corners before and behind them.
+    pub fn push_end(
+        &mut self,
+        given: &Given,
+        rows: &Rows,
+        end: End,
+        [from, to]: [u32; 2],
+    ) -> Vec<u32> {
+        let mut line = vec![from];
+        for point in given.points(rows, end) {
+            let [one, other] = point.shares;
+            let parents = Parents { places: [from, to, from], weights: [one, other, 0.0] };
+            line.push(self.push(point.place, Added { parents, end: Some((end, point)) }));
+        }
+        line.push(to);
+        line
+    }
+
+    /// Whether all triangles have area and face out.
+    pub fn is_valid(&self, resolution: f64) -> bool {
+        self.triangles.iter().all(|triangle| {
+            let places = triangle.map(|place| self.places[place as usize]);
+            faces_out(places.map(|p| p.point), places.map(|p| p.normal), resolution)
+        })
+    }
+
+    /// The points of the patch with one segment.
+    pub fn begin(&mut self, parts: Parts, at: impl Fn(Corner) -> Place) {
+        self.clear();
+        self.places.extend(parts.joints.iter().map(|&joint| at(joint)));
+        let middle = |middle: &Middle| Place { point: middle.position, normal: middle.normal };
+        self.places.extend(parts.middles.iter().map(middle));
+    }
+}
+
+/// Lays a strip between the curves at its ends; false where it has no more than one segment.
+pub fn lay_strip(given: &Given, rows: &Rows, strip: Parts, ends: [End; 2], lay: &mut Lay) -> bool {
+    let counts = ends.map(|end| if given.is_open(end) { given.rows_at(rows, end) } else { 0 });
+    if counts[0].max(counts[1]) < 2 {
+        return false;
+    }
+    lay.begin(strip, |corner| Place {
+        point: given.placement.position_at(corner),
+        normal: unit(given.placement.normal_at(corner)),
+    });
+    // Of an end that does not open, the one corner that the strip of one segment uses.
+    let line = |lay: &mut Lay, k: usize, [from, to]: [u32; 2]| match counts[k] {
+        0 => vec![[1, 0][k]],
+        _ => lay.push_end(given, rows, ends[k], [from, to]),
+    };
+    let mut start = line(lay, 0, [2, 1]);
+    start.reverse();
+    let stop = line(lay, 1, [0, 3]);
+    zip(lay, &start, &stop);
+    true
+}
+
+/// Triangles between two lines that run from the first side to the second.
+fn zip(lay: &mut Lay, start: &[u32], stop: &[u32]) {
+    let counts = [start.len() - 1, stop.len() - 1];
+    let (mut a, mut b) = (0, 0);
+    while a < counts[0] || b < counts[1] {
+        let (next_a, next_b) = ((a + 1) * counts[1], (b + 1) * counts[0]);
+        let goes_on = [a < counts[0], b < counts[1]];
+        if goes_on == [true; 2] && next_a == next_b {
+            let corners = [stop[b], start[a], start[a + 1], stop[b + 1]];
+            let places = corners.map(|place| lay.places[place as usize]);
+            let quad = Quad { points: places.map(|p| p.point), normals: places.map(|p| p.normal) };
+            let triangles = cut(&quad).triangles().iter();
+            lay.triangles.extend(triangles.map(|triangle| triangle.map(|k| corners[k])));
+            (a, b) = (a + 1, b + 1);
+        } else if goes_on[0] && (!goes_on[1] || next_a < next_b) {
+            lay.triangles.push([stop[b], start[a], start[a + 1]]);
+            a += 1;
+        } else {
+            lay.triangles.push([stop[b], start[a], stop[b + 1]]);
+            b += 1;
+        }
+    }
+}
+
+/// Where the joint of a fill stands.
+pub fn joint(given: &Given, sector: Sector) -> Place {
+    Place { point: given.placement.point[sector], normal: unit(given.placement.normals[sector][0]) }
+}
