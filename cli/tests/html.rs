@@ -63,8 +63,8 @@ fn a_page_has_all_models_the_worst_on_top() {
             link.replace("%20", " ").replace("%3C", "<").replace("%3E", ">").replace("%26", "&");
         assert!(folder.path("pages").join(&link).exists(), "{link}");
     }
-    // Of 24 chamfers 12 are full, and so in the last tenth.
-    assert!(page.contains("<title>0.9 to 1.0: 12</title>"), "{page}");
+    // Of 24 chamfers 12 are full, and four more have nearly all of the width.
+    assert!(page.contains("<title>0.9 to 1.0: 16</title>"), "{page}");
     assert!(page.contains("<td>full</td><td>12</td><td>50.0 %</td>"));
 }
 

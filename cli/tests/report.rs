@@ -108,7 +108,7 @@ fn a_batch_ends_with_one_line_of_all() {
     let run = folder.run("in -o out").exits(1);
     let last = run.out().lines().last().unwrap().to_owned();
     assert!(
-        last.starts_with("3 files, 1 failed: 24 hard edges: 12 full, 12 narrowed (mean 0."),
+        last.starts_with("3 files, 1 failed: 24 hard edges: 16 full, 8 narrowed (mean 0."),
         "{last}"
     );
     assert!(last.contains("; 24 -> 88 triangles; ") && last.ends_with(" s"), "{last}");
@@ -124,7 +124,7 @@ fn quiet_says_only_what_went_wrong_and_verbose_tells_of_meshes() {
     assert_eq!(run.err(), "in/broken.obj: line 2: vertex 2 of 1 that the file has\n");
     let run = folder.run("in -o out --verbose").exits(1);
     let line = run.out().lines().find(|line| line.starts_with("  part: ")).unwrap().to_owned();
-    assert!(line.starts_with("  part: 12 hard edges: 0 full, 12 narrowed (mean 0."), "{line}");
+    assert!(line.starts_with("  part: 12 hard edges: 4 full, 8 narrowed (mean 0."), "{line}");
     folder.run("in -o out --quiet --verbose").exits(2);
 }
 

@@ -1,8 +1,8 @@
 //! What came in is still there: the surface of the source and its values, by place.
 //!
 //! A triangle that is not a chamfer lies on the source's surface, and has at each corner the values
-//! that the source has there, be it cut into triangles otherwise. What is new keeps near, in place
-//! and in value. And the whole surface of the source is there, but for what chamfers take.
+//! that the source has there, be it cut into triangles otherwise. What is new keeps near, and faces
+//! the same way; its numbers may go on from far across a seam. And the whole surface of the source is there, but for what chamfers take.
 
 use std::iter::empty;
 
@@ -186,9 +186,7 @@ impl Carried<'_> {
 
     fn judge_new(&self, corner: u32) -> Result<(), Judgement> {
         let near = self.source.near(self.after.position(corner), self.reach + self.tolerance);
-        let reach = self.reach + self.tolerance;
-        // The nearest place may be beyond a side, as far again.
-        self.judge(corner, near, empty(), |foot| Slack::Near(self.share(foot, 2.0 * reach)))
+        self.judge(corner, near, empty(), |_| Slack::Near)
     }
 
     /// Whether a triangle is so low that it faces wherever rounding turns it.
@@ -269,8 +267,11 @@ impl Carried<'_> {
             };
             let moves = (3 * triangle..3 * triangle + 3)
                 .any(|corner| may_move[self.source.surface.cluster(corner) as usize]);
+            // Where edges are crowded, nobody can tell how far the faces beside them are pulled.
+            let may_be_anywhere = moves && findings.before.non_manifold_edges > 0;
             let is_there = |reach: f64| result.near(middle, reach).any(|foot| faces(&foot));
-            if !is_there(self.tolerance) && !(moves && is_there(self.reach + self.tolerance)) {
+            let reach = if moves { self.reach + self.tolerance } else { self.tolerance };
+            if !may_be_anywhere && !is_there(self.tolerance) && !is_there(reach) {
                 findings.note(Rule::Covered, Element::SourceTriangle(triangle));
             }
         }

@@ -37,6 +37,9 @@ pub(super) struct Stream<'a> {
     values: [&'a [f32]; 2],
     /// How far a value may be off.
     tolerance: f64,
+    /// `#components`: between which values past the sides of a triangle are kept: colours within
+    /// those of the source, all others within single precision.
+    ranges: Vec<[f64; 2]>,
     /// `#vertices by 3`, of the result: what a tangent is at a right angle to.
     normals: &'a [[f32; 3]],
 }
@@ -58,7 +61,7 @@ pub(super) enum Slack {
     Exact(f64),
     /// That of what is new, and only near: its normals bend from one side to the other, and its
     /// texture may go on from across a seam.
-    Near(f64),
+    Near,
 }
 
 /// A further value of every vertex, such as the weights of a skin.
@@ -131,6 +134,7 @@ impl<'a> Stream<'a> {
             components,
             values,
             tolerance: share * f64::from(largest),
+            ranges: (0..components).map(|k| range(rule, values[0], components, k)).collect(),
             normals: &[],
         }
     }
@@ -147,9 +151,9 @@ impl<'a> Stream<'a> {
             }
             Kind::Tangent => {
                 !corners.iter().all(|&corner| has_right_tangent(source.mesh, corner))
+                    || matches!(slack, Slack::Near)
                     || self.has_handedness(vertex, corners)
-                        && (matches!(slack, Slack::Near(_))
-                            || self.is_direction(vertex, corners, foot.weights, slack))
+                        && self.is_direction(vertex, corners, foot.weights, slack)
             }
         }
     }
@@ -161,9 +165,11 @@ impl<'a> Stream<'a> {
         weights: [f64; 3],
         slack: Slack,
     ) -> bool {
-        let (Slack::Exact(share) | Slack::Near(share)) = slack;
+        // What is new goes on from across a seam, past the end of a chart, where no triangle tells.
+        let Slack::Exact(share) = slack else { return true };
         (0..self.components).all(|component| {
-            let was = self.mean(corners, weights, component);
+            let [least, most] = self.ranges[component];
+            let was = self.mean(corners, weights, component).clamp(least, most);
             let slack = self.tolerance + share * self.spread(corners, component);
             (self.value(1, vertex, component) - was).abs() <= slack
         })
@@ -222,4 +228,17 @@ impl<'a> Stream<'a> {
         let [a, b, c] = corners.map(|vertex| self.value(0, vertex, component));
         a.max(b).max(c) - a.min(b).min(c)
     }
+}
+
+/// Between which a component of a stream is kept.
+fn range(rule: Rule, values: &[f32], components: usize, component: usize) -> [f64; 2] {
+    let all = [f32::MIN, f32::MAX].map(f64::from);
+    if rule != Rule::ColorChanged {
+        return all;
+    }
+    let values = values.iter().skip(component).step_by(components).copied().map(f64::from);
+    let [least, most] = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], value| {
+        [least.min(value), most.max(value)]
+    });
+    if least <= most { [least, most] } else { all }
 }

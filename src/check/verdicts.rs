@@ -134,6 +134,8 @@ fn agrees(verdict: &EdgeVerdict, measured: &MeasuredEdge, tolerance: f64) -> boo
         };
         let is_left = match verdict.reason {
             Reason::NotSelected => stays(0) && stays(1),
+            // Its sides share no edge, and so each goes along with whatever else is there.
+            Reason::TJunction | Reason::Winding => true,
             _ => !measured.is_chamfered(),
         };
         return verdict.widths == [0.0; 2] && is_left;

@@ -467,6 +467,10 @@ static void wrong_breadths(int32_t expected) {
     for (i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
         options.least_breadth = wrong[i];
         run(expected, &mesh, &options);
+        reset();
+        options.evenness = wrong[i];
+        run(expected, &mesh, &options);
+        reset();
     }
 }
 
@@ -945,7 +949,7 @@ static const struct row rows[] = {
     ROW("a zeroed `chamfer_options` that states its size", OK, zeroed_options),
     ROW("`width_unit`, `verify` or `submesh_mode` is none of its constants", BAD_OPTION,
         unknown_choices),
-    ROW("`least_breadth` is negative, above 1 or NaN", BAD_OPTION, wrong_breadths),
+    ROW("`least_breadth` or `evenness` is negative, above 1 or NaN", BAD_OPTION, wrong_breadths),
     ROW("`width_mode` or `convexity` is none of its constants", BAD_OPTION, unknown_modes),
     ROW("`min_angle`, `max_angle` or `hard_angle` is out of its range, or the first above the "
         "second",
