@@ -98,7 +98,7 @@ impl<'a> Origins<'a> {
             findings.note(Rule::Origins, Element::Mesh);
         }
         let mut found: Vec<u32> =
-            self.triangles.iter().flatten().map(|[first, ..]| *first).collect();
+            self.triangles.iter().flatten().map(|[first, ..]| first / 3).collect();
         found.sort_unstable();
         found.dedup();
         findings.lost = findings.before.triangles - found.len();
