@@ -155,6 +155,7 @@ struct Options {
     any_scale: Option<(u8, f32)>,
     segments: Option<u32>,
     profile: Option<f32>,
+    evenness: Option<f32>,
 }
 
 #[derive(Arbitrary, Debug)]
@@ -325,6 +326,7 @@ fn raw_options(wish: &Options) -> chamfer_options {
         convexity,
         hard_angle,
         scale,
+        evenness: wish.evenness.unwrap_or_default(),
         segments: wish.segments.unwrap_or_default(),
         profile: wish.profile.unwrap_or_default(),
     }
