@@ -3,7 +3,7 @@
 //! Where something stands in the way of one end of an edge, its chamfer narrows there. The eye takes
 //! an edge for one, so the rest of it narrows as well, by and by: along a side of an edge, and on
 //! along those that it runs on into, a width is at most its neighbour's and what the way between
-//! them allows. And of the two sides of an end neither is more than twice as wide as the other.
+//! them allows. And of the two sides of an end neither is much wider than the other.
 //! Widths only fall, the narrowest first, so each is looked at once.
 
 use std::cmp::Ordering;
@@ -41,16 +41,19 @@ pub fn evenness(given: &Given, room: Room, evenness: f64) -> Room {
     let narrow = BinaryHeap::new();
     let mut leveling = Leveling { given, slope, lopsided, shares, narrow };
     leveling.narrow = leveling.seeds();
-    let mut room = room;
+    let (mut room, mut lowered) = (room, Vec::new());
     while let Some(Narrow { share, front }) = leveling.narrow.pop() {
         if share == leveling.shares[front.0][front.1] {
             for (other, most) in leveling.linked(front, share) {
                 if leveling.lower(other, most) {
-                    room.set(other.0, leveling.shares[other.0]);
+                    lowered.push(other.0);
                 }
             }
         }
     }
+    lowered.sort_unstable();
+    lowered.dedup();
+    lowered.into_iter().for_each(|sector| room.set(sector, leveling.shares[sector]));
     room
 }
 
