@@ -10,8 +10,7 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
 use crate::given::Given;
-use crate::ids::{Corner, Few, IdVec, Sector};
-use crate::offsets::parts;
+use crate::ids::{Corner, Sector};
 use crate::room::Room;
 
 /// At an evenness of a half, how much wider a chamfer may get along its edge for each unit of the
@@ -32,29 +31,17 @@ pub fn evenness(given: &Given, room: Room, evenness: f64) -> Room {
     if evenness == 0.0 {
         return room;
     }
-    let share_of = |sector: Sector| {
-        let fronts = room.fronts.get(&sector).copied().unwrap_or([1.0; 2]);
-        fronts.map(|front| front * room.share[sector])
-    };
-    let shares = IdVec::from_vec(room.share.ids().map(share_of).collect());
     let (slope, lopsided) = (SLOPE * (1.0 - evenness) / evenness, 1.0 / evenness);
-    let narrow = BinaryHeap::new();
-    let mut leveling = Leveling { given, slope, lopsided, shares, narrow };
+    let mut leveling = Leveling { given, slope, lopsided, room, narrow: BinaryHeap::new() };
     leveling.narrow = leveling.seeds();
-    let (mut room, mut lowered) = (room, Vec::new());
     while let Some(Narrow { share, front }) = leveling.narrow.pop() {
-        if share == leveling.shares[front.0][front.1] {
-            for (other, most) in leveling.linked(front, share) {
-                if leveling.lower(other, most) {
-                    lowered.push(other.0);
-                }
+        if share == leveling.share(front) {
+            for (other, most) in leveling.linked(front, share).into_iter().flatten() {
+                leveling.lower(other, most);
             }
         }
     }
-    lowered.sort_unstable();
-    lowered.dedup();
-    lowered.into_iter().for_each(|sector| room.set(sector, leveling.shares[sector]));
-    room
+    leveling.room
 }
 
 struct Leveling<'a> {
@@ -62,8 +49,7 @@ struct Leveling<'a> {
     slope: f64,
     /// How many times as wide as the other one a side of an end may be.
     lopsided: f64,
-    /// `#sectors`: of each front.
-    shares: IdVec<Sector, [f64; 2]>,
+    room: Room,
     narrow: BinaryHeap<Narrow>,
 }
 
@@ -91,19 +77,24 @@ impl PartialOrd for Narrow {
 
 impl Leveling<'_> {
     fn seeds(&self) -> BinaryHeap<Narrow> {
-        let is_narrow = |front: &Front| self.moves(front.0) && self.shares[front.0][front.1] < 1.0;
-        let fronts = self.shares.ids().flat_map(|sector| [(sector, 0), (sector, 1)]);
+        let is_narrow = |front: &Front| self.moves(front.0) && self.share(*front) < 1.0;
+        let fronts = self.room.fronts.ids().flat_map(|sector| [(sector, 0), (sector, 1)]);
         let narrow = fronts.filter(is_narrow);
-        narrow.map(|front| Narrow { share: self.shares[front.0][front.1], front }).collect()
+        narrow.map(|front| Narrow { share: self.share(front), front }).collect()
+    }
+
+    fn share(&self, (sector, which): Front) -> f64 {
+        self.room.fronts[sector][which]
     }
 
     fn moves(&self, sector: Sector) -> bool {
         sector.is_some() && self.given.offsets[sector].moves()
     }
 
-    /// The fronts next to one, and the most that each may have.
-    fn linked(&self, (sector, which): Front, share: f64) -> Few<(Front, f64)> {
-        let mut linked = Few::new();
+    /// The fronts next to one, and the most that each may have: along its edge, across it, and that
+    /// which goes together with it.
+    fn linked(&mut self, (sector, which): Front, share: f64) -> [Option<(Front, f64)>; 3] {
+        let mut linked = [None; 3];
         let given = self.given;
         let (fan, sectors) = (&given.chamfers.sectors.fans[sector], given.chamfers.sectors);
         let side = if which == 0 { fan.first } else { fan.last.prev() };
@@ -118,26 +109,24 @@ impl Leveling<'_> {
             };
             let [from, to] = [side, side.next()].map(|c| given.surface.view.position_at(c));
             let width = given.chamfers.edges.hard[edge].widest();
-            linked.push((along, share + self.slope * from.distance(to) / width));
+            linked[0] = Some((along, share + self.slope * from.distance(to) / width));
             if share >= LEAST_SHARE {
-                linked.push((across, share * self.lopsided));
+                linked[1] = Some((across, share * self.lopsided));
             }
         }
-        let offset = &given.offsets[sector];
-        if parts(given.surface, sectors, sector, offset).is_none() {
-            linked.push(((sector, 1 - which), share));
+        let other = (sector, 1 - which);
+        if self.share(other) > share && self.room.parts.of(given, sector).is_none() {
+            linked[2] = Some((other, share));
         }
         linked
     }
 
-    /// Lowers a front to what it may have; tells whether it had more.
-    fn lower(&mut self, front: Front, most: f64) -> bool {
-        if !self.moves(front.0) || self.shares[front.0][front.1] <= most {
-            return false;
+    /// Lowers a front to what it may have.
+    fn lower(&mut self, front: Front, most: f64) {
+        if self.moves(front.0) && self.share(front) > most {
+            self.room.fronts[front.0][front.1] = most;
+            self.narrow.push(Narrow { share: most, front });
         }
-        self.shares[front.0][front.1] = most;
-        self.narrow.push(Narrow { share: most, front });
-        true
     }
 }
 
@@ -158,12 +147,9 @@ mod tests {
         let given = given_of(stages);
         let mut room = room(&given);
         let sectors = sectors(stages, edge);
-        room.set(sectors[1], [narrow, 1.0]);
+        room.fronts[sectors[1]] = [narrow, 1.0];
         let room = evenness(&given, room, even);
-        let share = |(place, front): (usize, usize)| {
-            let fronts = room.fronts.get(&sectors[place]).copied().unwrap_or([1.0; 2]);
-            fronts[front] * room.share[sectors[place]]
-        };
+        let share = |(place, front): (usize, usize)| room.fronts[sectors[place]][front];
         [(0, 1), (1, 0), (2, 1), (3, 0)].map(share)
     }
 
@@ -201,7 +187,7 @@ mod tests {
         let cube: MeshBuffers = shapes::plain_cube(1.0);
         let stages = stages_of(&cube, 0.1);
         let room = evenness(&given_of(&stages), room(&given_of(&stages)), 1.0);
-        assert!(room.share.iter().all(|&share| share == 1.0) && room.fronts.is_empty());
+        assert!(room.fronts.iter().all(|&fronts| fronts == [1.0; 2]));
     }
 
     #[test]
@@ -212,10 +198,7 @@ mod tests {
             let room = evenness(&given, room(&given), 0.5);
             for edge in stages.edges.hard.ids() {
                 let sectors = sectors(&stages, edge);
-                let share = |(place, front): (usize, usize)| {
-                    let fronts = room.fronts.get(&sectors[place]).copied().unwrap_or([1.0; 2]);
-                    fronts[front] * room.share[sectors[place]]
-                };
+                let share = |(place, front): (usize, usize)| room.fronts[sectors[place]][front];
                 let [b1, a1, a2, b2] = [(0, 1), (1, 0), (2, 1), (3, 0)].map(share);
                 for [one, other] in [[a1, a2], [b1, b2]] {
                     assert!(one <= 2.0 * other + 1e-9 || other < LEAST_SHARE, "{one}, {other}");

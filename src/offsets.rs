@@ -11,7 +11,6 @@
 mod follow;
 
 use std::borrow::Cow;
-use std::collections::BTreeMap;
 
 use glam::DVec3;
 
@@ -526,15 +525,18 @@ pub fn parts(
     Some([along_last, offset.vector - along_last])
 }
 
-/// The offsets, of which some are for each of their edges a share of what they were.
+/// The offsets, of which some have unlike shares for their two edges (`fronts: #sectors by 2`): the
+/// one that has less goes less far.
 pub fn narrowed<'a>(
     surface: Surface,
     sectors: &Sectors,
     offsets: &'a IdVec<Sector, Offset>,
-    fronts: &BTreeMap<Sector, [f64; 2]>,
+    fronts: &IdVec<Sector, [f64; 2]>,
 ) -> Cow<'a, IdVec<Sector, Offset>> {
     let mut narrowed = Cow::Borrowed(offsets);
-    for (&sector, &fronts) in fronts {
+    for sector in fronts.ids().filter(|&sector| fronts[sector][0] != fronts[sector][1]) {
+        let most = fronts[sector][0].max(fronts[sector][1]);
+        let fronts = fronts[sector].map(|share| share / most);
         if let Some(offset) = narrow(surface, sectors, sector, &offsets[sector], fronts) {
             narrowed.to_mut()[sector] = offset;
         }

@@ -295,7 +295,7 @@ fn make(
     let room = evenness(asked, room(asked), options.evenness.into());
     let offsets = &*narrowed(surface, chamfers.sectors, offsets, &room.fronts);
     let given = &Given { offsets, ..*asked };
-    let limits = limits(given, &room.share, options.verify)?;
+    let limits = limits(given, &room.shares(), options.verify)?;
     let placement = &limits.placement;
     done(Stage::Limits)?;
     let patches = patches(view, chamfers, placement, threads);

@@ -8,7 +8,7 @@
 pub mod breadth;
 
 use std::cmp::Ordering;
-use std::collections::{BTreeMap, BinaryHeap};
+use std::collections::BinaryHeap;
 
 use glam::DVec3;
 
@@ -26,47 +26,70 @@ const SAFETY: f64 = 1.0005;
 
 /// How far the sectors can go.
 pub struct Room {
-    /// `#sectors`: the largest share, up to 1, that leaves room in all triangles of the sector.
-    pub share: IdVec<Sector, f64>,
-    /// The sectors whose two edges have unlike room: the share of that share that each of them has.
-    pub fronts: BTreeMap<Sector, [f64; 2]>,
+    /// `#sectors by 2`: the largest share, up to 1, at which its first and its last edge leave room in
+    /// all triangles of the sector.
+    pub fronts: IdVec<Sector, [f64; 2]>,
+    pub parts: KnownParts,
 }
 
 impl Room {
-    /// Sets what the two edges of a sector have room for.
-    pub fn set(&mut self, sector: Sector, shares: [f64; 2]) {
-        let most = shares[0].max(shares[1]);
-        self.share[sector] = most;
-        self.fronts.remove(&sector);
-        if shares[0] != shares[1] {
-            self.fronts.insert(sector, shares.map(|share| share / most));
+    /// `#sectors`: of the front that has more.
+    pub fn shares(&self) -> IdVec<Sector, f64> {
+        IdVec::from_vec(self.fronts.iter().map(|[first, last]| first.max(*last)).collect())
+    }
+}
+
+/// The parts of offsets, each found when it is first asked for: see [`parts`].
+pub struct KnownParts {
+    /// `#sectors`: a place in the parts, or one of the two below.
+    place: IdVec<Sector, u32>,
+    parts: Vec<[DVec3; 2]>,
+}
+
+/// Nobody has asked yet.
+const UNKNOWN: u32 = u32::MAX;
+
+/// Both fronts go together.
+const TOGETHER: u32 = u32::MAX - 1;
+
+impl KnownParts {
+    fn new(sectors: usize) -> KnownParts {
+        KnownParts { place: IdVec::filled(UNKNOWN, sectors), parts: Vec::new() }
+    }
+
+    /// What pulls a sector's first and its last edge; none where both go together.
+    pub fn of(&mut self, given: &Given, sector: Sector) -> Option<[DVec3; 2]> {
+        if self.place[sector] == UNKNOWN {
+            let Given { surface, chamfers, offsets, .. } = *given;
+            let found = parts(surface, chamfers.sectors, sector, &offsets[sector]);
+            self.place[sector] = found.map_or(TOGETHER, |_| self.parts.len() as u32);
+            self.parts.extend(found);
         }
+        self.known(sector)
+    }
+
+    /// The same where somebody has asked before.
+    fn known(&self, sector: Sector) -> Option<[DVec3; 2]> {
+        self.parts.get(self.place[sector] as usize).copied()
     }
 }
 
 /// The room that there is.
 pub fn room(given: &Given) -> Room {
-    let share = |sector: Sector| if given.offsets[sector].moves() { GROWING } else { 0.0 };
-    let share = given.threads.map(given.offsets.len(), share);
-    let mut filling = Filling {
-        given,
-        share,
-        split: BTreeMap::new(),
-        first: Vec::new(),
-        later: BinaryHeap::new(),
-    };
-    filling.first = given.surface.view.triangles().filter_map(|t| filling.event(t, 0.0)).collect();
+    let share = |sector: Sector| [if given.offsets[sector].moves() { GROWING } else { 0.0 }; 2];
+    let fronts = given.threads.map(given.offsets.len(), share);
+    let parts = KnownParts::new(fronts.len());
+    let mut filling = Filling { given, fronts, parts, first: Vec::new(), later: BinaryHeap::new() };
+    let is_free = |triangle: Triangle| filling.has_plenty(triangle);
+    let pressed = given.surface.view.triangles().filter(|&triangle| !is_free(triangle));
+    filling.first = pressed.filter_map(|triangle| filling.event(triangle, 0.0)).collect();
     filling.first.sort_unstable();
     while let Some(event) = filling.next_event() {
         filling.stop_around(&event);
     }
-    let Filling { mut share, split, .. } = filling;
-    share.iter_mut().for_each(|share| *share = share.min(1.0));
-    let mut room = Room { share, fronts: BTreeMap::new() };
-    for (sector, split) in split {
-        room.set(sector, split.share.map(|share| share.min(1.0)));
-    }
-    room
+    let Filling { mut fronts, parts, .. } = filling;
+    fronts.iter_mut().for_each(|fronts| *fronts = fronts.map(|share| share.min(1.0)));
+    Room { fronts, parts }
 }
 
 /// A triangle that has given away all it can when everything has grown to a share.
@@ -98,28 +121,22 @@ impl Eq for Event {}
 
 struct Filling<'a> {
     given: &'a Given<'a>,
-    /// `#sectors`: the share at which each stopped.
-    share: IdVec<Sector, f64>,
-    /// Those of which one front stopped before the other.
-    split: BTreeMap<Sector, Split>,
+    /// `#sectors by 2`: the shares at which the fronts of each stopped. Those that are unlike have
+    /// parts that are known.
+    fronts: IdVec<Sector, [f64; 2]>,
+    parts: KnownParts,
     /// What is known from the beginning, the earliest last. Nearly all events are: sorting them
     /// once takes less time than a heap of all.
     first: Vec<Event>,
     later: BinaryHeap<Event>,
 }
 
-/// The share of a sector that has not stopped.
+/// The share of a front that has not stopped.
 const GROWING: f64 = f64::INFINITY;
 
-/// In the place of the share of a sector whose fronts do not go together any more.
-const SPLIT: f64 = -1.0;
-
-/// A sector whose two edges are pulled each by a share of its own.
-struct Split {
-    /// The parts of its offset that pull its first and its last edge.
-    parts: [DVec3; 2],
-    share: [f64; 2],
-}
+/// A triangle whose corners go so little of its area, as [`Filling::has_plenty`] counts it, keeps all
+/// that it has to.
+const PLENTY: f64 = 0.5;
 
 /// What of a sector grows by itself.
 #[derive(Clone, Copy)]
@@ -162,24 +179,42 @@ impl Filling<'_> {
         let mut moving = Moving { start: old, growth, ..self.allowance(triangle, old) };
         for (k, sector) in self.sectors(triangle).into_iter().enumerate() {
             if sector.is_some() {
-                let (vector, share) = (self.given.offsets[sector].vector, self.share[sector]);
-                if share == GROWING {
-                    moving.growth[k] = vector;
-                } else if share == SPLIT {
-                    let Split { parts, share } = &self.split[&sector];
-                    for (part, &share) in parts.iter().zip(share) {
+                let (whole, fronts) = (self.given.offsets[sector].vector, self.fronts[sector]);
+                if fronts == [GROWING; 2] {
+                    moving.growth[k] = whole;
+                } else if fronts[0] == fronts[1] {
+                    moving.start[k] += whole * fronts[0];
+                } else {
+                    let parts = self.parts.known(sector).unwrap_or_default();
+                    for (part, share) in parts.into_iter().zip(fronts) {
                         if share == GROWING {
                             moving.growth[k] += part;
                         } else {
                             moving.start[k] += part * share;
                         }
                     }
-                } else {
-                    moving.start[k] += vector * share;
                 }
             }
         }
         moving
+    }
+
+    /// Whether a triangle is so large for how far its corners can go that it cannot run out of
+    /// anything. They take at most their way along its sides of twice its area, and what two of them
+    /// span; a breadth is that over the length of a side.
+    fn has_plenty(&self, triangle: Triangle) -> bool {
+        let way = |sector: Sector| {
+            if sector.is_some() { self.given.offsets[sector].vector.length_squared() } else { 0.0 }
+        };
+        let way = self.sectors(triangle).into_iter().map(way).fold(0.0, f64::max).sqrt();
+        let old = self.given.surface.view.triangle(triangle);
+        let sides = [0, 1, 2].map(|k| old[k].distance(old[(k + 1) % 3]));
+        let taken = way * (sides[0] + sides[1] + sides[2] + 3.0 * way);
+        let stays = (1.0 - PLENTY) / self.given.surface.view.least_breadth.max(LEAST_SHARE);
+        let shortest = sides[0].min(sides[1]).min(sides[2]);
+        taken < PLENTY * area_vector(old).length()
+            && (1.0 + 2.0 * way / shortest) * SAFETY < stays
+            && !self.given.surface.faces.is_line(triangle)
     }
 
     /// A triangle that does not move, with what has to be left of it.
@@ -231,47 +266,28 @@ impl Filling<'_> {
     }
 
     fn is_growing(&self, sector: Sector) -> bool {
-        sector.is_some()
-            && (self.share[sector] == GROWING
-                || self.share[sector] == SPLIT && self.split[&sector].share.contains(&GROWING))
+        sector.is_some() && self.fronts[sector].contains(&GROWING)
     }
 
     /// What of a sector grows by itself.
-    fn loads(&self, sector: Sector) -> Few<Load> {
-        let mut loads = Few::new();
-        if sector.is_none() {
-            return loads;
+    fn loads(&mut self, sector: Sector) -> [Option<Load>; 2] {
+        if !self.is_growing(sector) {
+            return [None; 2];
         }
-        let offset = &self.given.offsets[sector];
-        if self.share[sector] == GROWING {
-            match parts(self.given.surface, self.given.chamfers.sectors, sector, offset) {
-                None => loads.push(Load { front: None, growth: offset.vector }),
-                Some(parts) => loads
-                    .extend([0, 1].map(|front| Load { front: Some(front), growth: parts[front] })),
-            }
-        } else if self.share[sector] == SPLIT {
-            let Split { parts, share } = &self.split[&sector];
-            let growing = (0..2).filter(|&front| share[front] == GROWING);
-            loads.extend(growing.map(|front| Load { front: Some(front), growth: parts[front] }));
+        match self.parts.of(self.given, sector) {
+            None => [Some(Load { front: None, growth: self.given.offsets[sector].vector }), None],
+            Some(parts) => [0, 1].map(|front| {
+                let grows = self.fronts[sector][front] == GROWING;
+                grows.then_some(Load { front: Some(front), growth: parts[front] })
+            }),
         }
-        loads
     }
 
     /// Stops what of a sector grows by itself.
     fn stop(&mut self, sector: Sector, front: Option<usize>, at: f64) {
-        let Some(front) = front else {
-            self.share[sector] = at;
-            return;
-        };
-        if self.share[sector] == GROWING {
-            let offset = &self.given.offsets[sector];
-            let parts = parts(self.given.surface, self.given.chamfers.sectors, sector, offset);
-            let split = Split { parts: parts.unwrap_or_default(), share: [GROWING; 2] };
-            self.split.insert(sector, split);
-            self.share[sector] = SPLIT;
-        }
-        if let Some(split) = self.split.get_mut(&sector) {
-            split.share[front] = at;
+        match front {
+            None => self.fronts[sector] = [at; 2],
+            Some(front) => self.fronts[sector][front] = at,
         }
     }
 
@@ -286,10 +302,10 @@ impl Filling<'_> {
         let loads = sectors.map(|sector| self.loads(sector));
         let takes = |k: usize, load: &Load| moving.takes(k, load.growth, event.share, bound);
         // All of them if none does alone.
-        let any = (0..3).any(|k| loads[k].iter().any(|load| takes(k, load)));
+        let any = (0..3).any(|k| loads[k].iter().flatten().any(|load| takes(k, load)));
         let mut pressing = [false; 3];
         for k in 0..3 {
-            for load in loads[k].iter().filter(|load| !any || takes(k, load)) {
+            for load in loads[k].iter().flatten().filter(|load| !any || takes(k, load)) {
                 pressing[k] = true;
                 self.stop(sectors[k], load.front, event.share);
             }
@@ -438,10 +454,9 @@ mod tests {
         let of = |sector: Sector| {
             let first = stages.sectors.fans[sector].first;
             let along = stages.view.position_at(first.next()) - stages.view.position_at(first);
-            let fronts = room.fronts.get(&sector).copied().unwrap_or([1.0; 2]);
-            (along.abs().normalize(), fronts.map(|front| front * room.share[sector]))
+            (along.abs().normalize(), room.fronts[sector])
         };
-        room.share.ids().filter(on_face).map(of).collect()
+        room.fronts.ids().filter(on_face).map(of).collect()
     }
 
     fn asking(width: f32) -> Options {

@@ -111,7 +111,7 @@ impl Stages<'_> {
         let (surface, chamfers) = (self.surface(), self.chamfers());
         let Stages { narrowed, room, rests, deep, threads, .. } = self;
         let given = &Given { surface, chamfers, offsets: narrowed, rests, deep, threads };
-        limits(given, &room.share, verify).unwrap()
+        limits(given, &room.shares(), verify).unwrap()
     }
 
     fn space(&self) -> Space<'_> {
