@@ -76,19 +76,32 @@ impl PartialOrd for Narrow {
 }
 
 impl Leveling<'_> {
-    fn seeds(&self) -> BinaryHeap<Narrow> {
-        let is_narrow = |front: &Front| self.moves(front.0) && self.share(*front) < 1.0;
-        let fronts = self.room.fronts.ids().flat_map(|sector| [(sector, 0), (sector, 1)]);
-        let narrow = fronts.filter(is_narrow);
-        narrow.map(|front| Narrow { share: self.share(front), front }).collect()
+    /// The fronts that narrow others from the beginning: few of those that are narrow. The others can
+    /// only come to do so when they are lowered themselves.
+    fn seeds(&mut self) -> BinaryHeap<Narrow> {
+        let mut seeds = Vec::new();
+        for sector in self.room.fronts.ids().filter(|&sector| self.given.offsets[sector].moves()) {
+            for front in [(sector, 0), (sector, 1)] {
+                let share = self.share(front);
+                if share < 1.0 {
+                    let linked = self.linked(front, share);
+                    if linked.into_iter().flatten().any(|(other, most)| self.has_more(other, most))
+                    {
+                        seeds.push(Narrow { share, front });
+                    }
+                }
+            }
+        }
+        seeds.into()
     }
 
     fn share(&self, (sector, which): Front) -> f64 {
         self.room.fronts[sector][which]
     }
 
-    fn moves(&self, sector: Sector) -> bool {
-        sector.is_some() && self.given.offsets[sector].moves()
+    fn has_more(&self, front: Front, most: f64) -> bool {
+        let (sector, _) = front;
+        sector.is_some() && self.given.offsets[sector].moves() && self.share(front) > most
     }
 
     /// The fronts next to one, and the most that each may have: along its edge, across it, and that
@@ -123,7 +136,7 @@ impl Leveling<'_> {
 
     /// Lowers a front to what it may have.
     fn lower(&mut self, front: Front, most: f64) {
-        if self.moves(front.0) && self.share(front) > most {
+        if self.has_more(front, most) {
             self.room.fronts[front.0][front.1] = most;
             self.narrow.push(Narrow { share: most, front });
         }
