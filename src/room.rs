@@ -79,10 +79,13 @@ pub fn room(given: &Given) -> Room {
     let share = |sector: Sector| [if given.offsets[sector].moves() { GROWING } else { 0.0 }; 2];
     let fronts = given.threads.map(given.offsets.len(), share);
     let parts = KnownParts::new(fronts.len());
-    let mut filling = Filling { given, fronts, parts, first: Vec::new(), later: BinaryHeap::new() };
+    let due = IdVec::filled(GROWING, given.surface.faces.normal.len());
+    let (first, later) = (Vec::new(), BinaryHeap::new());
+    let mut filling = Filling { given, fronts, parts, first, later, due };
     let is_free = |triangle: Triangle| filling.has_plenty(triangle);
     let pressed = given.surface.view.triangles().filter(|&triangle| !is_free(triangle));
     filling.first = pressed.filter_map(|triangle| filling.event(triangle, 0.0)).collect();
+    filling.first.iter().for_each(|event| filling.due[event.triangle] = event.share);
     filling.first.sort_unstable();
     while let Some(event) = filling.next_event() {
         filling.stop_around(&event);
@@ -129,6 +132,8 @@ struct Filling<'a> {
     /// once takes less time than a heap of all.
     first: Vec<Event>,
     later: BinaryHeap<Event>,
+    /// `#triangles`: the share of the event that counts, which others have taken the place of.
+    due: IdVec<Triangle, f64>,
 }
 
 /// The share of a front that has not stopped.
@@ -293,11 +298,11 @@ impl Filling<'_> {
 
     /// Stops what presses on an exhausted triangle.
     fn stop_around(&mut self, event: &Event) {
-        // Sectors may have stopped since the event was noted: then another one has taken its place.
-        let now = self.exhausted(event.triangle, event.share);
-        let Some((moving, _, bound)) = now.filter(|now| now.1 <= event.share) else {
+        if self.due[event.triangle] != event.share {
             return;
-        };
+        }
+        self.due[event.triangle] = GROWING;
+        let Some((moving, _, bound)) = self.exhausted(event.triangle, event.share) else { return };
         let sectors = self.sectors(event.triangle);
         let loads = sectors.map(|sector| self.loads(sector));
         let takes = |k: usize, load: &Load| moving.takes(k, load.growth, event.share, bound);
@@ -318,8 +323,20 @@ impl Filling<'_> {
             let corners =
                 self.given.chamfers.sectors.corners(self.given.surface.topology, sectors[k]);
             let triangles = corners.map(Corner::triangle).filter(|&triangle| !is_seen(triangle));
-            let events = triangles.filter_map(|triangle| self.event(triangle, event.share));
-            self.later.extend(events.collect::<Few<Event>>());
+            triangles
+                .collect::<Few<Triangle>>()
+                .into_iter()
+                .for_each(|t| self.renew(t, event.share));
+        }
+    }
+
+    /// Puts a triangle's event where it belongs once something around it has stopped.
+    fn renew(&mut self, triangle: Triangle, at: f64) {
+        let event = self.event(triangle, at);
+        let share = event.as_ref().map_or(GROWING, |event| event.share);
+        if self.due[triangle] != share {
+            self.due[triangle] = share;
+            self.later.extend(event);
         }
     }
 }
