@@ -36,6 +36,11 @@ impl Aabb {
         }
     }
 
+    /// So much larger on all sides.
+    pub fn grown(self, by: f32) -> Aabb {
+        Aabb { low: self.low.map(|low| low - by), high: self.high.map(|high| high + by) }
+    }
+
     #[inline]
     pub fn overlaps(&self, other: &Aabb) -> bool {
         let along = |k: usize| (self.low[k] <= other.high[k]) & (other.low[k] <= self.high[k]);

@@ -131,7 +131,7 @@ fn beside_hidden(topology: &Topology) -> Vec<Corner> {
 
 fn tolerance(view: &View) -> f64 {
     // Of the largest meshes single precision cannot tell the extent.
-    let extent = f64::from(view.mesh.extent().min(f32::MAX));
+    let extent = view.extent;
     (extent * TOUCHING).max(view.resolution * TOUCHING_STEPS)
 }
 

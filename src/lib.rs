@@ -51,6 +51,7 @@ pub mod see_through;
 pub mod shapes;
 
 mod attributes;
+mod blocks;
 mod breaks;
 mod bvh;
 mod chamfers;

@@ -77,6 +77,9 @@ const BYTES_PER_REFINED_CORNER: u64 = 48;
 /// For each piece of a triangle: itself, its sides, and its new vertices.
 const BYTES_PER_PIECE: u64 = 320;
 
+/// For each source vertex and each corner of a mesh in blocks: its part, its block and its place there.
+const BYTES_PER_SHARED: u64 = 24;
+
 /// What even an empty mesh may take, error messages included.
 const BYTES_PER_CALL: u64 = 1 << 20;
 
@@ -162,6 +165,17 @@ pub fn of_copy(mesh: &Mesh) -> u64 {
     mesh.positions.len() as u64 * bytes_per_vertex(mesh)
         + mesh.indices.len() as u64 * BYTES_PER_COPIED_CORNER
         + mesh.submesh_index_counts.len() as u64 * BYTES_PER_SUBMESH
+}
+
+/// The parts of a mesh, and the blocks that they fall into.
+pub fn of_blocks(mesh: &Mesh) -> u64 {
+    (mesh.positions.len() + mesh.indices.len()) as u64 * BYTES_PER_SHARED
+}
+
+/// The results of all blocks of a mesh as one, of so many vertices and triangles.
+pub fn of_joined(mesh: &Mesh, vertices: usize, triangles: usize) -> u64 {
+    vertices as u64 * (bytes_per_vertex(mesh) + BYTES_PER_VERTEX)
+        + 3 * triangles as u64 * BYTES_PER_COPIED_CORNER
 }
 
 /// New normals for a mesh, its vertices split at each corner at most.

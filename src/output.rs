@@ -2,7 +2,8 @@
 //!
 //! Source vertices keep their indices and source triangles their order, though a triangle may use
 //! an equal vertex in place of its own. What is new is appended, per submesh: strips in the order
-//! of their edges, then fills in the order of their rings.
+//! of their edges, then fills in the order of their rings. (A large mesh goes block by block: see
+//! `blocks`.)
 
 mod submeshes;
 

@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 
 use crate::attributes::{Attributes, attributes};
+use crate::blocks::{Blocks, blocks, cut, join};
 use crate::charts::{Charts, charts};
 use crate::contacts::contacts;
 use crate::edges::{edges, may_be_hard};
@@ -60,7 +61,7 @@ pub fn chamfer_with_progress(
     progress: &mut dyn FnMut(f32) -> ControlFlow<()>,
 ) -> Result<Chamfered, Error> {
     if options.verify != Verify::Seen {
-        return chamfer_by_stages(mesh, options, &mut |stage| progress(stage.share_done()));
+        return chamfer_by_blocks(mesh, options, progress);
     }
     let alone = [Placed { mesh: 0, transform: IDENTITY }];
     // It may be done again, but what is told never falls.
@@ -68,8 +69,8 @@ pub fn chamfer_with_progress(
     let each = Options { verify: Verify::Full, ..*options };
     memory::ask(memory::of_looking(mesh))?;
     let mut run = |_: usize, mesh: &Mesh| {
-        chamfer_by_stages(mesh, &each, &mut |stage| {
-            told = told.max(stage.share_done());
+        chamfer_by_blocks(mesh, &each, &mut |share| {
+            told = told.max(share);
             progress(told)
         })
     };
@@ -125,7 +126,77 @@ impl Stage {
 /// Told whenever a stage ends; an error ends the call.
 type Done<'a> = dyn FnMut(Stage) -> Result<(), Error> + 'a;
 
-/// As [`chamfer`], calling `after` whenever a stage ends.
+/// Chamfers a mesh, a large one of many parts block by block.
+fn chamfer_by_blocks(
+    mesh: &Mesh,
+    options: &Options,
+    progress: &mut dyn FnMut(f32) -> ControlFlow<()>,
+) -> Result<Chamfered, Error> {
+    turned_right(mesh, options, |view| {
+        let weld = weld(&view.mesh);
+        let is_scaled = Scale::new(options)?.is_some();
+        let blocks = if is_scaled { None } else { blocks(&view, &weld)? };
+        match blocks {
+            Some(blocks) => {
+                drop(weld);
+                each_block(&view, &blocks, options, progress)
+            }
+            None => {
+                chamfer_welded(view, weld, options, &mut |stage| told(progress(stage.share_done())))
+            }
+        }
+    })
+}
+
+/// The stages for each block, and their results put together.
+fn each_block(
+    view: &View,
+    blocks: &Blocks,
+    options: &Options,
+    progress: &mut dyn FnMut(f32) -> ControlFlow<()>,
+) -> Result<Chamfered, Error> {
+    let threads = &Threads::new(options.threads, view.corner_count());
+    let alone = &Options { threads: 1, ..*options };
+    let chamfered = |block: usize| {
+        let own = cut(view, blocks, block);
+        let mesh = Mesh { factors: view.mesh.factors, ..own.as_mesh() };
+        let view = View { mesh, ..*view };
+        let weld = weld(&view.mesh);
+        chamfer_welded(view, weld, alone, &mut |_| Ok(()))
+    };
+    let mut results = Vec::with_capacity(blocks.len());
+    let all: Vec<usize> = (0..blocks.len()).collect();
+    for some in all.chunks(BLOCKS_AT_ONCE * threads.count()) {
+        let done = threads.map_large(some, || (), |(), &block| chamfered(block));
+        for result in done {
+            results.push(result?);
+        }
+        let share = results.len() as f32 / blocks.len() as f32;
+        told(progress(share * SHARE_OF_BLOCKS))?;
+    }
+    let counts = |count: fn(&Chamfered) -> usize| results.iter().map(count).sum::<usize>();
+    let (vertices, triangles) =
+        (counts(|part| part.mesh.positions.len()), counts(|part| part.triangle_sources.len()));
+    memory::ask(memory::of_joined(&view.mesh, vertices, triangles))?;
+    let joined = join(view, blocks, results);
+    told(progress(1.0))?;
+    Ok(joined)
+}
+
+/// So many blocks for each thread take some thousandths of a second: then the caller is told.
+const BLOCKS_AT_ONCE: usize = 4;
+
+/// How much of a call is done before the results of blocks are put together.
+const SHARE_OF_BLOCKS: f32 = 0.9;
+
+fn told(answer: ControlFlow<()>) -> Result<(), Error> {
+    match answer {
+        ControlFlow::Continue(()) => Ok(()),
+        ControlFlow::Break(()) => Err(Error::Cancelled),
+    }
+}
+
+/// As [`chamfer`] for the whole mesh at once, calling `after` whenever a stage ends.
 ///
 /// # Errors
 /// As [`chamfer`]; [`Error::Cancelled`] where `after` breaks.
@@ -134,24 +205,37 @@ pub fn chamfer_by_stages(
     options: &Options,
     after: &mut dyn FnMut(Stage) -> ControlFlow<()>,
 ) -> Result<Chamfered, Error> {
-    let done = &mut |stage: Stage| match after(stage) {
-        ControlFlow::Continue(()) => Ok(()),
-        ControlFlow::Break(()) => Err(Error::Cancelled),
-    };
+    let done = &mut |stage: Stage| told(after(stage));
+    turned_right(mesh, options, |view| {
+        done(Stage::View)?;
+        let weld = weld(&view.mesh);
+        chamfer_welded(view, weld, options, done)
+    })
+}
+
+/// A mesh whose normals all point inward is done as if they pointed outward.
+fn turned_right(
+    mesh: &Mesh,
+    options: &Options,
+    chamfered: impl FnOnce(View) -> Result<Chamfered, Error>,
+) -> Result<Chamfered, Error> {
     let view = view(mesh, options)?;
-    done(Stage::View)?;
     if !is_inside_out(&view) {
-        return chamfer_viewed(view, options, done);
+        return chamfered(view);
     }
     memory::ask(memory::of_turned(&view.mesh))?;
     let normals = turned_normals(&view);
     let view = View { mesh: Mesh { normals: &normals, ..view.mesh }, ..view };
-    Ok(turned_back(chamfer_viewed(view, options, done)?))
+    Ok(turned_back(chamfered(view)?))
 }
 
-/// The stages from the weld on.
-fn chamfer_viewed(view: View, options: &Options, done: &mut Done) -> Result<Chamfered, Error> {
-    let weld = weld(&view.mesh);
+/// The stages after the weld.
+fn chamfer_welded(
+    view: View,
+    weld: Weld,
+    options: &Options,
+    done: &mut Done,
+) -> Result<Chamfered, Error> {
     done(Stage::Weld)?;
     let scale = Scale::new(options)?;
     if scale.is_some() {

@@ -203,4 +203,22 @@ pub struct Totals {
     /// at any width do not count: where the edge runs out in a smooth area, at a T-junction, or
     /// where several creases hold the vertex.
     pub mean_width: f32,
+    /// The length of all ends that count in the mean.
+    pub(crate) counted: f64,
+}
+
+impl Totals {
+    /// Those of another part of the mesh.
+    pub(crate) fn add(&mut self, other: &Totals) {
+        self.hard_edges += other.hard_edges;
+        self.chamfered += other.chamfered;
+        self.narrowed += other.narrowed;
+        Reason::ALL.iter().for_each(|&reason| self.skipped[reason] += other.skipped[reason]);
+        let counted = self.counted + other.counted;
+        if counted > 0.0 {
+            let got = [&*self, other].map(|part| f64::from(part.mean_width) * part.counted);
+            self.mean_width = ((got[0] + got[1]) / counted) as f32;
+        }
+        self.counted = counted;
+    }
 }

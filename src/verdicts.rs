@@ -135,6 +135,7 @@ fn totals(view: &View, chamfers: Chamfers, limits: &Limits, verdicts: &[EdgeVerd
             got += length * (f64::from(verdict.widths[end]) / edge.widths[end]).min(1.0);
         }
     }
+    totals.counted = whole;
     totals.mean_width = if whole > 0.0 { (got / whole) as f32 } else { 0.0 };
     totals
 }

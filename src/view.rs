@@ -22,6 +22,8 @@ pub struct View<'a> {
     pub mesh: Mesh<'a>,
     /// The width asked for, in mesh units.
     pub width: f64,
+    /// The largest side of the bounds, in mesh units.
+    pub extent: f64,
     /// How much of the breadth of each face has to stay, 0 to 1.
     pub least_breadth: f64,
     /// The shortest length that single precision can tell from zero on this mesh.
@@ -72,7 +74,9 @@ impl<'a> View<'a> {
             (cosine(hard_angle.into()), cosine(f64::from(hard_angle) * ALIKE_SHARE))
         };
         let resolution = resolution(&mesh);
-        View { mesh, width: 0.0, least_breadth: 0.0, resolution, hard_cosine, alike_cosine }
+        let extent = mesh.extent().min(f32::MAX).into();
+        let (width, least_breadth) = (0.0, 0.0);
+        View { mesh, width, extent, least_breadth, resolution, hard_cosine, alike_cosine }
     }
 
     #[inline]

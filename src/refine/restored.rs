@@ -124,7 +124,7 @@ pub fn restored(origins: &Origins, fine: Chamfered) -> Chamfered {
     let pieces = origins.pieces(&fine.triangle_sources);
     let mut told = fine;
     told.pieces = pieces;
-    told.totals = counted(&verdicts, told.totals.mean_width);
+    told.totals = counted(&verdicts, told.totals);
     told.verdicts = verdicts;
     told.vertex_sources.replace(|blend| origins.blend(blend));
     told.triangle_sources.iter_mut().for_each(|source| *source = origins.triangle(*source));
@@ -171,8 +171,9 @@ fn nearer(added: &Blend) -> u32 {
     added.vertices[usize::from(added.weights[1] > added.weights[0])]
 }
 
-fn counted(verdicts: &[EdgeVerdict], mean_width: f32) -> Totals {
-    let mut totals = Totals { hard_edges: verdicts.len() as u32, mean_width, ..Totals::default() };
+fn counted(verdicts: &[EdgeVerdict], Totals { mean_width, counted, .. }: Totals) -> Totals {
+    let hard_edges = verdicts.len() as u32;
+    let mut totals = Totals { hard_edges, mean_width, counted, ..Totals::default() };
     for verdict in verdicts {
         match verdict.outcome {
             Outcome::Full => totals.chamfered += 1,

@@ -30,7 +30,7 @@ enum Own {
 }
 
 /// A vertex that may continue another chart.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 struct Continuing {
     own: Own,
     owner: Blend,
@@ -85,6 +85,48 @@ impl VertexSources {
             own: (0..vertices as u32).map(Own::Kept).collect(),
             continuing: Vec::with_capacity(copies),
         }
+    }
+
+    /// So many, of which those from `first_continuing` on may continue other charts. Each is
+    /// put before it is asked for.
+    pub(crate) fn with_places(first_continuing: usize, count: usize) -> VertexSources {
+        let owner = Blend::one(0);
+        let none = Continuing { own: Own::Kept(0), owner, owner_channels: 0 };
+        VertexSources {
+            own: vec![Own::Kept(0); first_continuing],
+            continuing: vec![none; count - first_continuing],
+            ..VertexSources::default()
+        }
+    }
+
+    /// Puts those of a part of a mesh where its vertices go (`places: #vertices` of the part), in terms
+    /// of the source vertices that `at` tells of those of the part.
+    pub(crate) fn put_part(
+        &mut self,
+        part: VertexSources,
+        places: &[u32],
+        at: impl Fn(u32) -> u32,
+    ) {
+        let first = self.blends.len() as u32;
+        let blend = |blend: Blend| Blend { vertices: blend.vertices.map(&at), ..blend };
+        let moved = |own: Own| match own {
+            Own::Kept(source) => Own::Kept(at(source)),
+            Own::One(place) => Own::One(first + place),
+            Own::Two(place) => Own::Two(first + place),
+        };
+        let first_continuing = self.first_continuing();
+        for (vertex, place) in places.iter().map(|&place| place as usize).enumerate() {
+            match place.checked_sub(first_continuing) {
+                None => self.own[place] = moved(part.own(vertex)),
+                Some(place) => {
+                    let Continuing { own, owner, owner_channels } =
+                        part.continuing[vertex - part.first_continuing()];
+                    let (own, owner) = (moved(own), blend(owner));
+                    self.continuing[place] = Continuing { own, owner, owner_channels };
+                }
+            }
+        }
+        self.blends.extend(part.blends.into_iter().map(blend));
     }
 
     /// Appends a vertex that continues no other chart, before any that does.
@@ -146,7 +188,8 @@ impl VertexSources {
         }
     }
 
-    fn first_continuing(&self) -> usize {
+    /// The first vertex that may continue another chart.
+    pub(crate) fn first_continuing(&self) -> usize {
         self.kept as usize + self.own.len()
     }
 }

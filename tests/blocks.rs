@@ -1,0 +1,136 @@
+//! Large meshes of many parts are chamfered block by block: as they would be at once.
+
+use std::ops::ControlFlow;
+
+use chamfer::check::assert_sound;
+use chamfer::{
+    ChamferSubmesh, Chamfered, MeshBuffers, Options, TriangleKind, Verify, Width, chamfer,
+    chamfer_by_stages, chamfer_with_progress, shapes,
+};
+
+/// Bolts of two submeshes, of many sizes, in rows: some fifty thousand triangles.
+fn many() -> MeshBuffers {
+    let bolt = shapes::bolt();
+    let mut all = MeshBuffers { submesh_index_counts: vec![0; 2], ..MeshBuffers::default() };
+    for channel in 0..all.uvs.len() {
+        all.uvs[channel].components = bolt.uvs[channel].components;
+    }
+    let counts: Vec<usize> =
+        bolt.submesh_index_counts.iter().map(|&count| count as usize).collect();
+    let mut indices = [vec![], vec![]];
+    for k in 0..500u32 {
+        let first = all.positions.len() as u32;
+        let (size, row) = (1.0 + (k % 7) as f32 / 8.0, (k / 25) as f32);
+        let at = |[x, y, z]: [f32; 3]| {
+            [x * size + 8.0 * (k % 25) as f32, y * size, z * size + 8.0 * row]
+        };
+        all.positions.extend(bolt.positions.iter().map(|&position| at(position)));
+        all.normals.extend(&bolt.normals);
+        all.tangents.extend(&bolt.tangents);
+        all.colors.extend(&bolt.colors);
+        for (all, own) in all.uvs.iter_mut().zip(&bolt.uvs) {
+            all.values.extend(&own.values);
+        }
+        let moved = |range: &[u32]| range.iter().map(|index| first + index).collect::<Vec<_>>();
+        indices[0].extend(moved(&bolt.indices[..counts[0]]));
+        indices[1].extend(moved(&bolt.indices[counts[0]..]));
+    }
+    all.submesh_index_counts = indices.iter().map(|own| own.len() as u32).collect();
+    all.indices = indices.concat();
+    assert!(all.indices.len() / 3 > 33_000, "{}", all.indices.len() / 3);
+    all
+}
+
+fn at_once(mesh: &MeshBuffers, options: &Options) -> Chamfered {
+    chamfer_by_stages(&mesh.as_mesh(), options, &mut |_| ControlFlow::Continue(())).unwrap()
+}
+
+fn options(target: ChamferSubmesh) -> Options {
+    let options = Options::default().with_width(Width::Units(0.05)).with_verify(Verify::Fast);
+    options.with_chamfer_submesh(target)
+}
+
+/// Each triangle by its submesh and all that its corners have, and where it came from, in an order of
+/// its own.
+fn triangles(result: &Chamfered) -> Vec<Vec<u32>> {
+    let (mesh, mut first, mut all) = (&result.mesh, 0, Vec::new());
+    for (submesh, count) in mesh.submesh_index_counts.iter().enumerate() {
+        for triangle in first..first + *count as usize / 3 {
+            let source = result.triangle_sources[triangle];
+            let mut told = vec![submesh as u32, source.kind as u32];
+            told.extend(match source.kind {
+                TriangleKind::Edge => result.verdicts[source.index as usize].vertices,
+                _ => [source.index; 2],
+            });
+            for &vertex in &mesh.indices[3 * triangle..3 * triangle + 3] {
+                let at = vertex as usize;
+                told.extend(
+                    mesh.positions[at].iter().chain(&mesh.normals[at]).map(|x| x.to_bits()),
+                );
+                for uv in mesh.uvs.iter().filter(|uv| uv.components > 0) {
+                    let width = uv.components as usize;
+                    told.extend(uv.values[at * width..][..width].iter().map(|x| x.to_bits()));
+                }
+                let from = result.vertex_sources.get(at);
+                told.extend(from.surface.vertices.iter().chain(&from.chart.vertices));
+                told.extend(from.owner.vertices.iter().chain([&from.owner_channels]));
+                told.extend(from.owner.weights.map(f32::to_bits));
+            }
+            all.push(told);
+        }
+        first += *count as usize / 3;
+    }
+    all.sort_unstable();
+    all
+}
+
+#[test]
+fn blocks_change_nothing_but_the_order() {
+    let mesh = many();
+    for target in [ChamferSubmesh::Owner, ChamferSubmesh::Own, ChamferSubmesh::Given(1)] {
+        let options = options(target);
+        let (whole, joined) =
+            (at_once(&mesh, &options), chamfer(&mesh.as_mesh(), &options).unwrap());
+        assert_eq!(triangles(&whole), triangles(&joined));
+        assert_eq!(whole.mesh.positions.len(), joined.mesh.positions.len());
+        let sorted = |result: &Chamfered| {
+            let mut verdicts: Vec<_> =
+                result.verdicts.iter().map(|v| (v.vertices, v.widths.map(f32::to_bits))).collect();
+            verdicts.sort_unstable();
+            verdicts
+        };
+        assert_eq!(sorted(&whole), sorted(&joined));
+        assert_eq!(whole.totals.chamfered, joined.totals.chamfered);
+        assert!((whole.totals.mean_width - joined.totals.mean_width).abs() < 1e-5);
+        assert_eq!((whole.width, whole.largest_width), (joined.width, joined.largest_width));
+        let sources = mesh.positions.len();
+        assert_eq!(whole.mesh.positions[..sources], joined.mesh.positions[..sources]);
+        assert!(whole.mesh.indices != joined.mesh.indices, "it was done at once");
+        let old = mesh.submesh_index_counts[0] as usize;
+        assert_eq!(whole.mesh.indices[..old], joined.mesh.indices[..old]);
+    }
+}
+
+#[test]
+fn the_result_is_sound_and_the_same_for_any_number_of_threads() {
+    let mesh = many();
+    let options = options(ChamferSubmesh::Owner);
+    let one = chamfer(&mesh.as_mesh(), &options).unwrap();
+    let three = chamfer(&mesh.as_mesh(), &options.with_threads(3)).unwrap();
+    assert!(one.mesh == three.mesh && one.verdicts == three.verdicts);
+    assert!(one.vertex_sources == three.vertex_sources);
+    assert_sound("bolts", &mesh.as_mesh(), &one);
+}
+
+#[test]
+fn it_tells_how_far_it_is_and_can_be_cancelled() {
+    let mesh = many();
+    let mut shares = Vec::new();
+    let result =
+        chamfer_with_progress(&mesh.as_mesh(), &options(ChamferSubmesh::Owner), &mut |share| {
+            shares.push(share);
+            if shares.len() < 3 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+        });
+    assert!(matches!(result, Err(chamfer::Error::Cancelled)));
+    assert!(shares.len() == 3 && shares.is_sorted(), "{shares:?}");
+}
