@@ -54,12 +54,12 @@ namespace Chamfer.Tests
             Check.That(!Find("Assets/a.fbx", null, out settings), "off by default");
             Check.That(!Find("Assets/PropsElse/a.fbx", null, out settings), "another folder");
             Check.That(!Find("Assets/a.fbx", "ChamferNot", out settings), "another label");
-            Check.That(Find("Assets/a.fbx", "Chamfer", out settings) && settings.width == 1, "label");
+            Check.That(Find("Assets/a.fbx", "Chamfer", out settings) && settings.width == 0.5f, "label");
             Check.That(Find("Assets/a.fbx", "chamfer=0.02", out settings), "width");
             Check.That(settings.width == 0.02f && settings.unit == WidthUnit.MeshUnits, "mesh units");
             Check.That(Find("Assets/a.fbx", "Chamfer=2%", out settings), "percent");
             Check.That(settings.width == 2 && settings.unit == WidthUnit.PercentOfExtent, "percent");
-            Check.That(Find("Assets/Props/a.fbx", null, out settings) && settings.width == 1, "folder");
+            Check.That(Find("Assets/Props/a.fbx", null, out settings) && settings.width == 0.5f, "folder");
             Check.That(Find("Assets/Props/Fine/a.fbx", null, out settings) && settings.width == 0.25f, "nearer folder");
         }
 

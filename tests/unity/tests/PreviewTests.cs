@@ -99,8 +99,8 @@ namespace Chamfer.Tests
             PreviewQueue.Flush();
             Check.Near(0.1f, WidthOf(modifier));
             Undo.PerformUndo();
-            Check.Equal(1f, modifier.settings.width);
-            Check.Near(0.02f, WidthOf(modifier));
+            Check.Equal(0.5f, modifier.settings.width);
+            Check.Near(0.01f, WidthOf(modifier));
         }
 
         public static void No_thread_is_at_work_when_scripts_are_loaded_anew()
