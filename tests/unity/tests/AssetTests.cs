@@ -110,9 +110,9 @@ namespace Chamfer.Tests
             wide.width = 5;
             new ChamferSelection(new Object[] { mesh, root }).Chamfer(wide);
             var saved = Scene.MeshesIn("Assets/Anew/Cube Chamfered.asset").Single();
-            Check.That(!saved.vertices.Any(p => p.x == 0.98f), "wide");
+            Check.That(!saved.vertices.Any(p => p.x == 0.99f), "wide");
             Undo.PerformUndo();
-            Check.That(saved.vertices.Any(p => p.x == 0.98f), "as before");
+            Check.That(saved.vertices.Any(p => p.x == 0.99f), "as before");
             Check.Equal(0, root.GetComponents<ChamferModifier>().Length);
         }
 
