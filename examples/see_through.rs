@@ -15,7 +15,7 @@ use chamfer::see_through::{Eyes, Leak, SceneTriangle, leaks};
 use chamfer::{Mesh, Options, Placed, Reason, Totals, Verify, Width, chamfer, chamfer_scene};
 use chamfer_cli::close_up::close_up;
 use chamfer_cli::pictures::write_png;
-use chamfer_cli::preview::{Panel, contact_sheet};
+use chamfer_cli::preview::{Panel, SMALL_TILE, contact_sheet};
 use chamfer_cli::scene::{largest_length, placed, scene_triangles};
 use chamfer_formats as formats;
 use chamfer_formats::ReadOptions;
@@ -168,7 +168,8 @@ fn look(request: &Request, path: &Path, percent: f32) -> usize {
                 shown.map(|leak| close_up(name.to_string(), scenes(), leak, width)).collect();
             std::fs::create_dir_all(folder).expect("the folder can be made");
             let file = folder.join(format!("{name}.{percent}.png"));
-            write_png(&file, &contact_sheet(&panels)).expect("the picture can be written");
+            write_png(&file, &contact_sheet(&panels, SMALL_TILE))
+                .expect("the picture can be written");
         }
         for leak in worst.into_iter().take(if request.is_verbose { 12 } else { 0 }) {
             println!(

@@ -254,7 +254,7 @@ typedef struct chamfer_result chamfer_result;
 typedef struct chamfer_options {
     /** `sizeof(chamfer_options)`. */
     uint32_t struct_size;
-    /** The distance between an old edge and the pulled one, in `width_unit`. Default: 1 percent. */
+    /** The distance between an old edge and the pulled one, in `width_unit`. Default: half a percent. */
     float width;
     /** One of `CHAMFER_WIDTH_MESH_UNITS`, `CHAMFER_WIDTH_PERCENT` (default). */
     uint32_t width_unit;

@@ -21,7 +21,7 @@ pub const MOST_SEGMENTS: u32 = 32;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Options {
-    /// The distance between an old edge and the pulled one. The default is 1 % of the extent.
+    /// The distance between an old edge and the pulled one. The default is 0.5 % of the extent.
     pub width: Width,
     /// How much of the breadth of each face has to stay between its chamfers, as a share (0 to 1):
     /// where they meet, posts would become pencils. The default is a fifth.
@@ -62,7 +62,7 @@ pub struct Options {
 impl Default for Options {
     fn default() -> Self {
         Options {
-            width: Width::PercentOfExtent(1.0),
+            width: Width::PercentOfExtent(0.5),
             least_breadth: 0.2,
             evenness: 0.5,
             verify: Verify::Full,

@@ -267,7 +267,7 @@ mod tests {
     use chamfer_formats::Weld;
 
     use super::*;
-    use chamfer::{ChamferSubmesh, Options};
+    use chamfer::{ChamferSubmesh, Options, Width};
     use clap::CommandFactory;
 
     fn parse(line: &str) -> Result<Args, clap::Error> {
@@ -283,7 +283,8 @@ mod tests {
     fn files_are_looked_at_and_all_else_is_as_the_core_has_it() {
         let wish = parse("chamfer a.glb").unwrap().choices.wish(1);
         assert_eq!(wish.core, Options::default().with_verify(Verify::Seen));
-        assert_eq!(wish.width, Length::percent(1.0));
+        assert_eq!(wish.width, Length::percent(0.5));
+        assert_eq!(Options::default().width, Width::PercentOfExtent(0.5));
     }
 
     #[test]

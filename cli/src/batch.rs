@@ -9,7 +9,7 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use anyhow::{Error, Result, anyhow};
+use anyhow::{Result, anyhow};
 use chamfer::MOST_SEGMENTS;
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -203,8 +203,4 @@ fn progress_bar(files: usize) -> ProgressBar {
 
 pub fn name_of(path: &Path) -> String {
     path.file_name().unwrap_or_default().to_string_lossy().into_owned()
-}
-
-pub fn one_line(error: &Error) -> String {
-    format!("{error:#}").replace(['\n', '\r'], " ")
 }

@@ -4,8 +4,8 @@ use anyhow::Result;
 use chamfer::{Chamfered, ChamferedScene, Verify};
 use chamfer_formats::Document;
 
+use crate::chamfering::chamfer_document;
 use crate::fit::Wish;
-use crate::process::chamfer_document;
 
 /// Chamfers the meshes of a file with the most segments, up to those wished for, that keep its
 /// triangles within a number, and with one at least; tells what came of it.

@@ -52,7 +52,7 @@ pub struct Choices {
 
     /// The same in percent of the largest side of the whole model, as it stands in its scene
     #[arg(long, value_name = "P", value_parser = number, allow_negative_numbers = true)]
-    #[arg(default_value = "1")]
+    #[arg(default_value = "0.5")]
     pub width_percent: f32,
 
     /// Widths are in the units of each mesh, and in percent of its own largest side, wherever it stands

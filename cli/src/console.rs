@@ -3,6 +3,8 @@
 use std::fmt::Display;
 use std::io::Write;
 
+use anyhow::Error;
+
 /// Prints a line on standard output. A closed pipe (`chamfer ... | head`) is no reason to stop.
 pub fn say(line: impl Display) {
     let _ = writeln!(std::io::stdout(), "{}", harmless(&line.to_string()));
@@ -29,6 +31,11 @@ pub fn harmless(text: &str) -> String {
 /// The same where all is one line.
 pub fn one_line(text: &str) -> String {
     harmless(text).replace('\n', "\\n")
+}
+
+/// An error and what led to it, in one line.
+pub fn with_causes(error: &Error) -> String {
+    format!("{error:#}").replace(['\n', '\r'], " ")
 }
 
 #[cfg(test)]

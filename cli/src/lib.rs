@@ -10,6 +10,7 @@ mod args;
 mod batch;
 mod budget;
 mod busiest;
+mod chamfering;
 mod check;
 mod choices;
 mod coats;

@@ -6,8 +6,7 @@ use std::time::Duration;
 use anyhow::Result;
 
 use crate::args::Args;
-use crate::batch::one_line;
-use crate::console::{one_line as told, say, warn};
+use crate::console::{one_line, say, warn, with_causes};
 use crate::html::{self, Pictures};
 use crate::jobs::{Job, Plan};
 use crate::pictures::{self, Drawn, Portrait};
@@ -76,8 +75,8 @@ impl Outcome {
                 drop(written);
             }
             Err(error) => {
-                let error = one_line(&error);
-                warn(format_args!("{}: {error}", told(&file.file)));
+                let error = with_causes(&error);
+                warn(format_args!("{}: {error}", one_line(&file.file)));
                 file.error = Some(error);
                 self.pictures.push(None);
             }
@@ -90,7 +89,7 @@ impl Outcome {
             return;
         }
         for note in &file.notes {
-            warn(format_args!("{}: note: {}", told(&file.file), told(note)));
+            warn(format_args!("{}: note: {}", one_line(&file.file), one_line(note)));
         }
         say(file);
         if self.is_verbose {

@@ -10,6 +10,7 @@ use image::{ImageFormat, RgbImage};
 
 use crate::args::Args;
 use crate::busiest::busiest_corner;
+use crate::chamfering::chamfer_document;
 use crate::coats::Decoded;
 use crate::fit::Wish;
 use crate::html::Pictures;
@@ -17,7 +18,6 @@ use crate::length::{Length, Unit};
 use crate::preview::{
     LARGE_TILE, Line, Panel, SMALL_TILE, Surface, before_after, sheet, stacked, tiles,
 };
-use crate::process::chamfer_document;
 use crate::scene::placed;
 use crate::verdict_lines::{self, Legend};
 use crate::write;

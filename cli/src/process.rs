@@ -2,16 +2,12 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::hash::{DefaultHasher, Hash, Hasher};
-use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
-use anyhow::{Context, Result, bail};
-use chamfer::see_through::Eyes;
-use chamfer::{
-    Chamfered, ChamferedScene, Mesh, Options, Verify, chamfer_scene, chamfer_with_progress,
-};
+use anyhow::{Result, bail};
+use chamfer::Chamfered;
 use chamfer_formats as formats;
 use chamfer_formats::paths::identity;
 use chamfer_formats::weld;
@@ -19,7 +15,8 @@ use chamfer_formats::{Document, Encoded, OutputFile, ReadOptions, SourceMesh};
 use glam::{Mat4, Vec3};
 
 use crate::budget::{Count, count, within};
-use crate::fit::{Wish, fit, unmet};
+use crate::chamfering::chamfer_document;
+use crate::fit::{Wish, unmet};
 use crate::jobs::Job;
 use crate::nothing;
 use crate::report::MeshReport;
@@ -203,39 +200,6 @@ fn extent(positions: &[[f32; 3]]) -> f64 {
     (0..3).map(side).fold(0.0, f64::max)
 }
 
-/// Chamfers the meshes of a file as they stand in its scene: what rests on another is left to rest,
-/// and with [`Verify::Seen`] the whole is looked at. `progress` is told the share done (0 to 1).
-///
-/// # Errors
-/// Whatever is wrong with a mesh or the options.
-pub fn chamfer_document(
-    document: &dyn Document,
-    wish: &Wish,
-    progress: &dyn Fn(f32),
-) -> Result<ChamferedScene> {
-    let fit = fit(document, wish)?;
-    let meshes = fit.meshes(document);
-    let Options { verify, threads, .. } = wish.core;
-    let eyes = (verify == Verify::Seen).then(|| Eyes::default().with_threads(threads));
-    // The scene looks through all meshes together.
-    let each = if verify == Verify::Seen { Verify::Full } else { verify };
-    let total: usize = meshes.iter().map(|mesh| mesh.indices.len()).sum();
-    let mut done = 0;
-    let mut run = |number: usize, mesh: &Mesh| {
-        let mut tell = |share: f32| {
-            let corners = done as f32 + share * mesh.indices.len() as f32;
-            progress((corners / total.max(1) as f32).min(1.0));
-            ControlFlow::Continue(())
-        };
-        let options = fit.options[number].with_verify(each);
-        let result = chamfer_with_progress(mesh, &options, &mut tell)
-            .with_context(|| format!("mesh {}", document.meshes()[number].name))?;
-        done += mesh.indices.len();
-        Ok(result)
-    };
-    chamfer_scene(&meshes, &document.instances(), eyes, &mut run)
-}
-
 /// Paths that a result must not go to: models of this run, and files that belong to other results.
 #[derive(Default)]
 pub struct Taken(Mutex<BTreeMap<PathBuf, Content>>);
@@ -303,7 +267,7 @@ mod tests {
         let note = |shift: f32, width: f32| {
             let mut mesh = chamfer::shapes::plain_cube(1.0);
             mesh.positions.iter_mut().for_each(|position| position[0] += shift);
-            let options = Options::default().with_width(chamfer::Width::Units(width));
+            let options = chamfer::Options::default().with_width(chamfer::Width::Units(width));
             let result = chamfer::chamfer(&mesh.as_mesh(), &options).unwrap();
             too_far_out((&SourceMesh { name: "a".into(), mesh }, &result))
         };

@@ -11,7 +11,10 @@ const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
 const ELSEWHERE: [(&str, &str); 6] = [
     ("python3 -m pip install ./python", "tests/python"),
     ("python3 examples/python/chamfer_cube.py", "tests/python"),
-    ("cargo run --release -p chamfer-cli --no-default-features -- demo", "here, with all features"),
+    (
+        "cargo run --profile demo -p chamfer-cli --no-default-features -- demo",
+        "here, with all features",
+    ),
     ("cc -Iinclude examples/c/chamfer_cube.c", "tests/ffi"),
     ("./chamfer_cube", "tests/ffi"),
     ("cargo run --release -p chamfer-cube", "examples/rust/tests"),

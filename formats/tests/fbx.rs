@@ -87,6 +87,77 @@ fn skin_shapes_materials_and_hierarchy_go_along() {
     assert_eq!(again.unwrap().meshes()[0].mesh.indices.len(), 44 * 3);
 }
 
+/// The cube, whose red material shines, glows, lets light through and has pictures.
+fn painted_cube() -> String {
+    let property = |name: &str, kind: &str, value: &str| {
+        format!("P: \"{name}\", \"{kind}\", \"\", \"A\",{value}\n")
+    };
+    let red = property("DiffuseColor", "Color", "1,0,0");
+    let more = [
+        red.clone(),
+        property("EmissiveColor", "Color", "0,0.5,1"),
+        property("EmissiveFactor", "Number", "0.5"),
+        property("ShininessExponent", "Number", "25"),
+        property("TransparentColor", "Color", "1,1,1"),
+        property("TransparencyFactor", "Number", "0.25"),
+    ];
+    let texture = |id: u32, name: &str| {
+        format!(
+            "Texture: {id}, \"Texture::{name}\", \"\" {{\nType: \"TextureVideoClip\"\n\
+             RelativeFilename: \"textures\\{name}.png\"\nFileName: \"c:\\{name}.png\"\n}}\n"
+        )
+    };
+    let links = "C: \"OP\",20,4, \"DiffuseColor\"\nC: \"OP\",21,4, \"NormalMap\"\n";
+    let cube = cube_fbx();
+    assert!(cube.contains(red.trim_end()));
+    let objects = ["Objects: {\n", &texture(20, "wood"), &texture(21, "bumps")].concat();
+    cube.replace(red.trim_end(), &more.concat())
+        .replace(
+            "\"Material::red\", \"\" {\n",
+            "\"Material::red\", \"\" {\nShadingModel: \"phong\"\n",
+        )
+        .replace("Objects: {\n", &objects)
+        .replace("Connections: {\n", &format!("Connections: {{\n{links}"))
+}
+
+#[test]
+fn colours_shine_and_pictures_go_along() {
+    let folder = tempfile::tempdir().unwrap();
+    let png = |what: &str| [b"\x89PNG\r\n\x1A\n", what.as_bytes()].concat();
+    fs::create_dir(folder.path().join("textures")).unwrap();
+    fs::write(folder.path().join("textures/wood.png"), png("wood")).unwrap();
+    // Files are often moved together, without their folders.
+    fs::write(folder.path().join("bumps.png"), png("bumps")).unwrap();
+    let path = folder.path().join("model.fbx");
+    fs::write(&path, painted_cube()).unwrap();
+    let document = chamfer_formats::read(&path, &ReadOptions::default()).unwrap();
+    assert_eq!(document.notes(), ["of an FBX these do not go along: cameras (1)"]);
+    let (json, bytes) = written_of(&*document);
+    let [red, lid] = &json["materials"].as_array().unwrap()[..] else { panic!("two materials") };
+    let surface = &red["pbrMetallicRoughness"];
+    assert_eq!(surface["baseColorFactor"], serde_json::json!([1.0, 0.0, 0.0, 0.75]));
+    // An exponent of 25 is a roughness of a half: 1 - sqrt(25) / 10.
+    assert_eq!((&surface["roughnessFactor"], &red["alphaMode"]), (&0.5.into(), &"BLEND".into()));
+    assert_eq!(red["emissiveFactor"], serde_json::json!([0.0, 0.25, 0.5]));
+    let image = |at: &Value| -> Value {
+        let texture = &json["textures"][at["index"].as_u64().unwrap() as usize];
+        json["images"][texture["source"].as_u64().unwrap() as usize]["name"].clone()
+    };
+    assert_eq!(image(&lid["pbrMetallicRoughness"]["baseColorTexture"]), "wood.png");
+    assert_eq!(image(&lid["normalTexture"]), "bumps.png");
+    let holds = |part: &[u8]| bytes.windows(part.len()).any(|window| window == part);
+    assert!(holds(&png("wood")) && holds(&png("bumps")));
+}
+
+#[test]
+fn a_picture_that_is_not_there_is_told_of() {
+    let document = read(&painted_cube()).unwrap();
+    let told = document.notes().join("\n");
+    for name in ["wood.png", "bumps.png"] {
+        assert!(told.contains(&format!("{name:?} is neither in the file nor beside it")), "{told}");
+    }
+}
+
 /// Both kinds of file say the same.
 #[test]
 fn a_binary_file_is_read_as_its_text_is() {

@@ -258,7 +258,7 @@ pub struct chamfer_object {
 pub struct chamfer_options {
     /// `sizeof(chamfer_options)`.
     pub struct_size: u32,
-    /// The distance between an old edge and the pulled one, in `width_unit`. Default: 1 percent.
+    /// The distance between an old edge and the pulled one, in `width_unit`. Default: half a percent.
     pub width: f32,
     /// One of `CHAMFER_WIDTH_MESH_UNITS`, `CHAMFER_WIDTH_PERCENT` (default).
     pub width_unit: u32,

@@ -204,7 +204,7 @@ static void chamfer_twice(const chamfer_mesh *cube) {
     int calls = 0;
 
     CHECK(chamfer_options_init(&options) == CHAMFER_STATUS_OK);
-    CHECK(options.width == 1.0f && options.width_unit == CHAMFER_WIDTH_PERCENT);
+    CHECK(options.width == 0.5f && options.width_unit == CHAMFER_WIDTH_PERCENT);
     options.width = width;
     options.width_unit = CHAMFER_WIDTH_MESH_UNITS;
 

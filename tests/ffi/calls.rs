@@ -106,7 +106,7 @@ fn every_status_has_words_of_its_own() {
 #[test]
 fn default_options() {
     let options = options();
-    assert_eq!((options.width, options.width_unit), (1.0, CHAMFER_WIDTH_PERCENT));
+    assert_eq!((options.width, options.width_unit), (0.5, CHAMFER_WIDTH_PERCENT));
     assert_eq!((options.verify, options.threads), (CHAMFER_VERIFY_FULL, 1));
     assert_eq!((options.submesh_mode, options.submesh), (CHAMFER_SUBMESH_OWNER, 0));
 }

@@ -112,6 +112,17 @@ pub fn imports_within(folder: &str, modules: &BTreeMap<String, PathBuf>) -> Impo
     within
 }
 
+/// The circles at the top and among the files of one folder, by folder.
+pub fn circles_by_folder(modules: &BTreeMap<String, PathBuf>) -> BTreeMap<String, Imports> {
+    let above = modules.keys().filter_map(|name| Some(name.rsplit_once("::")?.0.to_owned()));
+    let folders: BTreeSet<String> = above.chain([String::new()]).collect();
+    let found = folders.into_iter().map(|folder| {
+        let circles = circles(imports_within(&folder, modules));
+        (folder, circles)
+    });
+    found.filter(|(_, circles)| !circles.is_empty()).collect()
+}
+
 /// The modules that are on a circle, or lead from one to another: what is left when those that
 /// import nothing that is left, or that nothing left imports, are taken away.
 pub fn circles(mut imports: Imports) -> Imports {

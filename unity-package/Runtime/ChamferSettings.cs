@@ -74,10 +74,10 @@ namespace Chamfer
         [Tooltip("Which edges are chamfered, what the width measures, and where it differs.")]
         public EdgeSettings edges;
 
-        /// <summary>One percent of the extent, fully verified, in the submesh of the face beside it.</summary>
+        /// <summary>Half a percent of the extent, fully verified, in the submesh of the face beside it.</summary>
         public static ChamferSettings Default => new ChamferSettings
         {
-            width = 1,
+            width = 0.5f,
             unit = WidthUnit.PercentOfExtent,
             verify = VerifyMode.Full
         };

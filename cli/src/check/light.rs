@@ -10,7 +10,7 @@ use glam::Vec3;
 
 use crate::close_up::close_up;
 use crate::pictures::write_png;
-use crate::preview::{LARGE_TILE, Panel, before_after, contact_sheet};
+use crate::preview::{LARGE_TILE, Panel, SMALL_TILE, before_after, contact_sheet};
 use crate::scene::{placed, scene_triangles};
 
 use super::report::{Place, SeeThrough};
@@ -87,7 +87,7 @@ pub fn draw(
         &if panels.is_empty() {
             before_after(&whole(), LARGE_TILE)
         } else {
-            contact_sheet(&panels)
+            contact_sheet(&panels, SMALL_TILE)
         },
     )
 }

@@ -18,10 +18,10 @@ use chamfer_formats::paths::identity;
 use chamfer_formats::{Document, Instance, NormalsRead, ReadOptions};
 
 use crate::args::{CheckArgs, CheckDepth};
-use crate::batch::{USAGE, name_of, one_line};
-use crate::console::{say, warn};
+use crate::batch::{USAGE, name_of};
+use crate::chamfering::chamfer_document;
+use crate::console::{say, warn, with_causes};
 use crate::fit::Wish;
-use crate::process::chamfer_document;
 use crate::scene::largest_length;
 use crate::write;
 
@@ -33,7 +33,7 @@ pub fn run(args: &CheckArgs) -> ExitCode {
     match check(args) {
         Ok(verdict) => ExitCode::from(verdict.exit_code()),
         Err(error) => {
-            warn(one_line(&error));
+            warn(with_causes(&error));
             ExitCode::from(USAGE)
         }
     }

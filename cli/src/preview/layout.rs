@@ -37,9 +37,9 @@ pub fn tiles(panel: &Panel, tile: u32) -> [RgbImage; 2] {
     [(); 2].map(|()| tiles.next().unwrap_or_default())
 }
 
-/// Draws several models, each before and after.
-pub fn contact_sheet(panels: &[Panel]) -> RgbImage {
-    let rows: Vec<RgbImage> = panels.iter().map(|panel| before_after(panel, SMALL_TILE)).collect();
+/// Draws several models, each before and after, in tiles of so many pixels per side.
+pub fn contact_sheet(panels: &[Panel], tile: u32) -> RgbImage {
+    let rows: Vec<RgbImage> = panels.iter().map(|panel| before_after(panel, tile)).collect();
     sheet(&rows)
 }
 
@@ -92,7 +92,8 @@ impl<'a> Drawn<'a> {
         let scenes: Vec<Scene> = placed.map(|placed| Scene::gather(placed)).collect();
         let camera = camera(&scenes, panel, tile as usize * SAMPLES);
         let after = panel.after_name.as_deref().unwrap_or("after");
-        let names = ["before", after].into_iter();
+        let before = panel.before_name.as_deref().unwrap_or("before");
+        let names = [before, after].into_iter();
         let names = names.chain(panel.further.iter().map(|(name, _)| &**name));
         let lines = [&panel.before_lines[..], &panel.after_lines];
         let render = |scene, lines| {
@@ -212,14 +213,14 @@ mod tests {
     #[test]
     fn an_empty_panel_is_background() {
         assert_eq!(before_after(&Panel::default(), LARGE_TILE).dimensions(), (1202, 656));
-        assert_eq!(contact_sheet(&[]).dimensions(), (642, 376));
+        assert_eq!(contact_sheet(&[], SMALL_TILE).dimensions(), (642, 376));
     }
 
     #[test]
     fn a_long_sheet_has_two_columns() {
         let panels = |count| (0..count).map(|_| Panel::default()).collect::<Vec<_>>();
-        assert_eq!(contact_sheet(&panels(2)).dimensions(), (642, 754));
-        assert_eq!(contact_sheet(&panels(5)).dimensions(), (1286, 1132));
+        assert_eq!(contact_sheet(&panels(2), SMALL_TILE).dimensions(), (642, 754));
+        assert_eq!(contact_sheet(&panels(5), SMALL_TILE).dimensions(), (1286, 1132));
     }
 
     #[test]

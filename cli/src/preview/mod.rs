@@ -41,6 +41,8 @@ pub struct Panel<'a> {
     pub before_lines: Vec<Line>,
     /// Drawn over the right tile, likewise.
     pub after_lines: Vec<Line>,
+    /// What the left tile is called: "before", if nothing else.
+    pub before_name: Option<String>,
     /// Further tiles on the right, and what each is called.
     pub further: Vec<(String, Vec<Placed<'a>>)>,
     /// What the right tile is called: "after", if nothing else.

@@ -29,7 +29,9 @@ impl Materials {
         let mut texture_of = vec![None; scene.textures.len()];
         for (number, texture) in scene.textures.iter().enumerate() {
             let is_used = scene.materials.iter().any(|material| {
-                base(material).is_some_and(|used| used.element.typed_id as usize == number)
+                let maps = &material.pbr;
+                let drawn = [&maps.base_color, &maps.normal_map, &maps.emission_color];
+                drawn.into_iter().filter_map(texture_on).any(|used| used == number)
             });
             match picture(texture, folder) {
                 _ if !is_used => {}
@@ -51,37 +53,73 @@ impl Materials {
     }
 }
 
-fn base(material: &Material) -> Option<&Texture> {
-    let map = &material.pbr.base_color;
-    map.texture.as_ref().filter(|_| map.texture_enabled).map(|texture| &**texture)
+/// The number of the texture on a map.
+fn texture_on(map: &MaterialMap) -> Option<usize> {
+    let texture = map.texture.as_ref().filter(|_| map.texture_enabled);
+    texture.map(|texture| texture.element.typed_id as usize)
+}
+
+/// The number of a map, 0 to 1.
+fn share(map: &MaterialMap, usual: f64) -> f32 {
+    let value = if map.has_value { map.value_vec4.x } else { usual };
+    if value.is_finite() { value.clamp(0.0, 1.0) as f32 } else { usual as f32 }
+}
+
+/// A map's colour times a factor, red, green and blue, each within 0 to 1; none where there is no number.
+fn color_of(map: &MaterialMap, factor: f32) -> Option<[f32; 3]> {
+    let value = map.value_vec4;
+    let channels = [value.x, value.y, value.z].map(|channel| channel as f32 * factor);
+    let is_finite = channels.iter().all(|channel| channel.is_finite());
+    (map.has_value && is_finite).then(|| channels.map(|channel| channel.clamp(0.0, 1.0)))
+}
+
+/// How little light a material lets through, 0 to 1. The materials of old have a color of what goes
+/// through, and a factor. Some exporters leave both at 1 for what is not transparent at all.
+fn opacity_of(material: &Material) -> f32 {
+    let own = &material.pbr.opacity;
+    let (color, factor) = (&material.fbx.transparency_color, &material.fbx.transparency_factor);
+    let through = color_of(color, if factor.has_value { share(factor, 0.0) } else { 1.0 });
+    match through {
+        _ if own.has_value => share(own, 1.0),
+        Some(through) if through != [1.0; 3] => 1.0 - through.into_iter().sum::<f32>() / 3.0,
+        _ => 1.0,
+    }
 }
 
 fn write_material(material: &Material, texture_of: &[Option<usize>]) -> Value {
-    let share = |map: &MaterialMap, usual: f64| {
-        let value = if map.has_value { map.value_vec4.x } else { usual };
-        if value.is_finite() { value.clamp(0.0, 1.0) as f32 } else { usual as f32 }
-    };
     let maps = &material.pbr;
+    let drawn = |map: &MaterialMap| {
+        texture_on(map).and_then(|used| texture_of[used]).map(|index| json!({"index": index}))
+    };
     let mut color = [1.0; 4];
     // A picture takes the place of the colour.
-    let texture = base(material).and_then(|used| texture_of[used.element.typed_id as usize]);
-    if texture.is_none() && maps.base_color.has_value {
-        let (value, factor) = (maps.base_color.value_vec4, share(&maps.base_factor, 1.0));
-        let channels = [value.x, value.y, value.z].map(|channel| channel as f32 * factor);
-        let is_finite = channels.iter().all(|channel| channel.is_finite());
-        color[..3]
-            .copy_from_slice(&channels.map(|c| if is_finite { c.clamp(0.0, 1.0) } else { 1.0 }));
+    let picture = drawn(&maps.base_color);
+    let own = color_of(&maps.base_color, share(&maps.base_factor, 1.0));
+    if let (None, Some(own)) = (&picture, own) {
+        color[..3].copy_from_slice(&own);
     }
-    color[3] = share(&maps.opacity, 1.0);
+    color[3] = opacity_of(material);
     let mut surface = json!({
         "baseColorFactor": color,
         "metallicFactor": share(&maps.metalness, 0.0),
         "roughnessFactor": share(&maps.roughness, 1.0),
     });
-    if let Some(texture) = texture {
-        surface["baseColorTexture"] = json!({"index": texture});
+    if let Some(picture) = picture {
+        surface["baseColorTexture"] = picture;
     }
     let mut value = json!({"name": &*material.element.name, "pbrMetallicRoughness": surface});
+    if let Some(picture) = drawn(&maps.normal_map) {
+        value["normalTexture"] = picture;
+    }
+    let strength = share(&maps.emission_factor, 1.0);
+    if let Some(picture) = drawn(&maps.emission_color) {
+        (value["emissiveTexture"], value["emissiveFactor"]) =
+            (picture, json!([strength, strength, strength]));
+    } else if let Some(glow) = color_of(&maps.emission_color, strength) {
+        if glow != [0.0; 3] {
+            value["emissiveFactor"] = json!(glow);
+        }
+    }
     if color[3] < 1.0 {
         value["alphaMode"] = "BLEND".into();
     }

@@ -31,7 +31,7 @@ _NOTHING = 1e-9
 class Options(TypedDict, total=False):
     """How to chamfer a mesh. What is not given has its default."""
 
-    width: float  #: the distance between an old edge and the pulled one; 1
+    width: float  #: the distance between an old edge and the pulled one; 0.5
     width_unit: Literal["percent", "mesh"]  #: "percent" of the largest side of the mesh's box, or its units
     least_breadth: float  #: share (0 to 1) of each face's breadth that stays; 0.2
     #: how far the widths of a chamfer are held to each other: 0 (each end has all that there is room

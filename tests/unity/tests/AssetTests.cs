@@ -77,8 +77,8 @@ namespace Chamfer.Tests
             Check.Equal(2, Scene.FilesIn("Assets/Renamed/").Count);
             Check.Near(0.9f, result.vertices.Max(p => System.Math.Min(System.Math.Abs(p.x), System.Math.Abs(p.y))));
             Undo.PerformUndo();
-            Check.Near(0.98f, result.vertices.Max(p => System.Math.Min(System.Math.Abs(p.x), System.Math.Abs(p.y))));
-            Check.Equal(1f, ChamferRecords.Of(result).settings.width);
+            Check.Near(0.99f, result.vertices.Max(p => System.Math.Min(System.Math.Abs(p.x), System.Math.Abs(p.y))));
+            Check.Equal(0.5f, ChamferRecords.Of(result).settings.width);
         }
 
         public static void An_exception_midway_leaves_everything_as_it_was()
@@ -110,9 +110,9 @@ namespace Chamfer.Tests
             wide.width = 5;
             new ChamferSelection(new Object[] { mesh, root }).Chamfer(wide);
             var saved = Scene.MeshesIn("Assets/Anew/Cube Chamfered.asset").Single();
-            Check.That(!saved.vertices.Any(p => p.x == 0.98f), "wide");
+            Check.That(!saved.vertices.Any(p => p.x == 0.99f), "wide");
             Undo.PerformUndo();
-            Check.That(saved.vertices.Any(p => p.x == 0.98f), "as before");
+            Check.That(saved.vertices.Any(p => p.x == 0.99f), "as before");
             Check.Equal(0, root.GetComponents<ChamferModifier>().Length);
         }
 

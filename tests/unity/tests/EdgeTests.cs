@@ -94,10 +94,10 @@ namespace Chamfer.Tests
         public static void Texts_of_settings_without_edges_are_what_they_were()
         {
             var settings = ChamferSettings.Default;
-            Check.Equal("1 PercentOfExtent Full Owner 0 0", SettingsText.Of(settings));
+            Check.Equal("0.5 PercentOfExtent Full Owner 0 0", SettingsText.Of(settings));
             settings.edges.materials = new MaterialFactor[0];
-            Check.Equal("1 PercentOfExtent Full Owner 0 0", SettingsText.Of(settings));
-            Check.Equal("1 percent, Full", SettingsText.Words(settings));
+            Check.Equal("0.5 PercentOfExtent Full Owner 0 0", SettingsText.Of(settings));
+            Check.Equal("0.5 percent, Full", SettingsText.Words(settings));
         }
 
         public static void Every_setting_of_edges_is_told_in_the_text()

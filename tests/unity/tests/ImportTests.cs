@@ -54,7 +54,7 @@ namespace Chamfer.Tests
             Check.That(!Find("Assets/a.fbx", null, out settings), "off by default");
             Check.That(!Find("Assets/PropsElse/a.fbx", null, out settings), "another folder");
             Check.That(!Find("Assets/a.fbx", "ChamferNot", out settings), "another label");
-            Check.That(Find("Assets/a.fbx", "Chamfer", out settings) && settings.width == 1, "label");
+            Check.That(Find("Assets/a.fbx", "Chamfer", out settings) && settings.width == 0.5f, "label");
             Check.That(Find("Assets/a.fbx", "chamfer=0.02", out settings), "width");
             Check.That(settings.width == 0.02f && settings.unit == WidthUnit.MeshUnits, "mesh units");
             Check.That(Find("Assets/a.fbx", "Chamfer=2%", out settings), "percent");
@@ -325,14 +325,14 @@ namespace Chamfer.Tests
                     var rows = run();
                     Check.Equal("2 models would be chamfered.", DryRun.Summary(rows));
                     Check.Equal("Assets/Try/a.fbx", rows[0].Path);
-                    Check.That(rows[0].Text.StartsWith("1 percent, Full; 12 -> 44 triangles; 1 mesh: 12 edges chamfered"), rows[0].Text);
+                    Check.That(rows[0].Text.StartsWith("0.5 percent, Full; 12 -> 44 triangles; 1 mesh: 12 edges chamfered"), rows[0].Text);
                     Check.That(!first() && !second(), "nothing was imported");
                     AssetDatabase.ImportAsset("Assets/Try/a.fbx", ImportAssetOptions.Default);
                     Check.Equal("Assets/Try/b.fbx", run().Single().Path);
                 });
                 Check.Equal("1 model would be left alone again.", DryRun.Summary(run()));
                 AssetDatabase.labels["Assets/Try/a.fbx"] = new[] { "Chamfer=3%" };
-                Check.Equal("now: 1 percent, Full; then: 3 percent, Seen", run().Single().Text);
+                Check.Equal("now: 0.5 percent, Full; then: 3 percent, Seen", run().Single().Text);
                 AssetDatabase.labels["Assets/Try/a.fbx"] = new[] { "Chamfer=x" };
                 Check.Equal(ImportOutcome.Failed, run().Single().Outcome);
                 AssetDatabase.labels.Remove("Assets/Try/a.fbx");
@@ -343,7 +343,7 @@ namespace Chamfer.Tests
                 EditorGUILayout.boxes.Clear();
                 GUILayout.depth = 0;
                 typeof(DryRunWindow).GetMethod("OnGUI", BindingFlags.Instance | BindingFlags.NonPublic).Invoke(EditorWindow.opened, null);
-                Check.That(EditorGUILayout.boxes.Contains("now: 1 percent, Full"), string.Join("/", EditorGUILayout.boxes.ToArray()));
+                Check.That(EditorGUILayout.boxes.Contains("now: 0.5 percent, Full"), string.Join("/", EditorGUILayout.boxes.ToArray()));
                 Check.Equal(0, GUILayout.depth);
             }));
         }

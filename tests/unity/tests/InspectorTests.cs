@@ -200,7 +200,7 @@ namespace Chamfer.Tests
             Check.Equal(7f, ChamferProjectSettings.Load().settings.width);
             int saves = UnityEditorInternal.InternalEditorUtility.saves;
             Undo.PerformUndo();
-            Check.Equal(1f, ChamferProjectSettings.Load().settings.width);
+            Check.Equal(0.5f, ChamferProjectSettings.Load().settings.width);
             var item = new GameObject("Item");
             Undo.Click();
             Undo.RecordObject(item.transform, "Other");

@@ -32,7 +32,7 @@ namespace Chamfer.Tests
             var levels = root.GetComponent<LODGroup>().GetLODs();
             Check.That(levels[0].renderers.SequenceEqual(new Renderer[] { root.GetComponent<MeshRenderer>(), root.children[0].GetComponent<MeshRenderer>(), root.children[0].children[0].GetComponent<SkinnedMeshRenderer>() }), "near");
             Check.Equal(3, levels[1].renderers.Length);
-            Check.Equal("0.09 0.01", Heights(root));
+            Check.Equal("0.19 0.01", Heights(root));
             Check.That(levels[1].renderers[0].GetComponent<MeshFilter>().sharedMesh == shared, "the source");
             Check.That(levels[1].renderers[2] is SkinnedMeshRenderer, "with its bones");
             Check.Equal("Wood", levels[1].renderers[0].sharedMaterials.Single().name);
@@ -87,12 +87,12 @@ namespace Chamfer.Tests
             group.SetLODs(new[] { new LOD(0.05f, new Renderer[] { root.GetComponent<MeshRenderer>() }), new LOD(0.02f, new Renderer[] { coarse.GetComponent<MeshRenderer>() }) });
             var modifier = Chamfered(root);
             ModifierLods.Make(modifier);
-            Check.Equal("0.09 0.05 0.02", Heights(root));
+            Check.Equal("0.19 0.05 0.02", Heights(root));
             Undo.Click();
             ModifierActions.Revert(modifier);
             Check.Equal("0.05 0.02", Heights(root));
             Undo.PerformUndo();
-            Check.Equal("0.09 0.05 0.02", Heights(root));
+            Check.Equal("0.19 0.05 0.02", Heights(root));
             group.SetLODs(new[] { new LOD(0.6f, new Renderer[] { root.GetComponent<MeshRenderer>() }), new LOD(0.02f, new Renderer[] { coarse.GetComponent<MeshRenderer>() }) });
             modifier.farObjects.Clear();
             ModifierLods.Make(modifier);

@@ -91,7 +91,7 @@ namespace Chamfer.Tests
             ModifierActions.Chamfer(narrow);
             Check.That(Scene.MeshOf(wide.gameObject) != Scene.MeshOf(narrow.gameObject), "own meshes");
             Check.Near(0.1f, VerdictCache.Of(wide.meshes[0]).Report.Width);
-            Check.Near(0.02f, VerdictCache.Of(narrow.meshes[0]).Report.Width);
+            Check.Near(0.01f, VerdictCache.Of(narrow.meshes[0]).Report.Width);
         }
 
         public static void A_mesh_that_someone_else_set_is_theirs()
@@ -143,7 +143,7 @@ namespace Chamfer.Tests
             float wide = mesh.vertices[0].y;
             Undo.PerformUndo();
             Check.That(mesh.vertices[0].y != wide, "undo brings back what the mesh held");
-            Check.Near(0.02f, VerdictCache.Of(modifier.meshes[0]).Report.Width);
+            Check.Near(0.01f, VerdictCache.Of(modifier.meshes[0]).Report.Width);
             Undo.Click();
             ModifierActions.Revert(modifier);
             Check.Equal(0, Scene.MeshesIn("Assets/Box.prefab").Count);

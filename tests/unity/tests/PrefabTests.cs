@@ -83,7 +83,7 @@ namespace Chamfer.Tests
                 Undo.Click();
                 modifier.settings.width = 5;
                 ModifierActions.Chamfer(modifier);
-                Check.That(mesh.vertices.Any(p => p.x == 0.98f), "as it was");
+                Check.That(mesh.vertices.Any(p => p.x == 0.99f), "as it was");
                 AssetDatabase.unloaded.Clear();
                 Check.That(Scene.MeshOf(modifier.gameObject) != mesh, "a new one");
             });
@@ -131,7 +131,7 @@ namespace Chamfer.Tests
             var modifier = first.GetComponent<ChamferModifier>();
             modifier.settings.width = 5;
             ModifierActions.Chamfer(modifier);
-            Check.That(Scene.MeshOf(second).vertices.Any(p => p.x == 0.98f), "the other stays");
+            Check.That(Scene.MeshOf(second).vertices.Any(p => p.x == 0.99f), "the other stays");
             Undo.PerformUndo();
             Undo.PerformUndo();
             Check.That(Scene.MeshOf(second) == mesh, "undone");

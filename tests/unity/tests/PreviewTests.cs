@@ -37,7 +37,7 @@ namespace Chamfer.Tests
                 modifier.settings.width = 2;
                 ModifierActions.Preview(modifier);
                 Check.That(MeshKeys.Of(Scene.MeshOf(root)) != key, "another width");
-                modifier.settings.width = 1;
+                modifier.settings.width = 0.5f;
                 ModifierActions.Preview(modifier);
                 Check.Equal(key, MeshKeys.Of(Scene.MeshOf(root)));
                 Check.Equal(text, ReportText.Of(modifier));
@@ -52,7 +52,7 @@ namespace Chamfer.Tests
             {
                 modifier.settings.width = width;
                 PreviewQueue.Request(modifier);
-                Check.Near(0.02f, WidthOf(modifier));
+                Check.Near(0.01f, WidthOf(modifier));
             }
             PreviewQueue.Flush();
             Check.Near(0.18f, WidthOf(modifier));
@@ -68,7 +68,7 @@ namespace Chamfer.Tests
                 PreviewQueue.Request(modifier);
             }
             while (WidthOf(first) < 0.05f) { EditorApplication.Idle(); }
-            Check.Near(0.02f, WidthOf(second));
+            Check.Near(0.01f, WidthOf(second));
             while (WidthOf(second) < 0.05f) { EditorApplication.Idle(); }
             EditorApplication.Idle();
             Check.That(EditorApplication.update == null, "at rest");
@@ -99,8 +99,8 @@ namespace Chamfer.Tests
             PreviewQueue.Flush();
             Check.Near(0.1f, WidthOf(modifier));
             Undo.PerformUndo();
-            Check.Equal(1f, modifier.settings.width);
-            Check.Near(0.02f, WidthOf(modifier));
+            Check.Equal(0.5f, modifier.settings.width);
+            Check.Near(0.01f, WidthOf(modifier));
         }
 
         public static void No_thread_is_at_work_when_scripts_are_loaded_anew()
@@ -120,7 +120,7 @@ namespace Chamfer.Tests
             PreviewQueue.Request(modifier);
             Object.DestroyImmediate(modifier);
             PreviewQueue.Flush();
-            Check.Near(0.02f, WidthOf(modifier));
+            Check.Near(0.01f, WidthOf(modifier));
         }
 
         /// What the buttons did is newer than a preview that was asked for before.
@@ -182,7 +182,7 @@ namespace Chamfer.Tests
             Check.That(PreviewQueue.Failures[modifier].Single().Contains("width"), "why");
             Check.That(EditorGUILayout.boxes.Contains(PreviewQueue.Failures[modifier][0]), string.Join("\n", EditorGUILayout.boxes));
             Check.That(modifier.IsApplied, "all is as it was");
-            Check.Near(0.02f, WidthOf(modifier));
+            Check.Near(0.01f, WidthOf(modifier));
         }
 
         public static void A_source_is_read_again_where_it_has_changed()
