@@ -115,10 +115,10 @@ fn write_material(material: &Material, texture_of: &[Option<usize>]) -> Value {
     if let Some(picture) = drawn(&maps.emission_color) {
         (value["emissiveTexture"], value["emissiveFactor"]) =
             (picture, json!([strength, strength, strength]));
-    } else if let Some(glow) = color_of(&maps.emission_color, strength) {
-        if glow != [0.0; 3] {
-            value["emissiveFactor"] = json!(glow);
-        }
+    } else if let Some(glow) = color_of(&maps.emission_color, strength)
+        && glow != [0.0; 3]
+    {
+        value["emissiveFactor"] = json!(glow);
     }
     if color[3] < 1.0 {
         value["alphaMode"] = "BLEND".into();
