@@ -84,8 +84,9 @@ fn of_file(request: &Request, path: &Path, percent: f32, sums: &mut [Sum]) {
     let file = path.file_stem().unwrap_or_default().to_string_lossy();
     for source in document.meshes() {
         let run = |mesh: &MeshBuffers| chamfer(&mesh.as_mesh(), &options);
-        let Ok(first) = run(&source.mesh) else { continue };
         for sum in &mut *sums {
+            let base = sum.way.base(&source.mesh);
+            let Ok(first) = run(&base) else { continue };
             let mesh = sum.way.apply(&source.mesh);
             let Ok(other) = run(&mesh) else { continue };
             let name = format!("{file}/{}", source.name);
@@ -94,7 +95,7 @@ fn of_file(request: &Request, path: &Path, percent: f32, sums: &mut [Sum]) {
                 println!("{:?} {name}: {} or {}", sum.way, told(&first), told(&other));
             }
             if request.are_edges_asked && !is_alike {
-                print_edges((&source.mesh, &first), (&mesh, &other), sum.way);
+                print_edges((&base, &first), (&mesh, &other), sum.way);
             }
         }
     }

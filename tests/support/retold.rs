@@ -15,8 +15,11 @@ pub enum Retold {
     Mirrored,
     /// x for y, y for z, z for x.
     Cycled,
-    /// Moved by a power of two along each axis, no farther than one extent: what is lost is the
-    /// last bit of the coordinates.
+    /// Moved by a power of two along each axis, no farther than one extent. Coordinates lose their
+    /// last bits there, and so it is another shape: what it is to be compared with is the [`base`],
+    /// which has lost them too.
+    ///
+    /// [`base`]: Retold::base
     Moved,
 }
 
@@ -28,6 +31,16 @@ pub fn all(seed: u32) -> [Retold; 6] {
 }
 
 impl Retold {
+    /// The same shape, as it was told before.
+    pub fn base(self, mesh: &MeshBuffers) -> MeshBuffers {
+        let mut base = mesh.clone();
+        if self == Retold::Moved {
+            translate(&mut base, way(mesh));
+            translate(&mut base, -way(mesh));
+        }
+        base
+    }
+
     pub fn apply(self, mesh: &MeshBuffers) -> MeshBuffers {
         let mut mesh = mesh.clone();
         match self {
@@ -36,7 +49,10 @@ impl Retold {
             Retold::Turned(seed) => turn_corners(&mut mesh, seed),
             Retold::Mirrored => mirror(&mut mesh),
             Retold::Cycled => cycle_axes(&mut mesh),
-            Retold::Moved => translate(&mut mesh),
+            Retold::Moved => {
+                let way = way(&mesh);
+                translate(&mut mesh, way);
+            }
         }
         mesh
     }
@@ -101,9 +117,13 @@ fn cycle_axes(mesh: &mut MeshBuffers) {
     mesh.tangents.iter_mut().for_each(|tangent| tangent[..3].rotate_left(1));
 }
 
-fn translate(mesh: &mut MeshBuffers) {
+/// The largest power of two that is no longer than the extent.
+fn way(mesh: &MeshBuffers) -> f32 {
     let extent = mesh.as_mesh().extent();
-    let way = if extent > 0.0 { extent.log2().floor().exp2() } else { 0.0 };
+    if extent > 0.0 { extent.log2().floor().exp2() } else { 0.0 }
+}
+
+fn translate(mesh: &mut MeshBuffers, way: f32) {
     for position in &mut mesh.positions {
         *position = position.map(|along| along + way);
     }
