@@ -124,7 +124,7 @@ pub struct Further {
     /// Each kind and name once.
     pub streams: Vec<VertexStream>,
     /// What there is, but cannot be compared, and why.
-    pub left_out: Vec<(StreamKind, &'static str)>,
+    pub left_out: Vec<(&'static str, &'static str)>,
 }
 
 /// A further value of every vertex.

@@ -41,6 +41,7 @@ impl Retold {
         base
     }
 
+    /// The same mesh, told so.
     pub fn apply(self, mesh: &MeshBuffers) -> MeshBuffers {
         let mut mesh = mesh.clone();
         match self {

@@ -9,8 +9,8 @@ use chamfer_formats::{Further, StreamKind, VertexStream};
 #[derive(Default)]
 pub struct Streams {
     joined: Vec<Joined>,
-    /// Each rule once, with the reason.
-    pub not_told: BTreeMap<Rule, &'static str>,
+    /// Each once, with the reason.
+    pub not_told: BTreeMap<&'static str, &'static str>,
 }
 
 struct Joined {
@@ -34,10 +34,10 @@ impl Streams {
     pub fn new(sides: [Option<Further>; 2], counts: [usize; 2]) -> Streams {
         let mut streams = Streams::default();
         let left_out = sides.iter().flatten().flat_map(|side| &side.left_out);
-        streams.not_told.extend(left_out.map(|(kind, reason)| (rule_of(*kind), *reason)));
+        streams.not_told.extend(left_out.copied());
         let [Some(before), Some(after)] = &sides else {
             let told = sides.iter().flatten().flat_map(|side| &side.streams);
-            streams.not_told.extend(told.map(|stream| (rule_of(stream.kind), NOT_TOLD)));
+            streams.not_told.extend(told.map(|s| (rule_of(s.kind).name(), NOT_TOLD)));
             return streams;
         };
         let mut pairs: BTreeMap<(StreamKind, &str), [Option<&VertexStream>; 2]> = BTreeMap::new();
@@ -49,7 +49,7 @@ impl Streams {
         let (skin, others): (Vec<_>, Vec<_>) =
             pairs.into_iter().partition(|((kind, _), _)| *kind == StreamKind::Skin);
         let skin: Vec<_> = skin.into_iter().map(|(_, pair)| pair).collect();
-        if !skin.is_empty() && !streams.not_told.contains_key(&Rule::Skin) {
+        if !skin.is_empty() && !streams.not_told.contains_key("skin") {
             let values = [0, 1].map(|side| interleaved(&skin, side, counts[side]));
             streams.joined.push(Joined { rule: Rule::Skin, components: skin.len(), values });
         }
@@ -63,7 +63,7 @@ impl Streams {
         let components = pair.map(|stream| stream.map(|stream| stream.components));
         let Some(first) = components.into_iter().flatten().next() else { return };
         if components.iter().flatten().any(|other| *other != first) {
-            self.not_told.insert(rule, "it has another number of components");
+            self.not_told.insert(rule.name(), "it has another number of components");
             return;
         }
         let values = |side: usize| {

@@ -217,9 +217,6 @@ fn check_pair(
     if numbers.is_none() {
         findings.leave_out(Rule::Materials, "the files do not name them all");
     }
-    for (&rule, reason) in &streams.not_told {
-        findings.leave_out(rule, reason);
-    }
     if result.normals().computed {
         for rule in [Rule::FlatNormal, Rule::HardEdges] {
             findings.leave_out(rule, "the result's normals are not in its file");
@@ -229,6 +226,7 @@ fn check_pair(
         findings.leave_out(Rule::SelfIntersection, "left out by --verify fast");
     }
     let mut check = MeshCheck::new(source.name(), &findings);
+    streams.not_told.iter().for_each(|(what, reason)| check.leave_out(what, reason));
     if let Some(expected) = expected {
         check.expect(expected.width, &left_without_need(&findings, &expected.verdicts));
         check.expect_widths(&wider_than_asked(&findings, expected));

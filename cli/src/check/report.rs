@@ -307,6 +307,12 @@ impl MeshCheck {
         }
     }
 
+    /// Adds something that was not checked.
+    pub fn leave_out(&mut self, what: &str, reason: &str) {
+        self.sound = false;
+        self.unchecked.push(Unchecked { rule: what.into(), reason: reason.into() });
+    }
+
     /// Adds the objects of the scene that stand otherwise.
     pub fn expect_places(&mut self, placed_otherwise: &[usize]) {
         if !placed_otherwise.is_empty() {

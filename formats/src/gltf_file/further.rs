@@ -15,6 +15,11 @@ pub fn further(geometry: &MeshGeometry, count: usize, joint_names: &[String]) ->
     let mut further = Further::default();
     add_skin(geometry, count, joint_names, &mut further);
     for (target, name) in target_names(geometry) {
+        if name == "TANGENT" {
+            let reason = "they go with the texture, and turn along with the vertex's own";
+            further.left_out.push(("tangents of morph targets", reason));
+            continue;
+        }
         further.streams.push(VertexStream {
             kind: StreamKind::Morph,
             name: format!("{target} {name}"),
@@ -40,7 +45,7 @@ fn add_skin(geometry: &MeshGeometry, count: usize, names: &[String], further: &m
                     continue;
                 }
                 if (columns.len() + 1).saturating_mul(count) > MOST_WEIGHTS {
-                    further.left_out.push((StreamKind::Skin, "it has too many joints"));
+                    further.left_out.push(("skin", "it has too many joints"));
                     return;
                 }
                 let column = columns.entry(*joint as u32).or_insert_with(|| vec![0.0; count]);
@@ -62,9 +67,8 @@ fn target_names(geometry: &MeshGeometry) -> BTreeSet<(usize, String)> {
     let names = |(number, target): (usize, &Vec<super::geometry::Attribute>)| {
         target.iter().map(|attribute| (number, attribute.name.clone())).collect::<Vec<_>>()
     };
-    let is_known = |(_, name): &(usize, String)| {
-        matches!(name.as_str(), "POSITION" | "NORMAL" | "TANGENT")
-    };
+    let is_known =
+        |(_, name): &(usize, String)| matches!(name.as_str(), "POSITION" | "NORMAL" | "TANGENT");
     targets.flat_map(names).filter(is_known).collect()
 }
 
@@ -81,7 +85,8 @@ fn add_others(geometry: &MeshGeometry, count: usize, further: &mut Further) {
             false => StreamKind::Number,
         };
         if kind == StreamKind::Number && element.component.is_integer() {
-            further.left_out.push((kind, "whole numbers may be names, which nothing blends"));
+            let reason = "they may be names, which nothing blends";
+            further.left_out.push(("whole numbers of vertices", reason));
             continue;
         }
         let components = element.shape.components();
