@@ -10,7 +10,7 @@ mod crowds;
 mod elements;
 mod valid;
 
-use std::cmp::Ordering;
+use std::cmp::{Ordering, Reverse};
 
 use crate::error::Error;
 use crate::given::Given;
@@ -99,14 +99,11 @@ fn shrink(given: &Given, limits: &mut Limits, mut bad: Vec<Element>) -> Vec<Sect
     let mut all = Vec::new();
     for round in 0.. {
         let mut shrunk = Vec::new();
-        for element in bad {
-            let reason = match element {
-                Element::Surface(_) => Reason::NoRoom,
-                Element::Strip(edge) if !contacts_are_kept(given, &limits.placement, edge) => {
-                    Reason::Contact
-                }
-                Element::Strip(_) | Element::Fill(_) | Element::Flap(_) => Reason::Folds,
-            };
+        let reason = |element| (why(given, &limits.placement, element), element);
+        let mut blamed: Vec<(Reason, Element)> = bad.into_iter().map(reason).collect();
+        // The last one is told: by what it is, not by who has the largest number.
+        blamed.sort_by_key(|(reason, _)| *reason);
+        for (reason, element) in blamed {
             blame(given, limits, element, reason, &mut shrunk);
         }
         if shrunk.is_empty() {
@@ -117,6 +114,15 @@ fn shrink(given: &Given, limits: &mut Limits, mut bad: Vec<Element>) -> Vec<Sect
         all.extend(shrunk);
     }
     all
+}
+
+/// Why a bad element is bad.
+fn why(given: &Given, placement: &Placement, element: Element) -> Reason {
+    match element {
+        Element::Surface(_) => Reason::NoRoom,
+        Element::Strip(edge) if !contacts_are_kept(given, placement, edge) => Reason::Contact,
+        Element::Strip(_) | Element::Fill(_) | Element::Flap(_) => Reason::Folds,
+    }
 }
 
 /// All that depends on the sectors and is bad.
@@ -197,12 +203,8 @@ fn blame(
 /// Gives back to every sector that was shrunk, up to its room, as much as it can take with all
 /// others where they are.
 fn grow(given: &Given, room: &IdVec<Sector, f64>, limits: &mut Limits) {
-    for sector in room.ids() {
+    for sector in in_turn(given, room, &limits.placement) {
         let (mut good, mut bad) = (limits.placement.share[sector], room[sector]);
-        let ring = given.chamfers.sectors.fans[sector].ring;
-        if good == bad || given.chamfers.sectors.ring(ring).len() > LONGEST_GROWN {
-            continue;
-        }
         let mut found = obstacle(given, &mut limits.placement, sector, bad, None);
         if found.is_none() {
             limits.reason[sector] = if bad < 1.0 { Reason::NoRoom } else { Reason::None };
@@ -217,6 +219,30 @@ fn grow(given: &Given, room: &IdVec<Sector, f64>, limits: &mut Limits) {
         }
         limits.placement.set(sector, good);
     }
+}
+
+/// The sectors that were shrunk, in the order in which they are asked: those first that lost most.
+/// Whoever is asked first may take what another one could have had, so it goes by their shape and
+/// place, not by their numbers: the same mesh told otherwise gets the same. Rounded, as the last
+/// bits of sums depend on the order of what is added. Positive numbers sort as their bits do.
+fn in_turn(given: &Given, room: &IdVec<Sector, f64>, placement: &Placement) -> Vec<Sector> {
+    let is_asked = |sector: &Sector| {
+        let ring = given.chamfers.sectors.fans[*sector].ring;
+        placement.share[*sector] != room[*sector]
+            && given.chamfers.sectors.ring(ring).len() <= LONGEST_GROWN
+    };
+    let mut sectors: Vec<Sector> = room.ids().filter(is_asked).collect();
+    if sectors.len() > 1 {
+        let center = given.surface.view.center();
+        sectors.sort_by_cached_key(|&sector| {
+            let (kept, lost) = (placement.share[sector], room[sector] - placement.share[sector]);
+            let distance = placement.base(sector).distance(center);
+            let reach = given.offsets[sector].vector.length();
+            let [lost, rest @ ..] = [lost, distance, reach, kept].map(|l| (l as f32).to_bits());
+            (Reverse(lost), rest)
+        });
+    }
+    sectors
 }
 
 /// What is bad of all that depends on the sector at this share, which it gets; none if nothing is.

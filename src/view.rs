@@ -2,7 +2,7 @@
 //!
 //! Later stages index without checks of their own, so every rule on the input is tested here.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 use crate::error::{Error, Stream};
 use crate::ids::{Corner, Id, Triangle, Vertex};
@@ -114,6 +114,15 @@ impl<'a> View<'a> {
     #[inline]
     pub fn triangle(&self, triangle: Triangle) -> [DVec3; 3] {
         triangle.corners().map(|corner| self.position_at(corner))
+    }
+
+    /// The middle of the box around the vertices.
+    pub fn center(&self) -> DVec3 {
+        let positions = self.mesh.positions.iter().map(|&position| Vec3::from(position));
+        let sides = |(low, high): (Vec3, Vec3), at: Vec3| (low.min(at), high.max(at));
+        let all = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+        let (low, high) = positions.fold(all, sides);
+        low.as_dvec3().midpoint(high.as_dvec3())
     }
 
     pub fn corner_count(&self) -> usize {

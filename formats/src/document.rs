@@ -118,6 +118,50 @@ pub fn no_direction(count: usize) -> Option<String> {
     (count > 0).then(|| format!("{count} normals have no direction: they were made from the faces"))
 }
 
+/// What vertices have beside what the core carries, to compare two files by it.
+#[derive(Clone, Debug, Default)]
+pub struct Further {
+    /// Each kind and name once.
+    pub streams: Vec<VertexStream>,
+    /// What there is, but cannot be compared, and why.
+    pub left_out: Vec<(&'static str, &'static str)>,
+}
+
+/// A further value of every vertex.
+#[derive(Clone, Debug)]
+pub struct VertexStream {
+    /// What it is for.
+    pub kind: StreamKind,
+    /// What it is called, the same in all files: of a skin, the joint that pulls.
+    pub name: String,
+    /// Floats per vertex.
+    pub components: usize,
+    /// `#vertices by components`; zeros where a vertex has none.
+    pub values: Vec<f32>,
+}
+
+/// What a further stream is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum StreamKind {
+    /// How much a joint pulls.
+    Skin,
+    /// How far a morph target moves or turns.
+    Morph,
+    /// A colour beside the first.
+    Color,
+    /// Any other quantity.
+    Number,
+}
+
+/// Something that stands in the scene, or that a bone is bound by.
+#[derive(Clone, Debug)]
+pub struct Place {
+    /// What it is called, the same in all files.
+    pub name: String,
+    /// Column-major.
+    pub transform: [[f32; 4]; 4],
+}
+
 /// What the meshes of a file look like, as far as pictures of them show it.
 #[derive(Clone, Debug, Default)]
 pub struct Looks {
@@ -159,6 +203,18 @@ pub trait Document {
 
     /// `#meshes by #submeshes`: the names of their materials; nothing where the format has none.
     fn materials(&self) -> Vec<Vec<Option<String>>> {
+        Vec::new()
+    }
+
+    /// What the vertices of a mesh have beside what the core carries; none where the reader does not
+    /// tell.
+    fn further(&self, _mesh: usize) -> Option<Further> {
+        None
+    }
+
+    /// Where all nodes of the scene stand, and what bones are bound by; nothing where the reader does
+    /// not tell.
+    fn places(&self) -> Vec<Place> {
         Vec::new()
     }
 

@@ -28,8 +28,8 @@ pub mod stl_file;
 pub mod weld;
 
 pub use document::{
-    Document, Encoded, Format, IDENTITY, Instance, Look, Looks, Normals, NormalsRead, OutputFile,
-    ReadOptions, SourceMesh, Weld,
+    Document, Encoded, Format, Further, IDENTITY, Instance, Look, Looks, Normals, NormalsRead,
+    OutputFile, Place, ReadOptions, SourceMesh, StreamKind, VertexStream, Weld,
 };
 pub use gltf_file::compress;
 pub use registry::{FORMATS, Row, decode, encode, endings, read, row_of};

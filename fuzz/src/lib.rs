@@ -11,4 +11,6 @@ pub mod gltf;
 pub mod meshes;
 pub mod noise;
 pub mod oracle;
+#[path = "../../tests/support/retold.rs"]
+pub mod retold;
 pub mod shapes;

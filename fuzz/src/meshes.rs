@@ -83,6 +83,8 @@ pub struct Wishes {
     threads: u8,
     segments: u8,
     profile: Option<Result<u8, f32>>,
+    /// In 250ths, or any bits.
+    evenness: Option<Result<u8, f32>>,
 }
 
 #[derive(Arbitrary, Debug)]
@@ -114,16 +116,32 @@ impl Wishes {
             .with_threads(u32::from(self.threads % 4))
             // Out of range now and then: nothing else takes as long as the most.
             .with_segments(u32::from(self.segments % 8))
-            .with_profile(self.profile.map_or(0.5, |profile| match profile {
-                Ok(part) => f32::from(part) / 250.0,
-                Err(any) => any,
-            }))
+            .with_profile(share(self.profile))
+            .with_evenness(share(self.evenness))
     }
+}
+
+/// In 250ths, or any bits; a half where nothing is asked.
+fn share(asked: Option<Result<u8, f32>>) -> f32 {
+    asked.map_or(0.5, |share| match share {
+        Ok(part) => f32::from(part) / 250.0,
+        Err(any) => any,
+    })
 }
 
 impl Spec {
     /// The mesh.
     pub fn mesh(&self) -> MeshBuffers {
+        let mut mesh = self.clean_mesh();
+        let (chance, spoil) = &self.spoil;
+        if *chance > 0xF0 {
+            spoil.apply(&mut mesh);
+        }
+        mesh
+    }
+
+    /// The mesh, which breaks no rule but those of its shape.
+    pub fn clean_mesh(&self) -> MeshBuffers {
         let mut net = self.shape.net();
         self.add_copy(&mut net);
         net.points.iter_mut().for_each(|point| *point = self.size.apply(*point));
@@ -134,10 +152,6 @@ impl Spec {
         };
         self.streams.add_to(&mut mesh);
         mesh.submesh_index_counts = counts(mesh.indices.len() as u32, self.submeshes);
-        let (chance, spoil) = &self.spoil;
-        if *chance > 0xF0 {
-            spoil.apply(&mut mesh);
-        }
         mesh
     }
 

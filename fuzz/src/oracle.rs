@@ -5,7 +5,7 @@ mod crowded;
 
 use chamfer::check::{Findings, Rule, check};
 use chamfer::{Chamfered, MeshBuffers, Options, Width, chamfer};
-use crowded::has_crowded_edges;
+pub use crowded::has_crowded_edges;
 
 /// Chamfers a mesh and checks all that the library promises of the result; an error is a right
 /// answer to a mesh that breaks a rule.

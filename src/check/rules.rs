@@ -6,7 +6,7 @@ use std::fmt;
 const NAMED_ELEMENTS: usize = 5;
 
 /// Something that a chamfered mesh must keep.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Rule {
     /// The source itself can be walked: lengths fit, indices are in range, values finite.

@@ -1,5 +1,6 @@
 //! `chamfer check`: is a chamfered file sound? The whole-mesh checker of the core, file by file.
 
+mod extras;
 mod light;
 mod materials;
 mod pairs;
@@ -11,11 +12,11 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use anyhow::{Result, anyhow, ensure};
-use chamfer::check::{Extras, Findings, Rule, compare_with};
+use chamfer::check::{Extras, Findings, MeasuredEdge, Rule, compare_with};
 use chamfer::{Chamfered, EdgeVerdict, MeshBuffers, Options, Outcome, Verify};
 use chamfer_formats as formats;
 use chamfer_formats::paths::identity;
-use chamfer_formats::{Document, Instance, NormalsRead, ReadOptions};
+use chamfer_formats::{Document, Instance, NormalsRead, Place, ReadOptions};
 
 use crate::args::{CheckArgs, CheckDepth};
 use crate::batch::{USAGE, name_of};
@@ -25,6 +26,7 @@ use crate::fit::Wish;
 use crate::scene::largest_length;
 use crate::write;
 
+use extras::Streams;
 use pairs::Pairs;
 use report::{CheckReport, MeshCheck, SeeThrough, Verdict};
 
@@ -62,7 +64,7 @@ fn check(args: &CheckArgs) -> Result<Verdict> {
         missing(&*before, &pairs),
         pairs.added.iter().map(|&mesh| after.meshes()[mesh].name.clone()).collect(),
         see_through(args, documents, &pairs, &checks, &expected),
-        checks,
+        (checks, moved(documents)),
     );
     say(table::table(&report));
     if let Some(path) = &args.report {
@@ -82,12 +84,8 @@ const SAME_PLACE: f32 = 1e-5;
 /// where none does.
 fn placed_otherwise([before, after]: [&dyn Document; 2], mesh: usize) -> Vec<usize> {
     let [old, new] = [before.instances(), after.instances()];
-    let is_same = |one: &Instance, other: &Instance| {
-        let [one, other] = [one, other].map(|object| object.transform);
-        let [one, other] = [one.as_flattened(), other.as_flattened()];
-        let largest = one.iter().fold(0.0, |most: f32, entry| most.max(entry.abs()));
-        one.iter().zip(other).all(|(a, b)| (a - b).abs() <= SAME_PLACE * largest)
-    };
+    let is_same =
+        |one: &Instance, other: &Instance| is_same_place([one.transform, other.transform]);
     let stands = |(number, object): (usize, &Instance)| match old.len() == new.len() {
         true => is_same(object, &new[number]),
         false => new.iter().any(|other| is_same(object, other)),
@@ -206,7 +204,11 @@ fn check_pair(
 ) -> MeshCheck {
     let [before, after] = [source.as_stored(), result.as_stored()];
     let numbers = materials::numbers([&source.materials(), &result.materials()]);
-    let mut extras = Extras::default();
+    let counts = [&before, &after].map(|mesh| mesh.positions.len());
+    let further = [source, result].map(|side| side.document.further(side.mesh));
+    let streams = Streams::new(further, counts);
+    let extra = streams.extra();
+    let mut extras = Extras::default().with_streams(&extra);
     if let Some([source, result]) = &numbers {
         extras = extras.with_materials([source, result]);
     }
@@ -224,8 +226,10 @@ fn check_pair(
         findings.leave_out(Rule::SelfIntersection, "left out by --verify fast");
     }
     let mut check = MeshCheck::new(source.name(), &findings);
+    streams.not_told.iter().for_each(|(what, reason)| check.leave_out(what, reason));
     if let Some(expected) = expected {
         check.expect(expected.width, &left_without_need(&findings, &expected.verdicts));
+        check.expect_widths(&wider_than_asked(&findings, expected));
     }
     check
 }
@@ -244,4 +248,44 @@ fn left_without_need(findings: &Findings, verdicts: &[EdgeVerdict]) -> Vec<[u32;
         .filter(|edge| !edge.is_chamfered() && chamfered.binary_search(&edge.vertices).is_ok())
         .map(|edge| edge.vertices)
         .collect()
+}
+
+/// So many times as wide as asked a chamfer may be: where its sides are unlike, or an end is cut
+/// off, one of them makes up for the other.
+const MOST_WIDENED: f32 = 1.3;
+
+/// The chamfers that are wider than asked, and than chamfering would make them.
+fn wider_than_asked(findings: &Findings, expected: &Chamfered) -> Vec<[u32; 2]> {
+    // Widths are asked for in a space in which lengths of the mesh are at least so many times as long.
+    let scaled = expected.scale.map_or(1.0, |axes| {
+        let length = |axis: [f32; 3]| axis.iter().map(|part| part * part).sum::<f32>().sqrt();
+        axes.map(length).into_iter().fold(f32::INFINITY, f32::min)
+    });
+    let widest = |verdict: &EdgeVerdict| verdict.widths[0].max(verdict.widths[1]);
+    let made: BTreeMap<[u32; 2], f32> =
+        expected.verdicts.iter().map(|verdict| (verdict.vertices, widest(verdict))).collect();
+    let is_wide = |edge: &&MeasuredEdge| {
+        let made = made.get(&edge.vertices).copied().unwrap_or(0.0);
+        let most = expected.width.max(made) * MOST_WIDENED;
+        edge.widths().into_iter().any(|width| width * scaled > most)
+    };
+    findings.edges.iter().filter(is_wide).map(|edge| edge.vertices).collect()
+}
+
+/// What stands otherwise, of all that both files name; the objects of meshes are told apart
+/// elsewhere.
+fn moved([before, after]: [&dyn Document; 2]) -> Vec<String> {
+    let places = after.places();
+    let known: BTreeMap<&str, &Place> = places.iter().map(|p| (p.name.as_str(), p)).collect();
+    let is_moved = |place: &Place| {
+        let now = known.get(place.name.as_str());
+        now.is_some_and(|now| !is_same_place([place.transform, now.transform]))
+    };
+    before.places().into_iter().filter(is_moved).map(|place| place.name).collect()
+}
+
+fn is_same_place(transforms: [[[f32; 4]; 4]; 2]) -> bool {
+    let [one, other] = transforms.each_ref().map(|transform| transform.as_flattened());
+    let largest = one.iter().fold(0.0, |most: f32, entry| most.max(entry.abs()));
+    one.iter().zip(other).all(|(a, b)| (a - b).abs() <= SAME_PLACE * largest)
 }

@@ -24,6 +24,8 @@ pub struct CheckReport {
     pub missing: Vec<String>,
     /// Meshes that only the file after has. There is nothing to check them against.
     pub added: Vec<String>,
+    /// What stands elsewhere in the scene than before, other than meshes: nodes, bones, bind poses.
+    pub moved: Vec<String>,
     /// Where light shows.
     pub see_through: SeeThrough,
     /// Sums over the meshes.
@@ -238,10 +240,11 @@ impl CheckReport {
         missing: Vec<String>,
         added: Vec<String>,
         see_through: SeeThrough,
-        meshes: Vec<MeshCheck>,
+        (meshes, moved): (Vec<MeshCheck>, Vec<String>),
     ) -> CheckReport {
         let totals = meshes.iter().map(|mesh| mesh.counts.clone()).reduce(Counts::plus);
         let is_wrong = !missing.is_empty()
+            || !moved.is_empty()
             || !see_through.places.is_empty()
             || meshes.iter().any(|mesh| !mesh.defects.is_empty());
         let is_whole = added.is_empty()
@@ -261,6 +264,7 @@ impl CheckReport {
             meshes,
             missing,
             added,
+            moved,
             see_through,
         }
     }
@@ -303,6 +307,12 @@ impl MeshCheck {
         }
     }
 
+    /// Adds something that was not checked.
+    pub fn leave_out(&mut self, what: &str, reason: &str) {
+        self.sound = false;
+        self.unchecked.push(Unchecked { rule: what.into(), reason: reason.into() });
+    }
+
     /// Adds the objects of the scene that stand otherwise.
     pub fn expect_places(&mut self, placed_otherwise: &[usize]) {
         if !placed_otherwise.is_empty() {
@@ -321,12 +331,22 @@ impl MeshCheck {
         self.counts.chamfers.asked = Some(width);
         self.width = Some(width);
         self.counts.left_without_need = Some(left_without_need.len());
-        if !left_without_need.is_empty() {
+        self.expect_none("hard edge left", left_without_need);
+    }
+
+    /// Adds the chamfers that are wider than asked.
+    pub fn expect_widths(&mut self, too_wide: &[[u32; 2]]) {
+        self.expect_none("chamfer wider than asked", too_wide);
+    }
+
+    /// Adds edges of which there should be none.
+    fn expect_none(&mut self, rule: &str, edges: &[[u32; 2]]) {
+        if !edges.is_empty() {
             self.sound = false;
-            let named = left_without_need.iter().take(NAMED_EDGES);
+            let named = edges.iter().take(NAMED_EDGES);
             self.defects.push(Defect {
-                rule: "hard edge left".into(),
-                count: left_without_need.len(),
+                rule: rule.into(),
+                count: edges.len(),
                 first: named.map(|[a, b]| format!("source edge {a}-{b}")).collect(),
             });
         }

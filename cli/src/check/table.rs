@@ -31,6 +31,7 @@ pub fn table(report: &CheckReport) -> String {
     let mut lines = aligned(&rows);
     report.meshes.iter().for_each(|mesh| lines.extend(remarks(mesh)));
     lines.extend(report.missing.iter().map(|name| format!("{name}: missing")));
+    lines.extend(report.moved.iter().map(|name| format!("{name}: placed otherwise")));
     let added = report.added.iter();
     lines.extend(added.map(|name| format!("{name}: not checked: there was none before")));
     lines.extend(light(&report.see_through));

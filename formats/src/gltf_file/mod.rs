@@ -29,6 +29,7 @@ mod element;
 mod extensions;
 mod fold;
 mod follow;
+mod further;
 mod geometry;
 mod json;
 mod labels;
@@ -43,6 +44,7 @@ mod meshopt_pack;
 mod meshopt_pack;
 mod meshopt_views;
 mod names;
+mod places;
 mod quantized;
 mod references;
 mod resources;
@@ -62,8 +64,8 @@ use chamfer::Chamfered;
 use serde_json::Value;
 
 use crate::document::{
-    Document, Encoded, Format, Instance, Looks, Normals, NormalsRead, OutputFile, ReadOptions,
-    SourceMesh,
+    Document, Encoded, Format, Further, Instance, Looks, Normals, NormalsRead, OutputFile, Place,
+    ReadOptions, SourceMesh,
 };
 use crate::weld;
 use accessor_writer::AccessorWriter;
@@ -338,6 +340,16 @@ impl Document for GltfDocument {
 
     fn materials(&self) -> Vec<Vec<Option<String>>> {
         materials::names(&self.json, &self.geometries)
+    }
+
+    fn further(&self, mesh: usize) -> Option<Further> {
+        let count = self.meshes[mesh].mesh.positions.len();
+        let names = places::joint_names(&self.json, mesh);
+        Some(further::further(&self.geometries[mesh], count, &names))
+    }
+
+    fn places(&self) -> Vec<Place> {
+        places::places(&self.json, &self.buffers)
     }
 
     fn counts_metres(&self) -> bool {

@@ -54,6 +54,26 @@ pub fn objects(
     Ok(objects)
 }
 
+/// `#nodes`: where each stands, whatever scene it is in.
+///
+/// # Errors
+/// As [`objects`].
+pub fn globals(json: &Value) -> Result<Vec<Mat4>> {
+    let parents = parents(json)?;
+    refuse_cycles(&parents)?;
+    let roots = (0..parents.len()).filter(|&node| parents[node].is_none());
+    let mut open: Vec<(usize, Mat4)> = roots.map(|root| (root, Mat4::IDENTITY)).collect();
+    let mut globals = vec![Mat4::IDENTITY; parents.len()];
+    while let Some((node, above)) = open.pop() {
+        let path = format!("nodes[{node}]");
+        let value = json::item(json, "nodes", node)?;
+        let global = above * local(value, &path)?;
+        globals[node] = global;
+        open.extend(children(value, &path)?.into_iter().map(|child| (child, global)));
+    }
+    Ok(globals)
+}
+
 fn unplaced(json: &Value) -> Vec<Object> {
     let transform = Mat4::IDENTITY.to_cols_array_2d();
     let object = |mesh| Object { instance: Instance { mesh, transform }, node: None };

@@ -14,7 +14,8 @@ use chamfer_fuzz::gltf::{rich_binary, rich_json, wrap_in_chunks, wrap_in_json};
 use chamfer_fuzz::noise::Noise;
 use draco::draco_bytes;
 
-const TARGETS: [&str; 6] = ["core", "abi", "gltf", "obj_stl", "compressed", "fbx"];
+const TARGETS: [&str; 9] =
+    ["core", "abi", "gltf", "obj_stl", "compressed", "fbx", "ply_off", "alike", "planted"];
 
 /// From a few values to more than the largest shapes take.
 const LENGTHS: [usize; 5] = [64, 200, 600, 1500, 4000];
