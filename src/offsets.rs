@@ -394,7 +394,9 @@ fn crease<'a>(view: &View, faces: &Faces, spread: &'a [Blade]) -> Crease<'a> {
             continue;
         }
         let cosine = before.dot(behind);
-        if before != DVec3::ZERO && crosses_hard && cosine < FLAT_COSINE {
+        let is_kept =
+            crosses_hard && (cosine < FLAT_COSINE || !is_level(view, faces, spread, place));
+        if before != DVec3::ZERO && is_kept {
             kept = if matches!(kept, Crease::None) { Crease::Hard(blade) } else { Crease::Several };
         } else if before != DVec3::ZERO && cosine < sharpest.0 {
             sharpest = (cosine, Crease::Soft(blade));
@@ -406,6 +408,18 @@ fn crease<'a>(view: &View, faces: &Faces, spread: &'a [Blade]) -> Crease<'a> {
         (hard, Crease::None) => hard,
         _ => Crease::Several,
     }
+}
+
+/// Whether the surfaces on both sides of a hard edge, that of a place in a fan, lie in one plane. Else
+/// a vertex that left the edge would go over one of them, out of the other.
+fn is_level(view: &View, faces: &Faces, spread: &[Blade], place: usize) -> bool {
+    let (before, behind) = spread.split_at(place);
+    let runs_on = |one: &Blade, other: &Blade| !is_hard(view, other.corner, one.corner.prev());
+    let sides = [before.chunk_by(runs_on).next_back(), behind.chunk_by(runs_on).next()];
+    let blades = sides.into_iter().flatten().flatten();
+    let mut normals = blades.map(|blade| faces.normal[blade.corner.triangle()]);
+    let first = normals.find(|normal| *normal != DVec3::ZERO);
+    first.is_none_or(|first| normals.all(|n| n == DVec3::ZERO || n.dot(first) >= FLAT_COSINE))
 }
 
 /// The corner whose triangle tells best in which plane a corner of a fan lies: of all triangles of
