@@ -9,12 +9,11 @@
 //! the end of a sector, or along the sharpest crease inside of it.
 
 mod follow;
-
-use std::borrow::Cow;
+mod fronts;
 
 use glam::DVec3;
 
-use crate::breaks::{is_hard, same_chart, seam_between, uv_at};
+use crate::breaks::{is_hard, seam_between, uv_at};
 use crate::chamfers::Chamfers;
 use crate::edges::Edges;
 use crate::faces::Faces;
@@ -30,6 +29,8 @@ use crate::topology::Topology;
 use crate::view::View;
 
 use follow::follow;
+
+pub use fronts::{narrowed, parts};
 
 /// No vertex moves farther than this many widths: between edges that meet at less than 39 degrees
 /// the exact distance shoots out, and a tip would lose its point. The corners of ramps and
@@ -393,7 +394,9 @@ fn crease<'a>(view: &View, faces: &Faces, spread: &'a [Blade]) -> Crease<'a> {
             continue;
         }
         let cosine = before.dot(behind);
-        if before != DVec3::ZERO && crosses_hard && cosine < FLAT_COSINE {
+        let is_kept =
+            crosses_hard && (cosine < FLAT_COSINE || !is_level(view, faces, spread, place));
+        if before != DVec3::ZERO && is_kept {
             kept = if matches!(kept, Crease::None) { Crease::Hard(blade) } else { Crease::Several };
         } else if before != DVec3::ZERO && cosine < sharpest.0 {
             sharpest = (cosine, Crease::Soft(blade));
@@ -405,6 +408,18 @@ fn crease<'a>(view: &View, faces: &Faces, spread: &'a [Blade]) -> Crease<'a> {
         (hard, Crease::None) => hard,
         _ => Crease::Several,
     }
+}
+
+/// Whether the surfaces on both sides of a hard edge, that of a place in a fan, lie in one plane. Else
+/// a vertex that left the edge would go over one of them, out of the other.
+fn is_level(view: &View, faces: &Faces, spread: &[Blade], place: usize) -> bool {
+    let (before, behind) = spread.split_at(place);
+    let runs_on = |one: &Blade, other: &Blade| !is_hard(view, other.corner, one.corner.prev());
+    let sides = [before.chunk_by(runs_on).next_back(), behind.chunk_by(runs_on).next()];
+    let blades = sides.into_iter().flatten().flatten();
+    let mut normals = blades.map(|blade| faces.normal[blade.corner.triangle()]);
+    let first = normals.find(|normal| *normal != DVec3::ZERO);
+    first.is_none_or(|first| normals.all(|n| n == DVec3::ZERO || n.dot(first) >= FLAT_COSINE))
 }
 
 /// The corner whose triangle tells best in which plane a corner of a fan lies: of all triangles of
@@ -480,92 +495,6 @@ fn is_flat(view: &View, faces: &Faces, spread: &[Blade], course: &Course) -> boo
         let normal = faces.normal[blade.corner.triangle()];
         normal.distance_squared(own) <= most * most || normal.dot(own) <= LEVEL_COSINE
     })
-}
-
-/// Edges that meet at less than this (as a sine, 30 degrees), or run on so nearly straight, are
-/// pulled together: a little less width of one of them alone would take the vertex far along the
-/// other.
-const LEAST_PART_SINE: f64 = 0.5;
-
-/// The parts of an offset that pull the sector's first and its last edge: each leads along the other
-/// edge, and leaves that where it is. None where the edges are not pulled each by itself: at borders,
-/// on surfaces that bend, across seams, and where they run on straight.
-pub fn parts(
-    surface: Surface,
-    sectors: &Sectors,
-    sector: Sector,
-    offset: &Offset,
-) -> Option<[DVec3; 2]> {
-    let Surface { view, topology, faces } = surface;
-    let fan = &sectors.fans[sector];
-    if fan.starts_at_border || fan.ends_at_border() || topology.twin[fan.first] == fan.last.prev() {
-        return None;
-    }
-    let normal = faces.normal[fan.first.triangle()];
-    let mut before: Option<Corner> = None;
-    for corner in sectors.corners(topology, sector) {
-        let is_level = faces.normal[corner.triangle()].dot(normal) > LEVEL_COSINE;
-        let is_one = before.is_none_or(|before| {
-            let [one, other] = [before, corner].map(|corner| view.vertex_at(corner));
-            one == other || view.normal(one) == view.normal(other) && same_chart(view, one, other)
-        });
-        if !is_level || !is_one {
-            return None;
-        }
-        before = Some(corner);
-    }
-    let [ahead, _] = arms(view, fan.first);
-    let [_, back] = arms(view, fan.last);
-    let (ahead, back) = (unit(ahead), unit(back));
-    let sine = ahead.cross(back).dot(normal);
-    if sine.abs() < LEAST_PART_SINE {
-        return None;
-    }
-    let along_last = back * (ahead.cross(offset.vector).dot(normal) / sine);
-    Some([along_last, offset.vector - along_last])
-}
-
-/// The offsets, of which some have unlike shares for their two edges (`fronts: #sectors by 2`): the
-/// one that has less goes less far.
-pub fn narrowed<'a>(
-    surface: Surface,
-    sectors: &Sectors,
-    offsets: &'a IdVec<Sector, Offset>,
-    fronts: &IdVec<Sector, [f64; 2]>,
-) -> Cow<'a, IdVec<Sector, Offset>> {
-    let mut narrowed = Cow::Borrowed(offsets);
-    for sector in fronts.ids().filter(|&sector| fronts[sector][0] != fronts[sector][1]) {
-        let most = fronts[sector][0].max(fronts[sector][1]);
-        let fronts = fronts[sector].map(|share| share / most);
-        if let Some(offset) = narrow(surface, sectors, sector, &offsets[sector], fronts) {
-            narrowed.to_mut()[sector] = offset;
-        }
-    }
-    narrowed
-}
-
-fn narrow(
-    surface: Surface,
-    sectors: &Sectors,
-    sector: Sector,
-    offset: &Offset,
-    fronts: [f64; 2],
-) -> Option<Offset> {
-    let Surface { view, topology, faces } = surface;
-    let [first, last] = parts(surface, sectors, sector, offset)?;
-    let sum = first * fronts[0] + last * fronts[1];
-    let corners = sectors.corners(topology, sector);
-    let feet = corners.filter(|corner| !faces.is_line(corner.triangle())).filter_map(|corner| {
-        // Fans are never quite flat: it goes down onto the triangle that it leads over.
-        let normal = faces.normal[corner.triangle()];
-        let vector = sum - normal * sum.dot(normal);
-        let foot = locate(view, corner, view.position_at(corner), vector)?;
-        Some((corner, vector, foot))
-    });
-    let inside = |foot: &Foot| foot.along[0].min(foot.along[1]);
-    let (within, vector, foot) =
-        feet.max_by(|one, other| inside(&one.2).total_cmp(&inside(&other.2)))?;
-    Some(Offset { vector, within, foot, fronts, ..*offset })
 }
 
 /// A corner of the triangle whose plane a corner lies in.

@@ -30,7 +30,7 @@ pub fn surface_foot(surface: Surface, sectors: &Sectors, offset: &Offset, corner
     if corners.all(|corner| surface.view.normal_at(corner) == normal) {
         return usual;
     }
-    even_foot(surface, sectors, offset, corner).unwrap_or(usual)
+    own_foot(surface, sectors, offset, corner).unwrap_or(usual)
 }
 
 /// As [`surface_foot`], within the corner's own texture chart; where that has no plane, the corner
@@ -55,7 +55,12 @@ fn foot(
     if (vertex == at_offset || agree(vertex, at_offset)) && is_carried {
         return Some(offset.foot);
     }
-    let own = nearest_own(surface, sectors, offset, corner, &agree)?;
+    let fan: Few<Corner> = sectors.corners(surface.topology, sectors.sector_of[corner]).collect();
+    let is_own = |own: Corner| {
+        let own = surface.view.vertex_at(own);
+        own == vertex || agree(vertex, own)
+    };
+    let own = nearest(surface, &fan, offset, is_own)?;
     locate(surface.view, own, surface.view.position_at(own), offset.vector)
 }
 
@@ -68,38 +73,45 @@ fn lends_chart(surface: Surface, line: Corner, agree: &impl Fn(Vertex, Vertex) -
     ends.map(vertices).into_iter().all(|(one, other)| one == other || agree(one, other))
 }
 
-/// The corner of the sector, of those that have a plane and agree with the vertex, that is fewest
-/// steps round the fan from the one that the offset lies on; of two, the earlier.
-fn nearest_own(
+/// The corner of a fan, of those that have a plane and are the vertex's own, that is fewest steps
+/// from the one that the offset lies on; of two, the earlier.
+fn nearest(
     surface: Surface,
-    sectors: &Sectors,
+    fan: &[Corner],
     offset: &Offset,
-    corner: Corner,
-    agree: &impl Fn(Vertex, Vertex) -> bool,
+    is_own: impl Fn(Corner) -> bool,
 ) -> Option<Corner> {
-    let (sector, vertex) = (sectors.sector_of[corner], surface.view.vertex_at(corner));
-    let corners = || sectors.corners(surface.topology, sector).enumerate();
-    let within = offset.within;
-    let middle = corners().find(|(_, corner)| *corner == within)?.0;
-    let is_own = |(_, corner): &(usize, Corner)| {
-        let own = surface.view.vertex_at(*corner);
-        has_plane(surface, corner.triangle()) && (own == vertex || agree(vertex, own))
-    };
-    let nearest = corners().filter(is_own).min_by_key(|(step, _)| step.abs_diff(middle));
-    nearest.map(|(_, corner)| corner)
+    let middle = fan.iter().position(|corner| *corner == offset.within)?;
+    let own = fan
+        .iter()
+        .enumerate()
+        .filter(|(_, corner)| has_plane(surface, corner.triangle()) && is_own(**corner));
+    own.min_by_key(|(step, _)| step.abs_diff(middle)).map(|(_, &corner)| corner)
 }
 
-/// The way over a face of the corner's own where the offset leads over one beyond it, as it does
-/// from a line, and the faces around the corner have one normal all over: they keep it. None where
-/// the offset leads out of that face's plane, as then it is not the place that the vertex comes to.
-fn even_foot(surface: Surface, sectors: &Sectors, offset: &Offset, corner: Corner) -> Option<Foot> {
-    let mut ways = [corner, offset.within].into_iter();
-    let leaves = ways.any(|corner| !has_plane(surface, corner.triangle()));
-    if !leaves || !is_even(surface, sectors, corner) {
-        return None;
-    }
-    let is_same = |one, other| surface.view.normal(one) == surface.view.normal(other);
-    let own = nearest_own(surface, sectors, offset, corner, &is_same)?;
+/// The way over a face of the corner's own where the offset leads over one beyond: behind a hard edge
+/// that is not chamfered or, from a line, where the faces around the corner have one normal all over,
+/// so that they keep it. None where the offset leads out of that face's plane, as then it is not the
+/// place that the vertex comes to.
+fn own_foot(surface: Surface, sectors: &Sectors, offset: &Offset, corner: Corner) -> Option<Foot> {
+    let fan: Few<Corner> = sectors.corners(surface.topology, sectors.sector_of[corner]).collect();
+    let parts = || fan.chunk_by(|&one, &other| !is_hard(surface.view, other, one.prev()));
+    let vertex = surface.view.vertex_at(corner);
+    let has_vertex = |part: &&[Corner]| part.iter().any(|at| surface.view.vertex_at(*at) == vertex);
+    // Where both sides of a hard edge share the vertex, the one that would show it comes first.
+    let is_first = |part: &&[Corner]| {
+        has_vertex(part) && !part.contains(&offset.within) && is_even(surface, part, corner)
+    };
+    let part = parts().find(is_first).or_else(|| parts().find(|part| part.contains(&corner)))?;
+    let leaves = || [corner, offset.within].iter().any(|at| !has_plane(surface, at.triangle()));
+    let own = if !part.contains(&offset.within) {
+        nearest(surface, &fan, offset, |own| part.contains(&own))
+    } else if leaves() && is_even(surface, part, corner) {
+        let normal = surface.view.normal_at(corner);
+        nearest(surface, &fan, offset, |own| surface.view.normal_at(own) == normal)
+    } else {
+        None
+    }?;
     let rise = offset.vector.dot(surface.faces.normal[own.triangle()]).abs();
     if rise > surface.view.resolution {
         return None;
@@ -112,18 +124,14 @@ fn has_plane(surface: Surface, triangle: Triangle) -> bool {
     surface.faces.normal[triangle] != DVec3::ZERO && !surface.faces.is_line(triangle)
 }
 
-/// Whether the triangles around one of a sector's corners, from one hard edge to the next, have the
-/// very same normal at all their corners.
-fn is_even(surface: Surface, sectors: &Sectors, corner: Corner) -> bool {
+/// Whether the triangles of a part of a fan have one corner's very normal at all their corners.
+fn is_even(surface: Surface, part: &[Corner], corner: Corner) -> bool {
     let normal = surface.view.normal_at(corner);
     let is_even = |corner: &Corner| {
         let corners = corner.triangle().corners();
         corners.into_iter().all(|corner| surface.view.normal_at(corner) == normal)
     };
-    let sector = sectors.sector_of[corner];
-    let corners: Few<Corner> = sectors.corners(surface.topology, sector).collect();
-    let mut fans = corners.chunk_by(|&one, &other| !is_hard(surface.view, other, one.prev()));
-    fans.find(|fan| fan.contains(&corner)).is_some_and(|fan| fan.iter().all(is_even))
+    part.iter().all(is_even)
 }
 
 /// The unit normal of a blend of source vertices; exactly theirs where they are all equal.

@@ -409,3 +409,63 @@ fn what_is_not_selected_says_so() {
     assert_eq!(result.totals.skipped[Reason::NotSelected], result.totals.hard_edges);
     assert_eq!(result.mesh, table);
 }
+
+//  Q ---------- O     the top of a block from above: O-R stays hard. The triangles on its two sides
+//   \  C     / /|     lie in one plane, but C beyond leans by a degree, as Q is a little higher
+//    \     /B / |
+//     \  /   / A|
+//      S----R---P
+#[test]
+fn a_face_beside_an_edge_that_stays_hard_stays_flat() {
+    // Normals of B and C at O: another one, nearly that of A, and that of A.
+    for at_o in [[0.05, 1.0, 0.0], [0.005, 1.0, 0.0], [0.0, 1.0, 0.0]] {
+        let (block, kept) = block(at_o);
+        let edges = listed(&block, |_, ends| !kept.iter().all(|end| ends.contains(end)));
+        let result = with_edges(&block, &edges, 0.02);
+        assert_eq!(result.totals.skipped[Reason::NotSelected], 1);
+        for k in 0..3 {
+            let v = result.mesh.indices[k] as usize;
+            assert_eq!(result.mesh.positions[v][1], 0.0, "{at_o:?}");
+            assert_eq!(result.mesh.normals[v], [0.0, 1.0, 0.0], "{at_o:?}");
+        }
+        assert_ne!(result.mesh.positions[result.mesh.indices[0] as usize], kept[0]);
+    }
+}
+
+/// The block, whose first triangle is A, and the ends O and R.
+fn block(at_o: [f32; 3]) -> (MeshBuffers, [[f32; 3]; 2]) {
+    let [o, p, r] = [[1.0, 0.0, 1.0], [1.0, 0.0, -1.0], [0.0, 0.0, -1.0]];
+    let [s, q] = [[-0.5, 0.0, -1.0], [-1.0, 0.04, 1.0]];
+    let (up, other) = ([0.0, 1.0, 0.0], [0.3, 1.0, 0.0]);
+    let mut mesh = MeshBuffers::default();
+    let mut add = |points: [[f32; 3]; 3], normals: [[f32; 3]; 3]| {
+        for (point, normal) in points.into_iter().zip(normals) {
+            let normal = DVec3::from(normal.map(f64::from)).normalize().as_vec3().to_array();
+            let vertices = mesh.positions.iter().zip(&mesh.normals);
+            let known = vertices.enumerate().find(|(_, known)| *known == (&point, &normal));
+            mesh.indices.push(known.map_or(mesh.positions.len(), |(vertex, _)| vertex) as u32);
+            if known.is_none() {
+                mesh.positions.push(point);
+                mesh.normals.push(normal);
+            }
+        }
+    };
+    add([o, p, r], [up; 3]);
+    add([o, r, s], [at_o, other, other]);
+    add([o, s, q], [at_o, other, other]);
+    let flat = |[a, b, c]: [[f32; 3]; 3]| {
+        let [a, b, c] = [a, b, c].map(|at| DVec3::from(at.map(f64::from)));
+        (b - a).cross(c - a).as_vec3().to_array()
+    };
+    let low = |[x, _, z]: [f32; 3]| [x, -1.0, z];
+    for (a, b) in [(o, q), (q, s), (s, r), (r, p), (p, o)] {
+        for side in [[a, b, low(b)], [a, low(b), low(a)]] {
+            add(side, [flat(side); 3]);
+        }
+    }
+    for bottom in [[o, r, p], [o, s, r], [o, q, s]] {
+        add(bottom.map(low), [[0.0, -1.0, 0.0]; 3]);
+    }
+    mesh.submesh_index_counts = vec![mesh.indices.len() as u32];
+    (mesh, [o, r])
+}

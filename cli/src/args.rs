@@ -187,6 +187,11 @@ pub struct CheckArgs {
     #[arg(long)]
     pub per_mesh: bool,
 
+    /// The file of options that the model was chamfered with: edges that it does not select stay hard,
+    /// and have no width
+    #[arg(long, value_name = "FILE.toml")]
+    pub options: Option<PathBuf>,
+
     /// Draw the worst places where light shows to this file, before and after; without any, the
     /// whole model
     #[arg(long, value_name = "FILE.png")]

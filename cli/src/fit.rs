@@ -22,6 +22,18 @@ pub struct Wish {
     pub mask: Option<usize>,
 }
 
+impl Default for Wish {
+    fn default() -> Wish {
+        Wish {
+            core: Options::default(),
+            width: Length::percent(1.0),
+            per_mesh: false,
+            material_widths: Vec::new(),
+            mask: None,
+        }
+    }
+}
+
 /// What is asked of the meshes of a file.
 pub struct Fit {
     /// `#meshes`.

@@ -4,7 +4,7 @@ use std::ffi::OsString;
 use std::fs;
 use std::path::Path;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, anyhow, bail};
 use clap::error::ErrorKind;
 use clap::parser::ValueSource;
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser};
@@ -71,14 +71,28 @@ pub fn parse(words: &[OsString]) -> Result<Args, clap::Error> {
         Args::command().error(ErrorKind::ValueValidation, why.trim_end())
     };
     let flags = read(path).map_err(|error| refuse(format!("{error:#}")))?;
-    let alone = || flags.iter().map(|flag| OsString::from(&flag.word));
-    let nothing = [OsString::from("chamfer"), "--print-options".into()];
-    let tried = Args::try_parse_from(nothing.into_iter().chain(alone()));
-    tried.map_err(|error| refuse(first_paragraph(&error)))?;
+    alone(&flags).map_err(|error| refuse(first_paragraph(&error)))?;
     let kept = flags.iter().filter(|flag| !is_given(&matches, flag.name));
     let kept = kept.map(|flag| OsString::from(&flag.word));
     let (program, rest) = words.split_at(1.min(words.len()));
     Args::try_parse_from(program.iter().cloned().chain(kept).chain(rest.iter().cloned()))
+}
+
+/// What a file asks for by itself.
+///
+/// # Errors
+/// What is wrong with it.
+pub fn choices(path: &Path) -> Result<Choices> {
+    let name = || path.display().to_string();
+    let args = alone(&read(path).with_context(name)?);
+    Ok(args.map_err(|error| anyhow!(first_paragraph(&error))).with_context(name)?.choices)
+}
+
+/// What flags stand for where nothing else is said.
+fn alone(flags: &[Flag]) -> Result<Args, clap::Error> {
+    let nothing = [OsString::from("chamfer"), "--print-options".into()];
+    let words = flags.iter().map(|flag| OsString::from(&flag.word));
+    Args::try_parse_from(nothing.into_iter().chain(words))
 }
 
 /// What an error says, without how the command is used.

@@ -457,3 +457,24 @@ fn the_picture_shows_the_light_or_the_model() {
         assert!(picture.height() >= size.1, "lifted by {lift}");
     }
 }
+
+/// Of a cube only the upright edges are chamfered: flaps stand at their ends, where edges that stay
+/// hard come apart.
+#[test]
+fn edges_that_the_options_leave_out_are_no_chamfers_and_not_missed() {
+    let prism = shapes::prism(6);
+    let folder = Folder::new();
+    folder.write("before.glb", glb::encode("shape", &prism, &[], &[]).unwrap());
+    folder.write("some.toml", "width = 2\nmin_angle = 50\nmax_angle = 70\n");
+    let made = folder.run("before.glb -o after.glb --options some.toml");
+    assert!(made.0.status.success(), "{:?}", made.0);
+    let chamfers = |report: &Value| report["meshes"][0]["chamfers"]["count"].clone();
+    let (code, report) = folder.check(" --options some.toml");
+    assert_eq!((code, chamfers(&report)), (0, json!(6)), "{report:#}");
+    folder.write("after.glb", glb::encode("shape", &prism, &[], &[]).unwrap());
+    let (code, report) = folder.check(" --options some.toml");
+    let left = &report["meshes"][0]["left_without_need"];
+    assert_eq!((code, left), (1, &json!(6)), "{report:#}");
+    let refused = folder.run("check before.glb after.glb --options none.toml");
+    assert_eq!(refused.0.status.code(), Some(2));
+}

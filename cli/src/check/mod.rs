@@ -13,7 +13,7 @@ use std::process::ExitCode;
 
 use anyhow::{Result, anyhow, ensure};
 use chamfer::check::{Extras, Findings, MeasuredEdge, Rule, compare_with};
-use chamfer::{Chamfered, EdgeVerdict, MeshBuffers, Options, Outcome, Verify};
+use chamfer::{Chamfered, EdgeVerdict, MeshBuffers, Outcome, Reason, Verify};
 use chamfer_formats as formats;
 use chamfer_formats::paths::identity;
 use chamfer_formats::{Document, Instance, NormalsRead, Place, ReadOptions};
@@ -21,8 +21,10 @@ use chamfer_formats::{Document, Instance, NormalsRead, Place, ReadOptions};
 use crate::args::{CheckArgs, CheckDepth};
 use crate::batch::{USAGE, name_of};
 use crate::chamfering::chamfer_document;
+use crate::choices::Choices;
 use crate::console::{say, warn, with_causes};
 use crate::fit::Wish;
+use crate::preset;
 use crate::scene::largest_length;
 use crate::write;
 
@@ -44,11 +46,13 @@ pub fn run(args: &CheckArgs) -> ExitCode {
 /// Says what was found.
 fn check(args: &CheckArgs) -> Result<Verdict> {
     refuse_to_overwrite(args)?;
-    let mut before = read(&args.before, &args.read_options_before())?;
+    let choices = args.options.as_deref().map(preset::choices).transpose()?;
+    let reading = choices.as_ref().map_or(args.read_options_before(), Choices::read_options);
+    let mut before = read(&args.before, &reading)?;
     let after = read(&args.after, &args.read_options())?;
     part(&mut *before, &*after);
     let pairs = Pairs::new(before.meshes(), after.meshes());
-    let expected = expected(&*before, args)?;
+    let expected = expected(&*before, args, choices.as_ref())?;
     let checks = pairs.both.iter().map(|&[source, result]| {
         let expected = expected.get(source);
         let source = Side { document: &*before, mesh: source };
@@ -167,16 +171,17 @@ impl Side<'_> {
 }
 
 /// `#meshes`: what chamfering the file would give, where the width asked for is known.
-fn expected(before: &dyn Document, args: &CheckArgs) -> Result<Vec<Chamfered>> {
-    let Some(width) = args.width() else { return Ok(Vec::new()) };
+fn expected(
+    before: &dyn Document,
+    args: &CheckArgs,
+    choices: Option<&Choices>,
+) -> Result<Vec<Chamfered>> {
+    let width = args.width().or(choices.map(Choices::length));
+    let Some(width) = width else { return Ok(Vec::new()) };
+    let wish = choices.map_or_else(Wish::default, |choices| choices.wish(1));
     let verify = if args.no_see_through { args.verify.into() } else { Verify::Seen };
-    let wish = Wish {
-        core: Options::default().with_verify(verify),
-        width,
-        per_mesh: args.per_mesh,
-        material_widths: Vec::new(),
-        mask: None,
-    };
+    let per_mesh = args.per_mesh || wish.per_mesh;
+    let wish = Wish { core: wish.core.with_verify(verify), width, per_mesh, ..wish };
     Ok(chamfer_document(before, &wish, &|_| ())?.meshes)
 }
 
@@ -225,6 +230,11 @@ fn check_pair(
     if matches!(args.verify, CheckDepth::Fast) {
         findings.leave_out(Rule::SelfIntersection, "left out by --verify fast");
     }
+    if let Some(expected) = expected {
+        let unselected = unselected(&expected.verdicts);
+        // At a flap the two sides of an edge that stays hard come apart: that is no chamfer of it.
+        findings.edges.retain(|edge| unselected.binary_search(&edge.vertices).is_err());
+    }
     let mut check = MeshCheck::new(source.name(), &findings);
     streams.not_told.iter().for_each(|(what, reason)| check.leave_out(what, reason));
     if let Some(expected) = expected {
@@ -232,6 +242,14 @@ fn check_pair(
         check.expect_widths(&wider_than_asked(&findings, expected));
     }
     check
+}
+
+/// The edges that nobody asked for, sorted.
+fn unselected(verdicts: &[EdgeVerdict]) -> Vec<[u32; 2]> {
+    let unselected = verdicts.iter().filter(|verdict| verdict.reason == Reason::NotSelected);
+    let mut vertices: Vec<[u32; 2]> = unselected.map(|verdict| verdict.vertices).collect();
+    vertices.sort_unstable();
+    vertices
 }
 
 /// The hard edges that are left although chamfering would not leave them.
