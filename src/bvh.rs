@@ -438,7 +438,8 @@ mod tests {
     fn what_is_seen_apart_from_one_eye_is_no_pair() {
         let boxes = scattered(60.0);
         // From the one eye each sees its next two, from the other its next.
-        let row = |far: f32| (0..200).map(|n| Aabb::around(&[[n as f32; 3], [n as f32 + far; 3]]));
+        let row =
+            |far: f32| (0..200).map(move |n| Aabb::around(&[[n as f32; 3], [n as f32 + far; 3]]));
         let views = [row(2.0).collect(), row(1.0).collect::<Vec<_>>()];
         let tree = Tree::new(&boxes, &[]).with_views(&views);
         let mut found: Vec<(u32, u32)> = tree
