@@ -27,6 +27,14 @@ const SHAPES: &[(&str, u32, Make)] = &[
     ("klein bottle", 3_000, worst::klein_bottle),
     // A million borders, each of which may rest on something.
     ("posts", 125_000, worst::posts),
+    ("spikes", 12_000, worst::spikes),
+    ("star cone", 18_000, worst::star_cone),
+    ("gear cone", 9_000, worst::gear_cone),
+    ("wedges", 4_000, worst::wedges),
+    ("turned quads", 25_000, worst::turned_quads),
+    // So many quads each way.
+    ("hills", 300, |size| worst::terrain(size, false)),
+    ("hills with a texture", 300, |size| worst::terrain(size, true)),
     ("slivers", 8_000, worst::slivers),
     ("huge cubes", 8_000, |size| worst::placed(shapes::cube_field(size), 1e30, 0.0)),
     ("tiny cubes", 8_000, |size| worst::placed(shapes::cube_field(size), 1e-30, 0.0)),

@@ -113,6 +113,16 @@ pub(crate) struct Tree {
     boxes: Vec<Aabb>,
     /// `#places`, or none.
     kin: Vec<Kin>,
+    /// For each eye.
+    views: Vec<View>,
+}
+
+/// Boxes around the directions in which all is seen from some eye.
+struct View {
+    /// `#nodes`.
+    nodes: Vec<Aabb>,
+    /// `#places`.
+    places: Vec<Aabb>,
 }
 
 impl Tree {
@@ -133,12 +143,32 @@ impl Tree {
             boxes: order.iter().map(|&number| boxes[number as usize]).collect(),
             kin: order.iter().filter_map(|&number| kin.get(number as usize)).copied().collect(),
             node_kin: Vec::new(),
+            views: Vec::new(),
             order,
         };
         if !boxes.is_empty() {
             tree.add(0, boxes.len());
         }
         tree
+    }
+
+    /// The same, where what is seen apart from an eye is apart too (`views: #eyes by #boxes`).
+    pub fn with_views(mut self, views: &[Vec<Aabb>]) -> Tree {
+        self.views = views.iter().map(|boxes| self.view(boxes)).collect();
+        self
+    }
+
+    fn view(&self, boxes: &[Aabb]) -> View {
+        let places: Vec<Aabb> = self.order.iter().map(|&number| boxes[number as usize]).collect();
+        let mut nodes = vec![Aabb::EMPTY; self.nodes.len()];
+        // Those below a node come after it.
+        for node in (0..nodes.len()).rev() {
+            nodes[node] = match self.nodes[node].count {
+                0 => nodes[node + 1].union(nodes[self.nodes[node + 1].next as usize]),
+                _ => self.places(node).fold(Aabb::EMPTY, |all, place| all.union(places[place])),
+            };
+        }
+        View { nodes, places }
     }
 
     /// The number of the box at a place.
@@ -238,13 +268,23 @@ impl Tree {
             .map(|place| self.order[place])
     }
 
-    /// The pairs of places that are not apart, each once.
-    pub fn pairs(&self) -> impl Iterator<Item = (usize, usize)> {
-        self.leaves()
+    /// `#nodes`: in which leaves something is open, as is told of each number.
+    pub fn open_leaves(&self, is_open: impl Fn(u32) -> bool) -> Vec<bool> {
+        let holds_open = |node: usize| self.places(node).any(|place| is_open(self.order[place]));
+        (0..self.nodes.len()).map(holds_open).collect()
+    }
+
+    /// The pairs of places that are not apart, each once: those in open leaves (`open: #nodes`) with
+    /// all others.
+    pub fn pairs<'a>(&'a self, open: &'a [bool]) -> impl Iterator<Item = (usize, usize)> + 'a {
+        // Where all are open, those before a leaf have met it already.
+        let are_all = self.leaves().all(|leaf| open[leaf]);
+        let leaves = self.leaves().filter(|&leaf| open[leaf]);
+        leaves
             .flat_map(move |leaf| {
-                // Only leaves from this one on: those before have met it already.
-                let near = self.leaves_near(leaf, move |node| self.nodes_are_apart(leaf, node));
-                near.flat_map(move |other| {
+                let from = if are_all { leaf } else { 0 };
+                let near = self.leaves_near(from, move |node| self.nodes_are_apart(leaf, node));
+                near.filter(move |&other| other >= leaf || !open[other]).flat_map(move |other| {
                     let pair = move |a| {
                         let from = if other == leaf { a + 1 } else { self.places(other).start };
                         (from..self.places(other).end).map(move |b| (a, b))
@@ -260,12 +300,14 @@ impl Tree {
     fn are_apart(&self, a: usize, b: usize) -> bool {
         !self.boxes[a].overlaps(&self.boxes[b])
             || (!self.kin.is_empty() && self.kin[a].is_apart(&self.kin[b]))
+            || self.views.iter().any(|view| !view.places[a].overlaps(&view.places[b]))
     }
 
     #[inline]
     fn nodes_are_apart(&self, a: usize, b: usize) -> bool {
         !self.nodes[a].bounds.overlaps(&self.nodes[b].bounds)
             || (!self.node_kin.is_empty() && self.node_kin[a].is_apart(&self.node_kin[b]))
+            || self.views.iter().any(|view| !view.nodes[a].overlaps(&view.nodes[b]))
     }
 }
 
@@ -314,8 +356,11 @@ mod tests {
     fn pairs(boxes: &[Aabb]) -> Vec<(u32, u32)> {
         let tree = Tree::new(boxes, &[]);
         let named = |(a, b): (usize, usize)| (tree.number(a), tree.number(b));
-        let mut pairs: Vec<(u32, u32)> =
-            tree.pairs().map(named).map(|(a, b)| (a.min(b), a.max(b))).collect();
+        let mut pairs: Vec<(u32, u32)> = tree
+            .pairs(&tree.open_leaves(|_| true))
+            .map(named)
+            .map(|(a, b)| (a.min(b), a.max(b)))
+            .collect();
         pairs.sort_unstable();
         pairs
     }
@@ -383,7 +428,7 @@ mod tests {
             .collect();
         let tree = Tree::new(&boxes, &kin);
         let mut found: Vec<(u32, u32)> = tree
-            .pairs()
+            .pairs(&tree.open_leaves(|_| true))
             .map(|(a, b)| (tree.number(a), tree.number(b)))
             .map(|(a, b)| (a.min(b), a.max(b)))
             .collect();
@@ -392,6 +437,44 @@ mod tests {
         expected.retain(|&(a, b)| !kin[a as usize].is_apart(&kin[b as usize]));
         assert_eq!(found, expected);
         assert!(expected.len() > 1000 && expected.len() < overlapping(&boxes).len());
+    }
+
+    #[test]
+    fn what_is_seen_apart_from_one_eye_is_no_pair() {
+        let boxes = scattered(60.0);
+        // From the one eye each sees its next two, from the other its next.
+        let row =
+            |far: f32| (0..200).map(move |n| Aabb::around(&[[n as f32; 3], [n as f32 + far; 3]]));
+        let views = [row(2.0).collect(), row(1.0).collect::<Vec<_>>()];
+        let tree = Tree::new(&boxes, &[]).with_views(&views);
+        let mut found: Vec<(u32, u32)> = tree
+            .pairs(&tree.open_leaves(|_| true))
+            .map(|(a, b)| (tree.number(a), tree.number(b)))
+            .map(|(a, b)| (a.min(b), a.max(b)))
+            .collect();
+        found.sort_unstable();
+        let mut expected = overlapping(&boxes);
+        expected.retain(|(a, b)| b - a == 1);
+        assert_eq!(found, expected);
+        assert!(expected.len() > 10);
+    }
+
+    #[test]
+    fn open_leaves_meet_all_others_once() {
+        let boxes = scattered(20.0);
+        let tree = Tree::new(&boxes, &[]);
+        let is_open = |number: u32| number % 23 == 5;
+        let mut found: Vec<(u32, u32)> = tree
+            .pairs(&tree.open_leaves(is_open))
+            .map(|(a, b)| (tree.number(a), tree.number(b)))
+            .filter(|&(a, b)| is_open(a) || is_open(b))
+            .map(|(a, b)| (a.min(b), a.max(b)))
+            .collect();
+        found.sort_unstable();
+        let mut expected = overlapping(&boxes);
+        expected.retain(|&(a, b)| is_open(a) || is_open(b));
+        assert_eq!(found, expected);
+        assert!(expected.len() > 10);
     }
 
     #[test]

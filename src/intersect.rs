@@ -9,6 +9,7 @@
 
 mod apart;
 mod crowds;
+mod eyes;
 
 use glam::DVec3;
 use robust::{Coord, Coord3D, orient2d, orient3d};
@@ -17,45 +18,92 @@ use crate::bvh::{Aabb, Kin, Tree};
 use crate::tolerance::NEARLY_FLAT;
 
 use apart::{are_apart, are_apart_but_for_corner};
+use eyes::Eyes;
 
 pub(crate) use crowds::{Around, crowds};
 
 pub(crate) type Triangle = [[f32; 3]; 3];
 
+/// With more boxes that overlap for each triangle, directions are asked too. Of a common mesh it is a
+/// dozen.
+const CROWDED: usize = 24;
+
 /// The pairs of triangles that cut each other, the smaller number first, in ascending order.
 ///
-/// `positions` are `#vertices by 3`, finite; `triangles` `#triangles by 3`, in range. Only pairs
-/// in one part (`part_of: #triangles`) count.
+/// Only pairs in one part (`part_of: #triangles`) count. `source: #triangles` is what each was before
+/// it was chamfered, if that is known: parts are [seen](Eyes) from where that meets.
 #[cfg(feature = "check")]
 pub(crate) fn self_intersections(
-    positions: &[[f32; 3]],
-    triangles: &[[u32; 3]],
+    triangles: &[Triangle],
+    source: &[Triangle],
     part_of: &[u32],
 ) -> Vec<(u32, u32)> {
-    let corners = |triangle: &[u32; 3]| triangle.map(|v| positions[v as usize]);
-    let triangles: Vec<Triangle> = triangles.iter().map(corners).collect();
-    let in_one_part = |a: u32, b: u32| part_of[a as usize] == part_of[b as usize];
-    cutting_pairs(&triangles, &crowds(&triangles).unwrap_or_default(), in_one_part)
-}
-
-/// The pairs of triangles that cut each other, of those that are asked for; the smaller number
-/// first, in ascending order. `kin` is `#triangles`, or none where no crowd meets.
-pub(crate) fn cutting_pairs(
-    triangles: &[Triangle],
-    kin: &[Kin],
-    is_asked: impl Fn(u32, u32) -> bool,
-) -> Vec<(u32, u32)> {
-    let corners = |t: u32| &triangles[t as usize];
-    let boxes: Vec<Aabb> = triangles.iter().map(bounds).collect();
-    let tree = Tree::new(&boxes, kin);
-    let mut pairs: Vec<(u32, u32)> = tree
-        .pairs()
-        .map(|(a, b)| (tree.number(a), tree.number(b)))
-        .filter(|&(a, b)| is_asked(a, b) && cut_each_other(corners(a), corners(b)))
-        .map(|(a, b)| (a.min(b), a.max(b)))
+    let mut numbers: Vec<u32> = (0..triangles.len() as u32).collect();
+    numbers.sort_by_key(|&number| part_of[number as usize]);
+    let mut pairs: Vec<(u32, u32)> = numbers
+        .chunk_by(|&one, &other| part_of[one as usize] == part_of[other as usize])
+        .flat_map(|part| {
+            let of = |all: &[Triangle]| -> Vec<Triangle> {
+                part.iter().map(|&number| all[number as usize]).collect()
+            };
+            let (own, before) = (of(triangles), || of(source));
+            let kin = crowds(&own).unwrap_or_default();
+            let pairs =
+                cutting_pairs(&own, &kin, before, &Asked { open: |_| true, pair: |_, _| true });
+            pairs.into_iter().map(|(a, b)| (part[a as usize], part[b as usize]))
+        })
         .collect();
     pairs.sort_unstable();
     pairs
+}
+
+/// Which pairs are asked for: at least one of them is open.
+pub(crate) struct Asked<Open, Pair> {
+    pub open: Open,
+    pub pair: Pair,
+}
+
+/// The pairs of triangles that cut each other, of those that are asked for; the smaller number
+/// first, in ascending order. `kin` is `#triangles`, or none where no crowd meets; where they
+/// met before they were pulled apart they are [seen](Eyes) from, if need be.
+pub(crate) fn cutting_pairs<Open: Fn(u32) -> bool, Pair: Fn(u32, u32) -> bool>(
+    triangles: &[Triangle],
+    kin: &[Kin],
+    source: impl Fn() -> Vec<Triangle>,
+    asked: &Asked<Open, Pair>,
+) -> Vec<(u32, u32)> {
+    let boxes: Vec<Aabb> = triangles.iter().map(bounds).collect();
+    let tree = Tree::new(&boxes, kin);
+    let few = triangles.len().saturating_mul(CROWDED);
+    let found = cutting_within(&tree, triangles, asked, few);
+    let mut pairs = found.unwrap_or_else(|| {
+        let eyes = Eyes::of(&[&source(), triangles].concat());
+        let tree = tree.with_views(&eyes.views(triangles));
+        cutting_within(&tree, triangles, asked, usize::MAX).unwrap_or_default()
+    });
+    pairs.sort_unstable();
+    pairs
+}
+
+/// The same in no order, without looking at more than `most` pairs; none where there are more.
+fn cutting_within<Open: Fn(u32) -> bool, Pair: Fn(u32, u32) -> bool>(
+    tree: &Tree,
+    triangles: &[Triangle],
+    asked: &Asked<Open, Pair>,
+    most: usize,
+) -> Option<Vec<(u32, u32)>> {
+    let corners = |t: u32| &triangles[t as usize];
+    let (mut pairs, open) = (Vec::new(), tree.open_leaves(&asked.open));
+    for (looked_at, (a, b)) in tree.pairs(&open).enumerate() {
+        if looked_at == most {
+            return None;
+        }
+        let (a, b) = (tree.number(a), tree.number(b));
+        if (asked.pair)(a, b) && cut_each_other(corners(a), corners(b)) {
+            pairs.push((a.min(b), a.max(b)));
+        }
+    }
+    Some(pairs)
 }
 
 /// A triangle with two corners at one place cuts nothing, so it meets nothing: otherwise many at
@@ -359,10 +407,69 @@ mod tests {
 
     #[test]
     fn only_pairs_in_one_part_are_found() {
-        let positions = [FLOOR, [[1.0, 1.0, -1.0], [2.0, 1.0, -1.0], [1.0, 1.0, 1.0]]].concat();
-        let triangles = [[0, 1, 2], [3, 4, 5]];
-        assert_eq!(self_intersections(&positions, &triangles, &[0, 0]), [(0, 1)]);
-        assert!(self_intersections(&positions, &triangles, &[0, 1]).is_empty());
+        let triangles = [FLOOR, [[1.0, 1.0, -1.0], [2.0, 1.0, -1.0], [1.0, 1.0, 1.0]]];
+        assert_eq!(self_intersections(&triangles, &triangles, &[0, 0]), [(0, 1)]);
+        assert!(self_intersections(&triangles, &triangles, &[0, 1]).is_empty());
+    }
+
+    /// Long narrow spikes on a ball, whose boxes overlap by the hundred: two triangles for each.
+    fn spikes(count: u32) -> Vec<Triangle> {
+        let spike = |number: u32| {
+            let height = 1.0 - 2.0 * (f64::from(number) + 0.5) / f64::from(count);
+            let (sine, cosine) = (f64::from(number) * 2.399_963).sin_cos();
+            let out = DVec3::new(cosine, sine, 0.0) * (1.0 - height * height).sqrt();
+            let way = out + DVec3::Z * height;
+            let across = way.any_orthonormal_vector() / f64::from(count).sqrt() / 2.0;
+            let at = |point: DVec3| point.as_vec3().to_array();
+            [[at(way - across), at(way + across), at(way * 3.0)]; 2]
+        };
+        let sides =
+            |[one, other]: [Triangle; 2]| [one, other.map(|point| point.map(|x| x * 0.999))];
+        (0..count).flat_map(|number| sides(spike(number))).collect()
+    }
+
+    #[test]
+    fn what_boxes_do_not_tell_apart_is_seen_apart_from_the_middle() {
+        let triangles = spikes(2000);
+        let boxes: Vec<Aabb> = triangles.iter().map(bounds).collect();
+        let all = Asked { open: |_| true, pair: |_, _| true };
+        let few = triangles.len() * CROWDED;
+        let tree = Tree::new(&boxes, &[]);
+        assert!(cutting_within(&tree, &triangles, &all, few).is_none(), "boxes do not tell");
+        let tree = tree.with_views(&Eyes::of(&triangles).views(&triangles));
+        assert!(cutting_within(&tree, &triangles, &all, few).is_some(), "eyes do");
+    }
+
+    #[test]
+    fn what_is_looked_at_from_eyes_is_found_as_without() {
+        let mut triangles = spikes(600);
+        // Plates through some of the spikes.
+        let plates: Vec<Triangle> =
+            triangles.iter().step_by(40).map(|spike| plate(spike)).collect();
+        triangles.extend(plates);
+        let numbers = 0..triangles.len() as u32;
+        let cut =
+            |&(a, b): &(u32, u32)| cut_each_other(&triangles[a as usize], &triangles[b as usize]);
+        let expected: Vec<(u32, u32)> = numbers
+            .clone()
+            .flat_map(|a| (a + 1..numbers.end).map(move |b| (a, b)))
+            .filter(cut)
+            .collect();
+        assert!(expected.len() > 20, "{}", expected.len());
+        let boxes: Vec<Aabb> = triangles.iter().map(bounds).collect();
+        let tree = Tree::new(&boxes, &[]).with_views(&Eyes::of(&triangles).views(&triangles));
+        let all = Asked { open: |_| true, pair: |_, _| true };
+        let mut found = cutting_within(&tree, &triangles, &all, usize::MAX).unwrap();
+        found.sort_unstable();
+        assert_eq!(found, expected);
+    }
+
+    /// Across the middle of a triangle.
+    fn plate([a, b, tip]: &Triangle) -> Triangle {
+        let [a, b, tip] = [a, b, tip].map(|point| DVec3::from(point.map(f64::from)));
+        let (middle, side) = ((a + b + tip) / 3.0, b - a);
+        let up = side.cross(tip - a).normalize() * side.length();
+        [middle - side - up, middle + side - up, middle + up].map(|p| p.as_vec3().to_array())
     }
 
     /// A cone of many sides with a wall through it, and faces around one of the wall's sides.
@@ -383,15 +490,13 @@ mod tests {
                 _ => triangles.push([[a, b, c], apex, [a + 0.3, b, f]]),
             }
         }
-        let points: Vec<[f32; 3]> = triangles.concat();
-        let corners: Vec<[u32; 3]> =
-            (0..triangles.len() as u32).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
         let mut expected = Vec::new();
         for a in 0..triangles.len() as u32 {
             let cut = |b: &u32| cut_each_other(&triangles[a as usize], &triangles[*b as usize]);
             expected.extend((a + 1..triangles.len() as u32).filter(cut).map(|b| (a, b)));
         }
         assert!(expected.len() > 100, "{}", expected.len());
-        assert_eq!(self_intersections(&points, &corners, &vec![0; corners.len()]), expected);
+        let part = vec![0; triangles.len()];
+        assert_eq!(self_intersections(&triangles, &triangles, &part), expected);
     }
 }

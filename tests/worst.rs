@@ -48,6 +48,21 @@ fn many_open_parts_that_rest_on_others() {
 }
 
 #[test]
+fn parts_whose_boxes_all_overlap() {
+    check("spikes", &worst::spikes(200));
+    check("star cone", &worst::star_cone(60));
+    check("gear cone", &worst::gear_cone(40));
+    check("wedges", &worst::wedges(40));
+    check("turned quads", &worst::turned_quads(60));
+}
+
+#[test]
+fn hills() {
+    check("hills", &worst::terrain(12, false));
+    check("hills with a texture", &worst::terrain(12, true));
+}
+
+#[test]
 fn slivers() {
     check("slivers", &worst::slivers(8));
 }

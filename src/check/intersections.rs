@@ -4,7 +4,7 @@ use super::origins::Origins;
 use super::rules::{Element, Findings, Rule};
 use super::solids::Solids;
 use super::surface::Surface;
-use crate::intersect::self_intersections;
+use crate::intersect::{Triangle, self_intersections};
 
 /// No solid cuts through itself in what is joined by edges, and did not cut through itself in the
 /// source. Where parts that are joined cut each other there, nobody can tell what is whose.
@@ -16,8 +16,14 @@ pub(super) fn check_intersections(
 ) {
     let [parts_before, parts_after] = [&source.of, &result.of];
     let joined = before.components();
-    let [pairs_before, pairs_after] =
-        [intersections_within(before, &joined), intersections_within(after, parts_after)];
+    let [own_before, own_after] = [before, after].map(triangles_of);
+    let stood = |(number, source): (usize, &Option<[u32; 3]>)| match source {
+        Some([corner, ..]) => own_before[*corner as usize / 3],
+        None => own_after[number],
+    };
+    let sources: Vec<Triangle> = origins.triangles.iter().enumerate().map(stood).collect();
+    let pairs_before = self_intersections(&own_before, &own_before, &joined);
+    let pairs_after = self_intersections(&own_after, &sources, parts_after);
     findings.before.self_intersections = Some(pairs_before.len());
     findings.after.self_intersections = Some(pairs_after.len());
     let mut cut_before = vec![false; parts_before.len()];
@@ -47,8 +53,7 @@ pub(super) fn check_intersections(
     }
 }
 
-fn intersections_within(surface: &Surface, parts: &[u32]) -> Vec<(u32, u32)> {
-    let triangles: Vec<[u32; 3]> =
-        surface.mesh.indices.chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect();
-    self_intersections(surface.mesh.positions, &triangles, parts)
+fn triangles_of(surface: &Surface) -> Vec<Triangle> {
+    let at = |&index: &u32| surface.mesh.positions[index as usize];
+    surface.mesh.indices.chunks_exact(3).map(|t| [&t[0], &t[1], &t[2]].map(at)).collect()
 }

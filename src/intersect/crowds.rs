@@ -18,19 +18,20 @@ use crate::bvh::{Aabb, Kin};
 use super::Triangle;
 
 /// Where fewer meet, comparing each with each costs less than knowing them.
-const CROWD: u8 = 32;
+pub(super) const CROWD: u8 = 32;
 
 /// Far more than rounding makes of a unit vector, far less than what tells neighbours apart.
 const SLACK: f64 = 1e-6;
 
-/// A way across a side that is this much shorter than what it is left from is mostly rounding.
-const LEAST_ACROSS: f64 = 1e-6;
+/// A way across a side that is this much shorter than what it is left from has a direction that rounding
+/// in double precision turns by less than the slack.
+const LEAST_ACROSS: f64 = 1e-9;
 
 /// A position by its bits, -0 as 0.
-type Place = [u32; 3];
+pub(super) type Place = [u32; 3];
 
 /// A side by its ends, or a place twice.
-type Name = [Place; 2];
+pub(super) type Name = [Place; 2];
 
 /// `#triangles`: the corner or side that each crowds around with others, and where it lies as seen
 /// from there. None where there is no crowd, as in nearly all meshes.
@@ -80,12 +81,12 @@ impl Meeting {
     }
 }
 
-fn place(point: [f32; 3]) -> Place {
+pub(super) fn place(point: [f32; 3]) -> Place {
     point.map(|along| (along + 0.0).to_bits())
 }
 
 /// The side from a corner to the next, whichever way it is used.
-fn side(triangle: &Triangle, k: usize) -> Name {
+pub(super) fn side(triangle: &Triangle, k: usize) -> Name {
     let ends = [place(triangle[k]), place(triangle[(k + 1) % 3])];
     if ends[0] <= ends[1] { ends } else { [ends[1], ends[0]] }
 }
@@ -170,6 +171,11 @@ impl Around {
     pub fn line(points: [[f32; 3]; 2]) -> Around {
         let [from, to] = points.map(wide);
         Around { points, along: (to - from).normalize_or_zero() }
+    }
+
+    #[cfg(test)]
+    pub fn points(&self) -> [[f32; 3]; 2] {
+        self.points
     }
 
     /// A box around all directions in which a triangle is seen from there.

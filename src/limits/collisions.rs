@@ -14,7 +14,7 @@ use crate::error::Error;
 use crate::fills::{middle, ring_fill};
 use crate::flaps::is_open;
 use crate::ids::{Corner, Few, Id, IdVec, Ring, Sector};
-use crate::intersect::{self, Triangle, cutting_pairs};
+use crate::intersect::{self, Asked, Triangle, cutting_pairs};
 use crate::memory;
 use crate::placement::Placement;
 use crate::report::Reason;
@@ -251,11 +251,13 @@ impl Part<'_> {
     ) -> Vec<Element> {
         let laid = self.lay_out(placement, open, rounded);
         let triangles: Vec<Triangle> = laid.iter().map(|each| each.corners).collect();
-        let is_asked = |a: u32, b: u32| {
+        let open = |number: u32| laid[number as usize].is_open;
+        let pair = |a: u32, b: u32| {
             let [a, b] = [a, b].map(|number| &laid[number as usize]);
             (a.is_open | b.is_open) & (a.is_changed | b.is_changed)
         };
-        let pairs = cutting_pairs(&triangles, &self.kin(placement, &laid), is_asked);
+        let (kin, source) = (self.kin(placement, &laid), || self.source_triangles());
+        let pairs = cutting_pairs(&triangles, &kin, source, &Asked { open, pair });
         if pairs.is_empty() || self.was_cut() {
             return Vec::new();
         }
@@ -268,17 +270,20 @@ impl Part<'_> {
 
     fn was_cut(&self) -> bool {
         *self.was_cut.get_or_init(|| {
-            let triangles: Vec<Triangle> = self
-                .elements
-                .iter()
-                .filter_map(|element| match *element {
-                    Element::Surface(triangle) => Some(triangle.corners().map(|c| self.source(c))),
-                    Element::Strip(_) | Element::Fill(_) | Element::Flap(_) => None,
-                })
-                .collect();
+            let triangles = self.source_triangles();
             let kin = intersect::crowds(&triangles).unwrap_or_default();
-            !cutting_pairs(&triangles, &kin, |_, _| true).is_empty()
+            let all = Asked { open: |_| true, pair: |_, _| true };
+            !cutting_pairs(&triangles, &kin, Vec::new, &all).is_empty()
         })
+    }
+
+    /// The part as it was.
+    fn source_triangles(&self) -> Vec<Triangle> {
+        let source = |element: &Element| match *element {
+            Element::Surface(triangle) => Some(triangle.corners().map(|c| self.source(c))),
+            Element::Strip(_) | Element::Fill(_) | Element::Flap(_) => None,
+        };
+        self.elements.iter().filter_map(source).collect()
     }
 
     /// `#triangles`: where each lies as seen from where its crowd meets; none without any crowd.

@@ -167,3 +167,100 @@ pub fn posts(count: u32) -> MeshBuffers {
     }
     shaded(&points, &indices, FLAT)
 }
+
+/// A sphere of some triangles, on each of which stands a spike as high as the sphere is wide: three
+/// times as many triangles, whose boxes overlap by the hundred.
+pub fn spikes(count: u32) -> MeshBuffers {
+    let rings = (f64::from(count) / 4.0).sqrt().round() as u32;
+    let sphere = chamfer::shapes::sphere(rings, 2 * rings);
+    let mut indices = Vec::new();
+    // The sphere's seam and poles have several vertices at one place, and all is split anyway.
+    let mut points = sphere.positions;
+    let base = points.len() as u32;
+    for (spike, corners) in (0..).zip(sphere.indices.chunks_exact(3)) {
+        let [a, b, c] = [0, 1, 2].map(|k| points[corners[k] as usize]);
+        points.push([0, 1, 2].map(|axis| a[axis] + b[axis] + c[axis]));
+        let sides = [(0, 1), (1, 2), (2, 0)];
+        indices.extend(sides.iter().flat_map(|&(i, j)| [corners[i], corners[j], base + spike]));
+    }
+    shaded(&points, &indices, FLAT)
+}
+
+/// A closed cone over an outline: the radius of each step around it.
+fn cone(steps: u32, radius: impl Fn(u32) -> f64) -> MeshBuffers {
+    let rim = |step: u32| {
+        let [x, z] = turn(f64::from(step) / f64::from(steps));
+        [(x * radius(step)) as f32, 0.0, (-z * radius(step)) as f32]
+    };
+    let ends = [[0.0, 1.0, 0.0], [0.0; 3]];
+    let points: Vec<Point> = (0..steps).map(rim).chain(ends).collect();
+    let sides = (0..steps).flat_map(|step| [steps, step, (step + 1) % steps]);
+    let floor = (0..steps).flat_map(|step| [steps + 1, (step + 1) % steps, step]);
+    shaded(&points, &sides.chain(floor).collect::<Vec<u32>>(), FLAT)
+}
+
+/// A cone over a star of so many points.
+pub fn star_cone(points: u32) -> MeshBuffers {
+    cone(2 * points, |step| if step % 2 == 0 { 1.0 } else { 0.4 })
+}
+
+/// A cone over a gear of so many teeth.
+pub fn gear_cone(teeth: u32) -> MeshBuffers {
+    cone(4 * teeth, |step| if step % 4 < 2 { 1.0 } else { 0.8 })
+}
+
+/// Closed wedges around one edge, a gap as wide as each beside it.
+pub fn wedges(count: u32) -> MeshBuffers {
+    let outer = |place: u32| {
+        let [x, z] = turn(f64::from(place) / f64::from(2 * count));
+        [x as f32, 1.0, -z as f32]
+    };
+    let points: Vec<Point> =
+        [[0.0; 3], [0.0, 2.0, 0.0]].into_iter().chain((0..2 * count).map(outer)).collect();
+    let wedge = |number: u32| {
+        let [a, b] = [2 * number + 2, 2 * number + 3];
+        [0, a, 1, 0, 1, b, 0, b, a, 1, a, b]
+    };
+    shaded(&points, &(0..count).flat_map(wedge).collect::<Vec<u32>>(), FLAT)
+}
+
+/// Hills of so many quads each way, each triangle flat, with a texture laid over all from above or
+/// without any.
+pub fn terrain(across: u32, has_texture: bool) -> MeshBuffers {
+    let height = |x: u32, z: u32| ((x * 37 + z * 71 + x * z * 13) % 17) as f32 / 17.0;
+    let point = |place: u32| {
+        let [x, z] = [place % (across + 1), place / (across + 1)];
+        [x as f32, height(x, z), z as f32]
+    };
+    let points: Vec<Point> = (0..(across + 1) * (across + 1)).map(point).collect();
+    let quad = |place: u32| {
+        let first = place / across * (across + 1) + place % across;
+        let [a, b, c, d] = [first, first + 1, first + across + 2, first + across + 1];
+        [a, c, b, a, d, c]
+    };
+    let indices: Vec<u32> = (0..across * across).flat_map(quad).collect();
+    let mut mesh = shaded(&points, &indices, FLAT);
+    if has_texture {
+        let uv = |[x, _, z]: &[f32; 3]| [x / across as f32, z / across as f32];
+        let values = mesh.positions.iter().flat_map(uv).collect();
+        mesh.uvs[0] = chamfer::UvBuffer { components: 2, values };
+    }
+    mesh
+}
+
+/// A band of separate narrow quads, turned further and further: their boxes overlap by the hundred.
+pub fn turned_quads(count: u32) -> MeshBuffers {
+    let (mut points, mut indices): (Vec<Point>, Vec<u32>) = (Vec::new(), Vec::new());
+    for quad in 0..=count {
+        let share = f64::from(quad) / f64::from(count);
+        let [cos, sin] = turn(share / 2.0);
+        points.extend(
+            [-1.0, 1.0].map(|side: f64| [(side * cos) as f32, (side * sin) as f32, share as f32]),
+        );
+        if quad < count {
+            let [a, b, c, d] = [0, 1, 3, 2].map(|k| 2 * quad + k);
+            indices.extend([a, b, c, a, c, d]);
+        }
+    }
+    shaded(&points, &indices, FLAT)
+}

@@ -1,0 +1,121 @@
+//! Eyes: where all of a part is looked at from, if boxes alone tell too little apart.
+//!
+//! Spikes, cones and gears are made of long narrow triangles whose boxes overlap by the hundred. But
+//! they stand around something, and seen from there they lie in different directions: from the middle
+//! of the part, from a corner or an edge where many of them meet, or from the axis through two of
+//! these. What has a point in common has a direction in common, whatever it is seen from. So which
+//! eyes are taken decides nothing but time.
+
+use glam::DVec3;
+use smallvec::SmallVec;
+
+use crate::bvh::Aabb;
+
+use super::Triangle;
+use super::crowds::{Around, CROWD, Name, Place, place, side};
+
+/// The tip of a cone, the middle of its floor, and the middle of the fill that its tip becomes.
+const MOST: usize = 3;
+
+/// What a part is seen from.
+pub struct Eyes(SmallVec<[Around; 8]>);
+
+impl Eyes {
+    /// Around what the triangles of a part meet at, before or after they are pulled apart.
+    pub fn of(triangles: &[Triangle]) -> Eyes {
+        let middle = mean(triangles);
+        let mut eyes = Eyes(SmallVec::new());
+        eyes.0.push(Around::point(middle));
+        let crowded = crowded_places(triangles);
+        for (number, &at) in crowded.iter().enumerate() {
+            eyes.0.push(Around::point(at));
+            eyes.0.extend(axis([at, if number == 0 { middle } else { crowded[0] }]));
+        }
+        eyes.0.extend(crowded_side(triangles).and_then(axis));
+        eyes
+    }
+
+    /// For each eye, a box around the directions of each triangle.
+    pub fn views(&self, triangles: &[Triangle]) -> Vec<Vec<Aabb>> {
+        let view = |eye: &Around| triangles.iter().map(|triangle| eye.seen(triangle)).collect();
+        self.0.iter().map(view).collect()
+    }
+}
+
+fn axis(ends: [[f32; 3]; 2]) -> Option<Around> {
+    (ends[0] != ends[1]).then(|| Around::line(ends))
+}
+
+fn mean(triangles: &[Triangle]) -> [f32; 3] {
+    let points = triangles.as_flattened();
+    let sum: DVec3 = points.iter().map(|point| DVec3::from(point.map(f64::from))).sum();
+    (sum / points.len().max(1) as f64).as_vec3().to_array()
+}
+
+/// The positions at which the most corners are, if they are many.
+fn crowded_places(triangles: &[Triangle]) -> SmallVec<[[f32; 3]; MOST]> {
+    let mut places: Vec<Place> = triangles.as_flattened().iter().map(|&p| place(p)).collect();
+    let most = most_common(&mut places);
+    most.iter().map(|place| place.map(f32::from_bits)).collect()
+}
+
+/// The ends of the edge on which the most sides lie, if they are many.
+fn crowded_side(triangles: &[Triangle]) -> Option<[[f32; 3]; 2]> {
+    let sides = |triangle| (0..3).map(move |k| side(triangle, k));
+    let mut sides: Vec<Name> = triangles.iter().flat_map(sides).collect();
+    let most = most_common(&mut sides);
+    most.first().map(|ends| ends.map(|place| place.map(f32::from_bits)))
+}
+
+/// Those that come most often, if that is as often as in a crowd; of equals the least.
+fn most_common<T: Ord + Copy>(all: &mut [T]) -> SmallVec<[T; MOST]> {
+    all.sort_unstable();
+    let groups = all.chunk_by(|one, other| one == other);
+    let mut most: SmallVec<[&[T]; MOST + 1]> = SmallVec::new();
+    for group in groups.filter(|group| group.len() >= usize::from(CROWD)) {
+        let at = most.partition_point(|other| other.len() >= group.len());
+        most.insert(at, group);
+        most.truncate(MOST);
+    }
+    most.iter().map(|group| group[0]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A cone over a star of so many points.
+    fn cone(points: u32) -> Vec<Triangle> {
+        let rim = |step: u32| {
+            let turns = f64::from(step) / f64::from(2 * points) * std::f64::consts::TAU;
+            let radius = if step % 2 == 0 { 1.0 } else { 0.4 };
+            [(radius * turns.cos()) as f32, 0.0, (radius * turns.sin()) as f32]
+        };
+        (0..2 * points).map(|step| [[0.0, 1.0, 0.0], rim(step), rim(step + 1)]).collect()
+    }
+
+    #[test]
+    fn a_cone_is_seen_from_its_middle_its_tip_and_its_axis() {
+        let middle = [0.0, 1.0 / 3.0, 0.0];
+        let Eyes(eyes) = Eyes::of(&cone(40));
+        assert_eq!(eyes.len(), 3);
+        let near =
+            |one: [f32; 3], other: [f32; 3]| (0..3).all(|k| (one[k] - other[k]).abs() < 1e-6);
+        assert!(near(eyes[0].points()[0], middle));
+        assert_eq!(eyes[1], Around::point([0.0, 1.0, 0.0]));
+        assert!(near(eyes[2].points()[1], middle) && eyes[2].points()[0] == [0.0, 1.0, 0.0]);
+    }
+
+    #[test]
+    fn without_a_crowd_there_is_the_middle() {
+        assert_eq!(Eyes::of(&cone(4)).0.len(), 1);
+        assert_eq!(Eyes::of(&[]).0.len(), 1);
+    }
+
+    #[test]
+    fn the_most_crowded_are_found_in_order() {
+        let mut all: Vec<u32> =
+            [[3; 40].as_slice(), &[1; 50], &[2; 60], &[5; 32], &[4; 31]].concat();
+        assert_eq!(most_common(&mut all).as_slice(), [2, 1, 3]);
+    }
+}
