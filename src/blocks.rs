@@ -179,7 +179,8 @@ fn together(view: &View, weld: &Weld, parts: Groups) -> Option<IdVec<Cluster, Cl
     let boxes: Vec<Aabb> = boxes.iter().map(|own| own.grown(reach as f32)).collect();
     let tree = Tree::new(&boxes, &[]);
     let mut near = Groups::singles(boxes.len());
-    for (count, (one, other)) in tree.pairs().enumerate() {
+    let all = tree.open_leaves(|_| true);
+    for (count, (one, other)) in tree.pairs(&all).enumerate() {
         if count > MOST_PAIRS * boxes.len() {
             return None;
         }
