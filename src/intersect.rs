@@ -444,8 +444,7 @@ mod tests {
     fn what_is_looked_at_from_eyes_is_found_as_without() {
         let mut triangles = spikes(600);
         // Plates through some of the spikes.
-        let plates: Vec<Triangle> =
-            triangles.iter().step_by(40).map(|spike| plate(spike)).collect();
+        let plates: Vec<Triangle> = triangles.iter().step_by(40).map(plate).collect();
         triangles.extend(plates);
         let numbers = 0..triangles.len() as u32;
         let cut =

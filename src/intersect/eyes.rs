@@ -88,7 +88,7 @@ mod tests {
     fn cone(points: u32) -> Vec<Triangle> {
         let rim = |step: u32| {
             let turns = f64::from(step) / f64::from(2 * points) * std::f64::consts::TAU;
-            let radius = if step % 2 == 0 { 1.0 } else { 0.4 };
+            let radius = if step.is_multiple_of(2) { 1.0 } else { 0.4 };
             [(radius * turns.cos()) as f32, 0.0, (radius * turns.sin()) as f32]
         };
         (0..2 * points).map(|step| [[0.0, 1.0, 0.0], rim(step), rim(step + 1)]).collect()
