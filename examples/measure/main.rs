@@ -12,6 +12,7 @@
 //! a range of angles, a convexity and a width mode at random for each file. `--normals` counts by
 //! what angles normals differ where vertices are split: what `hard_angle` tells apart.
 
+mod chains;
 mod fits;
 mod ground;
 #[allow(dead_code)] // Tests use more of it.
@@ -22,6 +23,7 @@ mod reach;
 
 use std::path::{Path, PathBuf};
 
+use chains::{Chains, chains};
 use chamfer::check::{check, compare};
 use chamfer::{Chamfered, Convexity, Mesh, Options, Verify, Width, WidthMode};
 use fits::Fits;
@@ -107,6 +109,7 @@ fn main() {
             let mean = reaches.iter().sum::<f64>() / reaches.len().max(1) as f64;
             println!("within reach, by mesh: {:.2} %", mean * 100.0);
             print_fits(&more.fits);
+            print_chains(&more.chains);
         }
         if request.are_normals_asked {
             print!("{}", more.angles);
@@ -142,11 +145,26 @@ fn print_fits(all: &[Fits]) {
     );
 }
 
+/// Prints how many straight chains of edges do not have one width.
+fn print_chains(all: &[Chains]) {
+    let sum = |of: fn(&Chains) -> usize| all.iter().map(of).sum::<usize>();
+    let count = sum(|chains| chains.all);
+    let percent = |part: usize| 100.0 * part as f64 / count.max(1) as f64;
+    println!(
+        "chains: of {count} straight ones {:.1} % have less than 0.9 of their widest somewhere \
+         ({:.1} % without a verdict that says why), {:.1} % less than half",
+        percent(sum(|chains| chains.uneven)),
+        percent(sum(|chains| chains.uneven - chains.told)),
+        percent(sum(|chains| chains.by_half)),
+    );
+}
+
 /// What is only measured where it is asked for.
 #[derive(Default)]
 struct More {
     reaches: Vec<f64>,
     fits: Vec<Fits>,
+    chains: Vec<Chains>,
     angles: Angles,
 }
 
@@ -156,6 +174,7 @@ fn of_file(request: &Request, path: &Path, percent: f32, more: &mut More) -> Vec
         if request.is_reach_asked && after.totals.hard_edges > 0 {
             more.reaches.push(reach::reach(before, after));
             more.fits.push(fits::fits(before, after));
+            more.chains.push(chains(before, after));
         }
         if request.are_normals_asked {
             more.angles.add(before);
