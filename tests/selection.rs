@@ -546,22 +546,6 @@ fn a_wide_chamfer_beside_narrow_ones_takes_nothing_from_them() {
     }
 }
 
-//    at the corners of a box, three edges meet: one a hundred times as wide as both others
-#[test]
-fn a_wide_chamfer_that_meets_narrow_ones_loses_none() {
-    let cube = shapes::plain_cube(1.0);
-    let is_wide = |at: [[f32; 3]; 2]| at[0][1] != at[1][1] && at[0][0] > 0.0 && at[0][2] > 0.0;
-    let mut edges = listed(&cube, |_, _| true);
-    for edge in &mut edges {
-        let at = edge.vertices.map(|v| cube.positions[v as usize]);
-        edge.factor = if is_wide(at) { 100.0 } else { 1.0 };
-    }
-    assert_eq!(edges.iter().filter(|edge| edge.factor > 1.0).count(), 1);
-    let result = with_edges(&cube, &edges, 0.002);
-    assert!(result.verdicts.iter().all(|edge| edge.outcome != Outcome::Skipped));
-    assert!(result.verdicts.iter().all(|edge| edge.widths.iter().all(|width| *width > 0.0)));
-}
-
 /// How far the source's vertices at a place went.
 fn ways(mesh: &MeshBuffers, result: &Chamfered, from: [f32; 3]) -> Vec<f64> {
     let place = |at: [f32; 3]| DVec3::from(at.map(f64::from));
