@@ -268,7 +268,7 @@ fn chamfer_hard(
     let shape = shape(view, weld, options, threads, done)?;
     memory::ask(memory::of_chamfers(&view.mesh, shape.chamfers().work()))?;
     let offsets = find_offsets(shape.surface(view), shape.chamfers(), None, threads);
-    let refined = if space.is_plain() { refine(view, &shape, &offsets)? } else { None };
+    let refined = if space.is_plain(&shape.edges) { refine(view, &shape, &offsets)? } else { None };
     let unpaired = unpaired(view, &shape);
     let chamfered = match refined {
         Some(refined) => chamfer_refined(space, (shape, offsets), &refined, options, done),

@@ -94,7 +94,13 @@ fn nearest(
 /// so that they keep it. None where the offset leads out of that face's plane, as then it is not the
 /// place that the vertex comes to.
 fn own_foot(surface: Surface, sectors: &Sectors, offset: &Offset, corner: Corner) -> Option<Foot> {
-    let fan: Few<Corner> = sectors.corners(surface.topology, sectors.sector_of[corner]).collect();
+    let sector = sectors.sector_of[corner];
+    let leaves = || [corner, offset.within].iter().any(|at| !has_plane(surface, at.triangle()));
+    // Most fans are one part, and most ways lie on a face: there is nothing to walk around for.
+    if !sectors.fans[sector].holds_hard && !leaves() {
+        return None;
+    }
+    let fan: Few<Corner> = sectors.corners(surface.topology, sector).collect();
     let parts = || fan.chunk_by(|&one, &other| !is_hard(surface.view, other, one.prev()));
     let vertex = surface.view.vertex_at(corner);
     let has_vertex = |part: &&[Corner]| part.iter().any(|at| surface.view.vertex_at(*at) == vertex);
@@ -103,7 +109,6 @@ fn own_foot(surface: Surface, sectors: &Sectors, offset: &Offset, corner: Corner
         has_vertex(part) && !part.contains(&offset.within) && is_even(surface, part, corner)
     };
     let part = parts().find(is_first).or_else(|| parts().find(|part| part.contains(&corner)))?;
-    let leaves = || [corner, offset.within].iter().any(|at| !has_plane(surface, at.triangle()));
     let own = if !part.contains(&offset.within) {
         nearest(surface, &fan, offset, |own| part.contains(&own))
     } else if leaves() && is_even(surface, part, corner) {

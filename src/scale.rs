@@ -5,10 +5,12 @@
 
 use glam::{DMat3, DVec3};
 
+use crate::edges::{Edges, HardEdge};
 use crate::error::Error;
 use crate::math::unit;
 use crate::mesh::{Factors, Held, Mesh};
 use crate::options::Options;
+use crate::report::Reason;
 use crate::view::{View, wide};
 
 /// A stretch of all three axes that can be undone.
@@ -41,10 +43,14 @@ impl Space<'_> {
         self.scale.map_or(normal, |scale| unit(scale.normal_back * normal))
     }
 
-    /// Whether the mesh is measured as it is, and all of its edges alike.
-    pub fn is_plain(&self) -> bool {
-        let Factors { submeshes, vertices, edges } = self.source.mesh.factors;
-        self.scale.is_none() && submeshes.is_empty() && vertices.is_empty() && edges.is_empty()
+    /// Whether the mesh is measured as it is, and all of its hard edges alike.
+    pub fn is_plain(&self, edges: &Edges) -> bool {
+        let Factors { submeshes, vertices, edges: listed } = self.source.mesh.factors;
+        let is_left = |edge: &HardEdge| edge.skipped == Some(Reason::NotSelected);
+        let lists_all =
+            || listed.iter().all(|listed| listed.factor == 1.0) && !edges.hard.iter().any(is_left);
+        let is_unlike = !submeshes.is_empty() || !vertices.is_empty();
+        self.scale.is_none() && !is_unlike && (listed.is_empty() || lists_all())
     }
 
     /// How many times as long an axis is measured at most.

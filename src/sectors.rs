@@ -25,6 +25,8 @@ pub struct Fan {
     /// Whether several borders run through the cluster, of parts that only touch here, or a border
     /// at all where something outside of the mesh rests on it.
     pub borders_meet: bool,
+    /// Whether a hard edge that stays hard reaches the cluster here.
+    pub holds_hard: bool,
     pub ring: Ring,
 }
 
@@ -128,6 +130,7 @@ pub fn sectors(view: &View, topology: &Topology, edges: &Edges, contacts: &Conta
     for &corner in &edges.spanned {
         add_whole(view, topology, &mut sectors, corner);
     }
+    mark_kept(edges, &mut sectors);
     join_rings(topology, &mut sectors);
     mark_meeting_borders(view, topology, contacts, &mut sectors);
     sectors
@@ -177,6 +180,7 @@ fn add_fan(topology: &Topology, edges: &Edges, sectors: &mut Sectors, corner: Co
         next: Sector::NONE,
         starts_at_border,
         borders_meet: false,
+        holds_hard: false,
         ring: Ring::NONE,
     });
 }
@@ -212,8 +216,18 @@ fn add_whole(view: &View, topology: &Topology, sectors: &mut Sectors, corner: Co
         next: Sector::NONE,
         starts_at_border: false,
         borders_meet: false,
+        holds_hard: false,
         ring: Ring::NONE,
     });
+}
+
+fn mark_kept(edges: &Edges, sectors: &mut Sectors) {
+    let kept = edges.hard.iter().filter(|edge| edge.skipped.is_some());
+    for sector in kept.flat_map(|edge| edge.sides).map(|side| sectors.sector_of[side]) {
+        if sector.is_some() {
+            sectors.fans[sector].holds_hard = true;
+        }
+    }
 }
 
 fn join_rings(topology: &Topology, sectors: &mut Sectors) {

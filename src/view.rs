@@ -52,7 +52,8 @@ pub fn view<'a>(mesh: &Mesh<'a>, options: &Options) -> Result<View<'a>, Error> {
     let width = width_in_units(mesh, options.width)?;
     let least_breadth = checked_share(options.least_breadth, Error::BadBreadth)?;
     checked_share(options.evenness, Error::BadEvenness)?;
-    Ok(View { width, least_breadth, ..View::new(*mesh, options.hard_angle) })
+    let mesh = Mesh { factors: that_matter(mesh.factors), ..*mesh };
+    Ok(View { width, least_breadth, ..View::new(mesh, options.hard_angle) })
 }
 
 /// A mesh that keeps all rules, where it is measured: see [`crate::scale`].
@@ -208,6 +209,17 @@ fn check_factors(mesh: &Mesh) -> Result<(), Error> {
     check(Stream::VertexFactors, vertices.iter().position(bad), &|k| vertices[k])?;
     let bad_edge = edges.iter().position(|edge| bad(&edge.factor));
     check(Stream::EdgeFactors, bad_edge, &|k| edges[k].factor)
+}
+
+/// Factors that are all 1 say nothing, and are left out.
+fn that_matter(factors: Factors) -> Factors {
+    let matter = |factors| if all_one(factors) { &[] } else { factors };
+    let Factors { submeshes, vertices, edges } = factors;
+    Factors { submeshes: matter(submeshes), vertices: matter(vertices), edges }
+}
+
+fn all_one(factors: &[f32]) -> bool {
+    factors.iter().all(|factor| *factor == 1.0)
 }
 
 fn check_lengths(mesh: &Mesh) -> Result<(), Error> {

@@ -7,8 +7,9 @@ mod own_models;
 
 use std::path::{Path, PathBuf};
 
-use chamfer::Verify;
 use chamfer::check::compare;
+use chamfer::{EdgeFactor, Factors, Mesh, Options, Verify, chamfer};
+use chamfer_formats::{ReadOptions, read};
 use measure::{FOLDER, Measured, Sum, measure, models};
 
 /// Models, as the folder's own list has it.
@@ -82,6 +83,37 @@ fn all_are_sound_by_what_went_in_and_what_came_out_alone() {
                 assert!(found.is_sound(), "{} at {percent} %:\n{found}", path.display());
             });
             assert!(measured.is_ok(), "{}", path.display());
+        }
+    }
+}
+
+/// A factor for each vertex, for each submesh, and for each hard edge.
+#[test]
+fn what_selects_all_is_no_selection_and_what_selects_nothing_changes_nothing() {
+    let options = Options::default();
+    for path in paths("selected") {
+        for source in read(&path, &ReadOptions::default()).unwrap().meshes() {
+            let mesh = source.mesh.as_mesh();
+            let plain = chamfer(&mesh, &options).unwrap();
+            for factor in [1.0, 0.0] {
+                let vertices = vec![factor; mesh.positions.len()];
+                let submeshes = vec![factor; mesh.submesh_index_counts.len()];
+                let listed = plain.verdicts.iter().map(|edge| edge.vertices);
+                let edges: Vec<EdgeFactor> =
+                    listed.map(|vertices| EdgeFactor { vertices, factor }).collect();
+                let none = Factors::default();
+                let selections = [
+                    Factors { vertices: &vertices, ..none },
+                    Factors { submeshes: &submeshes, ..none },
+                    Factors { edges: &edges, ..none },
+                ];
+                let expected = if factor == 1.0 { &plain.mesh } else { &source.mesh };
+                for (which, factors) in selections.into_iter().enumerate() {
+                    let result = chamfer(&Mesh { factors, ..mesh }, &options).unwrap();
+                    let name = format!("{} {}", path.display(), source.name);
+                    assert!(result.mesh == *expected, "{name}: factors {which} of {factor}");
+                }
+            }
         }
     }
 }

@@ -419,16 +419,24 @@ fn what_is_not_selected_says_so() {
 fn a_face_beside_an_edge_that_stays_hard_stays_flat() {
     // Normals of B and C at O: another one, nearly that of A, and that of A.
     for at_o in [[0.05, 1.0, 0.0], [0.005, 1.0, 0.0], [0.0, 1.0, 0.0]] {
-        let (block, kept) = block(at_o);
-        let edges = listed(&block, |_, ends| !kept.iter().all(|end| ends.contains(end)));
-        let result = with_edges(&block, &edges, 0.02);
-        assert_eq!(result.totals.skipped[Reason::NotSelected], 1);
-        for k in 0..3 {
-            let v = result.mesh.indices[k] as usize;
-            assert_eq!(result.mesh.positions[v][1], 0.0, "{at_o:?}");
-            assert_eq!(result.mesh.normals[v], [0.0, 1.0, 0.0], "{at_o:?}");
+        for is_last in [false, true] {
+            let (mut block, kept) = block(at_o);
+            let mut corners = 0..3;
+            // Of corners that share a vertex, the first one is asked where it goes.
+            if is_last {
+                block.indices.rotate_left(3);
+                corners = block.indices.len() - 3..block.indices.len();
+            }
+            let edges = listed(&block, |_, ends| !kept.iter().all(|end| ends.contains(end)));
+            let result = with_edges(&block, &edges, 0.02);
+            assert_eq!(result.totals.skipped[Reason::NotSelected], 1);
+            for &v in &result.mesh.indices[corners.clone()] {
+                assert_eq!(result.mesh.positions[v as usize][1], 0.0, "{at_o:?}");
+                assert_eq!(result.mesh.normals[v as usize], [0.0, 1.0, 0.0], "{at_o:?}");
+            }
+            let o = result.mesh.indices[corners.start] as usize;
+            assert_ne!(result.mesh.positions[o], kept[0]);
         }
-        assert_ne!(result.mesh.positions[result.mesh.indices[0] as usize], kept[0]);
     }
 }
 
@@ -468,4 +476,261 @@ fn block(at_o: [f32; 3]) -> (MeshBuffers, [[f32; 3]; 2]) {
     }
     mesh.submesh_index_counts = vec![mesh.indices.len() as u32];
     (mesh, [o, r])
+}
+
+/// All hard edges, each with a factor.
+fn all_edges(mesh: &Mesh, factor: f32) -> Vec<EdgeFactor> {
+    let all = chamfer(mesh, &Options::default()).unwrap().verdicts;
+    all.iter().map(|edge| EdgeFactor { vertices: edge.vertices, factor }).collect()
+}
+
+proptest! {
+    #![proptest_config(config(100))]
+
+    // By vertices, by submeshes, and by a list; fine meshes and those that are refined.
+    #[test]
+    fn what_selects_all_is_no_selection_and_what_selects_nothing_changes_nothing(
+        Model(mesh) in clean_mesh(),
+        percent in 0.1..5.0f32,
+    ) {
+        let options = Options::default().with_width(Width::PercentOfExtent(percent));
+        let plain = chamfer(&mesh.as_mesh(), &options).unwrap();
+        for factor in [1.0, 0.0] {
+            let vertices = vec![factor; mesh.positions.len()];
+            let submeshes = vec![factor; mesh.submesh_index_counts.len()];
+            let edges = all_edges(&mesh.as_mesh(), factor);
+            let none = Factors::default();
+            let selections = [
+                Factors { vertices: &vertices, ..none },
+                Factors { submeshes: &submeshes, ..none },
+                Factors { edges: &edges, ..none },
+            ];
+            for factors in selections {
+                let result = chamfer(&Mesh { factors, ..mesh.as_mesh() }, &options).unwrap();
+                if factor == 1.0 {
+                    prop_assert_eq!(&result.mesh, &plain.mesh);
+                    prop_assert_eq!(&result.verdicts, &plain.verdicts);
+                } else {
+                    prop_assert_eq!(&result.mesh, &mesh);
+                }
+            }
+        }
+    }
+}
+
+//      ______
+//    .'      '.      of a prism of four sides, one upright edge is a hundred times as wide as that
+//   /          \     before it and that behind it, and the last is as narrow as these
+#[test]
+fn a_wide_chamfer_beside_narrow_ones_takes_nothing_from_them() {
+    let prism = shapes::prism(4);
+    let mut upright = listed(&prism, |_, [one, other]| one[2] != other[2]);
+    assert_eq!(upright.len(), 4);
+    upright[0].factor = 100.0;
+    let factors = Factors { edges: &upright, ..Factors::default() };
+    let mesh = Mesh { factors, ..prism.as_mesh() };
+    for segments in [1, 4] {
+        let options = Options::default()
+            .with_width(Width::Units(0.003))
+            .with_segments(segments)
+            .with_verify(Verify::Full);
+        let result = chamfer(&mesh, &options).unwrap();
+        assert_sound("a hundred to one", &mesh, &result);
+        for (k, listed) in upright.iter().enumerate() {
+            let edge =
+                result.verdicts.iter().find(|edge| edge.vertices == listed.vertices).unwrap();
+            assert_eq!(edge.outcome, Outcome::Full, "{edge:?}");
+            let asked = if k == 0 { 0.3 } else { 0.003 };
+            assert!(edge.widths.iter().all(|width| (width - asked).abs() < 1e-6), "{edge:?}");
+        }
+    }
+}
+
+/// How far the source's vertices at a place went.
+fn ways(mesh: &MeshBuffers, result: &Chamfered, from: [f32; 3]) -> Vec<f64> {
+    let place = |at: [f32; 3]| DVec3::from(at.map(f64::from));
+    let vertices = mesh.positions.iter().zip(&result.mesh.positions);
+    let there = vertices.filter(|(before, _)| **before == from);
+    there.map(|(&before, &after)| place(before).distance(place(after))).collect()
+}
+
+/// All hard edges, each with its factor.
+fn unlike(mesh: &MeshBuffers, factor: impl Fn([[f32; 3]; 2]) -> f32) -> Vec<EdgeFactor> {
+    let mut edges = listed(mesh, |_, _| true);
+    for edge in &mut edges {
+        edge.factor = factor(edge.vertices.map(|v| mesh.positions[v as usize]));
+    }
+    edges
+}
+
+#[test]
+fn no_tip_between_unlike_widths_goes_farther_than_three() {
+    let cone = shapes::pyramid(16);
+    let tip = [0.0, 1.0, 0.0];
+    let edges = unlike(&cone, |[one, other]| if one[0].min(other[0]) < -0.1 { 1.0 } else { 0.9 });
+    let result = with_edges(&cone, &edges, 0.001);
+    let longest = ways(&cone, &result, tip).into_iter().fold(0.0, f64::max);
+    assert!(longest > 0.0025 && longest < 0.003 + 1e-6, "{longest}");
+}
+
+//        T ----------- T1      a roof that is smooth over its ridge T-T1, with a skewed front: the
+//      .' '.          .  '.    edges T-L and T-R are unlike wide, and meet the ridge at angles that
+//    L ---- R -------'----- R1 differ; T goes along the ridge by what fits both best
+#[test]
+fn a_vertex_on_a_crease_goes_as_far_as_fits_unlike_widths_best() {
+    let [left, right, top] = [[-1.0, 0.0, 0.7], [1.0, 0.0, -0.2], [0.0, 0.3, 0.0]];
+    let behind = |[x, y, _]: [f32; 3]| [x, y, 4.0];
+    let points = [left, right, top, behind(left), behind(right), behind(top)];
+    let faces =
+        [[0, 2, 1], [3, 4, 5], [0, 3, 5], [0, 5, 2], [1, 2, 5], [1, 5, 4], [0, 1, 4], [0, 4, 3]];
+    let roof = shaded::shaded(&points, faces.as_flattened(), 45.0);
+    let edges = unlike(&roof, |ends| match ends {
+        ends if !ends.contains(&top) => 1.0,
+        ends if ends.contains(&left) => 0.6,
+        _ => 1.4,
+    });
+    let result = with_edges(&roof, &edges, 0.01);
+    let sine = |end: [f32; 3]| {
+        let to = |at: [f32; 3]| DVec3::from([0, 1, 2].map(|k| f64::from(at[k] - top[k])));
+        to(end).normalize().cross(DVec3::Z).length()
+    };
+    let (one, other) = (sine(left), sine(right));
+    let best = (0.006 * one + 0.014 * other) / (one * one + other * other);
+    let on_ridge = ways(&roof, &result, top).into_iter().any(|way| (way - best).abs() < 1e-6);
+    assert!(on_ridge, "{:?}, not {best}", ways(&roof, &result, top));
+}
+
+//     \ | /       eight faces meet at the tip, and two edges across from each other are chamfered: of
+//    --- * ---    the four faces on each side, the third slides along an edge that stays hard, by the
+//     /  |  \      mean of both widths
+#[test]
+fn a_face_between_edges_that_stay_hard_slides_by_the_mean_width() {
+    let pyramid = shapes::pyramid(8);
+    let tip = [0.0, 1.0, 0.0];
+    let mut edges = listed(&pyramid, |_, ends| {
+        let foot = if ends[0] == tip { ends[1] } else { ends[0] };
+        ends.contains(&tip) && foot[2].abs() < 0.1
+    });
+    assert_eq!(edges.len(), 2);
+    (edges[0].factor, edges[1].factor) = (0.8, 1.2);
+    let result = with_edges(&pyramid, &edges, 0.01);
+    let ways = ways(&pyramid, &result, tip);
+    let by_mean = ways.iter().filter(|way| (**way - 0.01).abs() < 1e-6);
+    assert_eq!(by_mean.count(), 2, "{ways:?}");
+}
+
+/// What is asked for, not what there is room for.
+#[test]
+fn an_end_without_a_share_keeps_a_sixteenth_of_the_other() {
+    let cube = shapes::plain_cube(1.0);
+    let mask: Vec<f32> = cube.positions.iter().map(|at| at[1] + 0.5).collect();
+    let factors = Factors { vertices: &mask, ..Factors::default() };
+    let options = Options::default().with_width(Width::Units(0.1)).with_verify(Verify::Full);
+    let mesh = Mesh { factors, ..cube.as_mesh() };
+    let result = chamfer(&mesh, &options).unwrap();
+    assert_sound("a mask of 0 at the bottom", &mesh, &result);
+    let mut upright = 0;
+    for edge in &result.verdicts {
+        let heights = edge.vertices.map(|v| cube.positions[v as usize][1]);
+        if heights[0] != heights[1] {
+            let least = edge.widths[usize::from(heights[1] < heights[0])];
+            assert!((least - 0.1 / 16.0).abs() < 1e-6, "{edge:?}");
+            upright += 1;
+        }
+    }
+    assert_eq!(upright, 4);
+}
+
+/// The normals of a rounded chamfer go back to where the mesh came from: they stand on its triangles.
+#[test]
+fn rounded_chamfers_are_shaded_as_they_are_where_the_mesh_came_from() {
+    let cube = shapes::plain_cube(1.0);
+    let stretched = [[10.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let options =
+        Options::default().with_width(Width::Units(0.1)).with_segments(8).with_scale(stretched);
+    let result = chamfer(&cube.as_mesh(), &options).unwrap().mesh;
+    for triangle in result.indices.chunks(3) {
+        let at = |k: usize| DVec3::from(result.positions[triangle[k] as usize].map(f64::from));
+        let face = (at(1) - at(0)).cross(at(2) - at(0)).normalize();
+        let normals =
+            triangle.iter().map(|&v| DVec3::from(result.normals[v as usize].map(f64::from)));
+        let shaded = normals.sum::<DVec3>().normalize();
+        assert!(face.dot(shaded) > 0.75, "{face} is shaded as {shaded}");
+    }
+}
+
+#[test]
+fn a_scale_that_flattens_is_refused() {
+    let flat = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1e-7]];
+    let options = Options::default().with_scale(flat);
+    assert!(chamfer(&shapes::plain_cube(1.0).as_mesh(), &options).is_err());
+}
+
+/// The widths at the first ends of all hard edges of a cube, in thousandths, sorted.
+fn widths(mesh: &MeshBuffers, factors: Factors) -> Vec<i64> {
+    let options = Options::default().with_width(Width::Units(0.1));
+    let result = chamfer(&Mesh { factors, ..mesh.as_mesh() }, &options).unwrap();
+    let width = |edge: &EdgeVerdict| (f64::from(edge.widths[0]) * 1000.0).round() as i64;
+    let mut widths: Vec<i64> = result.verdicts.iter().map(width).collect();
+    widths.sort_unstable();
+    widths
+}
+
+#[test]
+fn at_the_two_sides_of_an_edge_the_mask_counts_half_each() {
+    let cube = shapes::plain_cube(1.0);
+    let half: Vec<f32> =
+        cube.normals.iter().map(|normal| if normal[1] == 1.0 { 1.0 } else { 0.5 }).collect();
+    let found = widths(&cube, Factors { vertices: &half, ..Factors::default() });
+    assert_eq!(found, [[50; 8].as_slice(), &[75; 4]].concat(), "those of the top have more");
+}
+
+#[test]
+fn an_edge_between_two_submeshes_has_the_smaller_factor() {
+    let mut cube = shapes::plain_cube(1.0);
+    cube.submesh_index_counts = vec![6, 30];
+    let found = widths(&cube, Factors { submeshes: &[0.5, 1.0], ..Factors::default() });
+    assert_eq!(found, [[50; 4].as_slice(), &[100; 8]].concat());
+    let found = widths(&cube, Factors { submeshes: &[1.0, 0.5], ..Factors::default() });
+    assert_eq!(found, [50; 12]);
+}
+
+#[test]
+fn of_an_edge_that_is_listed_twice_the_first_counts() {
+    let cube = shapes::plain_cube(1.0);
+    let mut edges = listed(&cube, |_, _| true);
+    for edge in &mut edges {
+        edge.factor = 0.5;
+    }
+    edges.extend(listed(&cube, |_, _| true));
+    assert_eq!(widths(&cube, Factors { edges: &edges, ..Factors::default() }), [50; 12]);
+}
+
+/// Within five degrees of a folded edge a chord says nothing of the offset.
+#[test]
+fn no_width_is_more_than_23_times_what_was_asked() {
+    let wedge = shapes::wedge(2f32.to_radians());
+    let options =
+        Options::default().with_width(Width::Units(1e-4)).with_width_mode(WidthMode::Chord);
+    let result = chamfer(&wedge.as_mesh(), &options).unwrap();
+    assert!((result.largest_width - 23e-4).abs() < 1e-8, "{}", result.largest_width);
+}
+
+/// What would be given back to it could not be told from how it is shaded.
+#[test]
+fn a_face_that_is_not_shaded_flat_keeps_its_corners() {
+    let mut cube = shapes::plain_cube(1.0);
+    for normal in cube.normals.iter_mut().filter(|normal| normal[1] == 1.0) {
+        *normal = [0.1, 0.995, 0.0];
+    }
+    let edges = listed(&cube, |_, [from, to]| from[1] != to[1]);
+    let result = with_edges(&cube, &edges, 0.1);
+    for edge in edges.iter().map(|edge| edge.vertices) {
+        let verdict = result.verdicts.iter().find(|verdict| verdict.vertices == edge).unwrap();
+        for (v, width) in edge.into_iter().zip(verdict.widths) {
+            let is_top = cube.positions[v as usize][1] > 0.0;
+            assert_eq!(width == 0.0, is_top, "{verdict:?}");
+        }
+    }
+    assert_eq!(area(&result.mesh, &cap(&result.mesh, 1, 0.5)), 1.0);
 }

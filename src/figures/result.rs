@@ -99,7 +99,7 @@ pub fn selection() -> Drawing {
         (
             "a factor for each submesh",
             asked(&bolt, submeshes, options(0.06)),
-            Camera::new(FRONT, [0.0, 0.45, 0.0], 72.0, [360.0, 150.0]),
+            Camera::new(FRONT, [0.0, 0.45, 0.0], 52.0, [360.0, 108.0]),
         ),
         (
             "a mask, from 0.1 to 1",

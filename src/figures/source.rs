@@ -35,7 +35,9 @@ pub fn view() -> Drawing {
     }
     row(5, "     ..");
     row(7, &format!("indices      {:?} ..", &cube.indices[..6]).replace(['[', ']'], ""));
-    row(9, &format!("width        1 % of {} = {} mesh units", mesh.extent(), view.width as f32));
+    let (width, extent) = (view.width as f32, mesh.extent());
+    let percent = 100.0 * width / extent;
+    row(9, &format!("width        {percent} % of {extent} = {width} mesh units"));
     row(10, &format!("resolution   {:.1e} mesh units", view.resolution));
     drawing
 }

@@ -28,9 +28,9 @@ pub fn selection() -> Drawing {
 
 /// Edges that end between others, which stay hard.
 pub fn flaps() -> Drawing {
-    let mut drawing = Drawing::new(720, 300);
+    let mut drawing = Drawing::new(720, 320);
     drawing.title(360.0, "upright edges alone: four flaps give back what the cut takes too much");
-    draw_result(&mut drawing, &upright(), Camera::new(ABOVE, [0.0; 3], 84.0, [360.0, 155.0]));
+    draw_result(&mut drawing, &upright(), Camera::new(ABOVE, [0.0; 3], 78.0, [360.0, 160.0]));
     drawing.legend(&[("#7dafdc", "strip"), ("#f0ba5f", "flap")]);
     drawing
 }
