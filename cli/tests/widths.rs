@@ -10,7 +10,7 @@ use std::fs;
 use base64::Engine;
 use chamfer::{MeshBuffers, shapes};
 use chamfer_formats::{Document, ReadOptions, glb, read};
-use glam::{Mat4, Vec3};
+use glam::{DVec3, Mat4, Vec3};
 use serde_json::{Value, json};
 
 use folder::Folder;
@@ -394,4 +394,133 @@ fn options_come_from_a_file_and_the_command_line_wins() {
         "{told}"
     );
     folder.run("a.obj --options none.toml").exits(2);
+}
+
+/// A matrix of a node by columns, with lengths of 1 to 100 along the axes, mirrored or not, and sheared
+/// by up to a third of these.
+fn random_matrix(state: &mut u32) -> [[f32; 3]; 3] {
+    let mut share = || {
+        *state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (*state >> 8) as f32 / (1 << 24) as f32
+    };
+    let lengths = [0; 3].map(|_| 100f32.powf(share()));
+    let mirrored = if share() < 0.5 { -1.0 } else { 1.0 };
+    let [x, y, z] = lengths;
+    [
+        [x * mirrored, (share() - 0.5) * x * 0.6, 0.0],
+        [0.0, y, (share() - 0.5) * y * 0.6],
+        [0.0, 0.0, z],
+    ]
+}
+
+/// How far in the scene the vertices of a unit cube's faces were pulled from the edges of these, two
+/// for each vertex: on the parallelogram that a face becomes.
+fn pulled(mesh: &MeshBuffers, axes: [[f32; 3]; 3]) -> Vec<f64> {
+    let axes = axes.map(|axis| DVec3::from(axis.map(f64::from)));
+    let mut found = Vec::new();
+    for at in &mesh.positions {
+        let off = at.map(|along| 0.5 - f64::from(along.abs()));
+        let face = (0..3).min_by(|&a, &b| off[a].total_cmp(&off[b])).unwrap();
+        let (one, two) = ((face + 1) % 3, (face + 2) % 3);
+        let area = axes[one].cross(axes[two]).length();
+        found.extend([off[one] * area / axes[two].length(), off[two] * area / axes[one].length()]);
+    }
+    found
+}
+
+#[test]
+fn boxes_under_random_matrices_have_one_width_in_the_scene() {
+    let mut state = 1;
+    let matrices: Vec<[[f32; 3]; 3]> = (0..60).map(|_| random_matrix(&mut state)).collect();
+    let node = |[x, y, z]: &[[f32; 3]; 3]| {
+        let last = [0.0, 0.0, 0.0, 1.0];
+        let columns = [x, y, z].map(|axis| [axis[0], axis[1], axis[2], 0.0]);
+        let matrix = [columns[0], columns[1], columns[2], last].concat();
+        json!({"mesh": 0, "matrix": matrix})
+    };
+    let nodes: Value = matrices.iter().map(node).collect();
+    let folder = Folder::with(&[("a.gltf", &scene(&shapes::plain_cube(1.0), nodes))]);
+    folder.run("a.gltf -o b.glb --width 0.05 --verify fast").exits(0);
+    let written = document(&folder, "b.glb");
+    let objects = written.instances();
+    assert_eq!(objects.len(), matrices.len());
+    for (object, axes) in objects.iter().zip(matrices) {
+        for width in pulled(&written.meshes()[object.mesh].mesh, axes) {
+            assert!((width - 0.05).abs() < 1e-4, "{width} under {axes:?}");
+        }
+    }
+}
+
+#[test]
+fn a_skinned_mesh_does_not_stand_where_its_node_is() {
+    let cube = shapes::plain_cube(1.0);
+    let mut json: Value = serde_json::from_str(&scene(&cube, json!([]))).unwrap();
+    let count = cube.positions.len();
+    let weights: Vec<u8> =
+        [1f32, 0.0, 0.0, 0.0].repeat(count).iter().flat_map(|w| w.to_le_bytes()).collect();
+    let bytes = base64::engine::general_purpose::STANDARD.encode(&weights);
+    let views = json["bufferViews"].as_array().unwrap().len();
+    let uri = format!("data:application/octet-stream;base64,{bytes}");
+    json["buffers"].as_array_mut().unwrap().push(json!({"uri": uri, "byteLength": weights.len()}));
+    let view = json!({"buffer": 1, "byteLength": weights.len()});
+    json["bufferViews"].as_array_mut().unwrap().push(view);
+    // All vertices hang on joint 0: four zero bytes each, which the weights have too.
+    let zeros: Vec<u8> = vec![0; 4 * count];
+    let uri = base64::engine::general_purpose::STANDARD.encode(&zeros);
+    let uri = format!("data:application/octet-stream;base64,{uri}");
+    json["buffers"].as_array_mut().unwrap().push(json!({"uri": uri, "byteLength": zeros.len()}));
+    let view = json!({"buffer": 2, "byteLength": zeros.len()});
+    json["bufferViews"].as_array_mut().unwrap().push(view);
+    let accessors = json["accessors"].as_array_mut().unwrap();
+    let first = accessors.len();
+    for (view, kind) in [(views, 5126), (views + 1, 5121)] {
+        accessors.push(
+            json!({"bufferView": view, "componentType": kind, "count": count, "type": "VEC4"}),
+        );
+    }
+    let attributes = &mut json["meshes"][0]["primitives"][0]["attributes"];
+    attributes["WEIGHTS_0"] = first.into();
+    attributes["JOINTS_0"] = (first + 1).into();
+    json["skins"] = json!([{"joints": [1]}]);
+    json["nodes"] = json!([{"mesh": 0, "skin": 0, "scale": [50, 1, 7]}, {"scale": [2, 2, 2]}]);
+    json["scenes"] = json!([{"nodes": [0, 1]}]);
+    let folder = Folder::with(&[("a.gltf", &json.to_string())]);
+    folder.run("a.gltf -o b.glb --width 0.05 --verify fast").exits(0);
+    let written = document(&folder, "b.glb");
+    for width in
+        pulled(&written.meshes()[0].mesh, [[2.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 2.0]])
+    {
+        assert!((width - 0.05).abs() < 1e-5, "as its bone has it: {width}");
+    }
+}
+
+#[test]
+fn each_wrong_value_is_told_with_its_option_and_its_range() {
+    let folder = Folder::with(&[("a.obj", CUBE)]);
+    let wrong = [
+        ("width", "-1", "5mm, 2cm"),
+        ("width-percent", "-1", "at least 0"),
+        ("width-mode", "height", "offset, chord, depth, radius"),
+        ("material-width", "Metal", "NAME=W"),
+        ("mask", "x", "r, g, b, a"),
+        ("min-angle", "-1", "0 to 180"),
+        ("max-angle", "181", "0 to 180"),
+        ("convexity", "round", "both, convex, concave"),
+        ("hard-angle", "0", "above 0, up to 90"),
+        ("segments", "33", "1..=32"),
+        ("profile", "1.5", "0 to 1"),
+        ("least-breadth", "101", "0 to 100"),
+        ("evenness", "-1", "0 to 100"),
+        ("verify", "twice", "seen, full, fast"),
+        ("chamfer-submesh", "mine", "owner, own"),
+        ("normals", "none", "keep, angle"),
+        ("smoothing-angle", "200", "0 to 180"),
+        ("weld", "-1", "at least 0, or auto"),
+        ("threads", "-1", "threads"),
+    ];
+    for (option, value, range) in wrong {
+        let told = folder.run(&format!("a.obj -o b.obj --{option}={value}")).exits(2).err();
+        let parts = [format!("--{option}"), format!("'{value}'"), range.to_owned()];
+        assert!(parts.iter().all(|part| told.contains(part)), "{parts:?} in: {told}");
+    }
 }
