@@ -11,6 +11,7 @@ mod flatness;
 mod ground;
 mod hardness;
 mod intersections;
+mod junctions;
 mod matching;
 mod nearest;
 mod origins;

@@ -1,5 +1,6 @@
 //! A mesh welded by position: its edges, borders and connected parts.
 
+use super::junctions::any_junction;
 use super::rules::{Element, Findings, Rule};
 use super::stored::vector;
 use crate::groups::Groups;
@@ -189,8 +190,12 @@ pub(super) fn check_edges(before: &Surface, after: &Surface, findings: &mut Find
             findings.note(Rule::Balance, element(edge));
         }
     }
-    // Elsewhere `Rule::Gapes` has to do.
-    if before.has_clear_borders() && source.border_loops != result.border_loops {
+    // Elsewhere `Rule::Gapes` has to do: where borders lie on each other, a chamfer closes a part of
+    // what was open.
+    if before.has_clear_borders()
+        && source.border_loops != result.border_loops
+        && !any_junction(before)
+    {
         findings.note(Rule::BorderLoops, Element::Mesh);
     }
 }
