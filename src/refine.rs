@@ -1,4 +1,5 @@
-//! Refine: more vertices on long edges of which only a part can have a chamfer.
+//! Refine: more vertices on long edges of which only a part can have a chamfer, and on sides on which
+//! those of others stand.
 //!
 //! A chamfer runs straight from one end of its edge to the other, so one end that cannot move
 //! narrows all of it, and something that rests on its middle holds all of it. A vertex more, near

@@ -44,28 +44,30 @@ struct Part {
     is_onward: bool,
 }
 
-/// The edges of the source, in the order of their first parts, and the one of each verdict.
+/// The edges of the source, in the order of their first parts, and the one of each verdict. Where two
+/// long sides overlap, that of the first half-edge has what they share.
 fn edges(refined: &Refined, sides: &[[Corner; 2]]) -> (Vec<Edge>, Vec<u32>) {
     let (mut edges, mut edge_of) = (Vec::new(), Vec::with_capacity(sides.len()));
     let mut known: BTreeMap<Corner, u32> = BTreeMap::new();
-    for (verdict, &[one, other]) in sides.iter().enumerate() {
-        let of_one = refined.long_side(one).map(|side| (side, one));
-        let Some((side, part)) = of_one.or(refined.long_side(other).map(|side| (side, other)))
-        else {
-            edge_of.push(edges.len() as u32);
-            edges.push(Edge::Whole(verdict));
-            continue;
-        };
-        let edge = *known.entry(side).or_insert_with(|| {
-            let parts = refined.parts_of_side(side).map(|_| None).collect();
-            edges.push(Edge::Long(side, parts));
-            edges.len() as u32 - 1
-        });
-        let place = refined.parts_of_side(side).position(|fine| fine == part);
-        if let (Edge::Long(_, parts), Some(place)) = (&mut edges[edge as usize], place) {
-            parts[place] = Some(Part { verdict, is_onward: part == one });
+    for (verdict, sides) in sides.iter().enumerate() {
+        let long = sides.iter().find_map(|&side| refined.long_side(side));
+        let next = edges.len() as u32;
+        let edge = long.map_or(next, |long| *known.entry(long).or_insert(next));
+        if edge == next {
+            let parts = |long| refined.parts_of_side(long).map(|_| None).collect();
+            edges.push(long.map_or(Edge::Whole(verdict), |long| Edge::Long(long, parts(long))));
         }
         edge_of.push(edge);
+    }
+    for (verdict, &[one, other]) in sides.iter().enumerate() {
+        for (part, is_onward) in [(one, true), (other, false)] {
+            let edge = refined.long_side(part).and_then(|long| known.get(&long));
+            if let Some(Edge::Long(long, parts)) = edge.map(|&edge| &mut edges[edge as usize]) {
+                let place = refined.parts_of_side(*long).position(|fine| fine == part);
+                let part = place.and_then(|place| parts.get_mut(place));
+                part.map(|part| part.get_or_insert(Part { verdict, is_onward }));
+            }
+        }
     }
     (edges, edge_of)
 }
@@ -111,7 +113,7 @@ fn merged(
 impl Refined {
     /// The long side of the source that a half-edge of the finer mesh is a part of; none where it is
     /// whole.
-    fn long_side(&self, fine: Corner) -> Option<Corner> {
+    pub(super) fn long_side(&self, fine: Corner) -> Option<Corner> {
         let piece = self.piece(fine.triangle())?;
         let place = fine.0 as usize % 3;
         let is_whole = piece.is_own_corner(place) && piece.is_own_corner((place + 1) % 3);

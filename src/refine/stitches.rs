@@ -10,7 +10,7 @@
 //!   |  |        |            |  |        |
 //! ```
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec3;
 
@@ -18,13 +18,13 @@ use super::cuts::Point;
 use super::splits::{is_tilted, tilted};
 use super::{PointsOf, Refined, cut_all};
 use crate::error::Error;
-use crate::ids::{Cluster, Corner, Few, Id, Triangle};
+use crate::ids::{Cluster, Corner, Few, Id, Triangle, Vertex};
 use crate::line::Line;
 use crate::memory;
 use crate::mesh::Mesh;
 use crate::report::Reason;
 use crate::shape::Shape;
-use crate::tolerance::LINE_HEIGHT;
+use crate::tolerance::{BACK_TO_BACK_COSINE, LINE_HEIGHT};
 use crate::unpaired::{Unpaired, meets};
 use crate::view::{View, wide};
 
@@ -72,11 +72,13 @@ pub fn stitch(
     while !stitches.is_empty() {
         let stitched = stitched(view, shape, &stitches);
         let mut bad = tilted(view, shape, &stitched.refined);
-        if bad.is_empty() {
+        let crowded = crowded(shape, &stitches, &stitched.refined);
+        if bad.is_empty() && crowded.is_empty() {
             return Ok(Some(stitched));
         }
         bad.sort_unstable();
         stitches.at.retain(|side, _| bad.binary_search(&side.triangle()).is_err());
+        stitches.drop_crowded(shape, &stitched.refined, &crowded);
     }
     Ok(None)
 }
@@ -90,10 +92,11 @@ fn junctions(view: &View, shape: &Shape, unpaired: &[Unpaired]) -> Stitches {
         let others = contacts.borders_near(line.ends());
         for other in others.filter(|&other| topology.twin[other].is_none()) {
             let other = Line::new(view, other);
-            if meets(view, topology, &line, &other) {
+            let sides = [side, other.border];
+            if !is_back_to_back(shape, sides) && meets(view, topology, &line, &other) {
                 stitches.stand(view, &line, &other);
                 stitches.stand(view, &other, &line);
-                stitches.join(view, shape, [side, other.border]);
+                stitches.join(view, shape, sides);
             }
         }
     }
@@ -147,6 +150,20 @@ impl Stitches {
         }
     }
 
+    /// Leaves out what would bring more than two sides together.
+    fn drop_crowded(&mut self, shape: &Shape, refined: &Refined, crowded: &[Corner]) {
+        for &fine in crowded {
+            if let Some(side) = refined.long_side(fine) {
+                self.at.remove(&side);
+            }
+            for vertex in [fine, fine.next()].map(|end| refined.mesh.indices[end.index()]) {
+                if (vertex as usize) < shape.weld.cluster_of.len() {
+                    self.joins.remove(&shape.weld.cluster_of[Vertex(vertex)]);
+                }
+            }
+        }
+    }
+
     /// Whether joined ends turn a triangle over, or nearly.
     fn bends(&self, view: &View, shape: &Shape, triangle: Triangle) -> bool {
         let at = |corner: Corner| {
@@ -159,8 +176,45 @@ impl Stitches {
     }
 }
 
+/// Whether there is nothing to cut off between two sides.
+fn is_back_to_back(shape: &Shape, sides: [Corner; 2]) -> bool {
+    let [one, other] = sides.map(|side| shape.faces.normal[side.triangle()]);
+    one.dot(other) < BACK_TO_BACK_COSINE
+}
+
 fn is_face(shape: &Shape, side: Corner) -> bool {
     shape.faces.normal[side.triangle()] != DVec3::ZERO && !shape.faces.is_line(side.triangle())
+}
+
+/// The half-edges of the finer mesh that would find more than one to lie on, of those on long sides
+/// and at joined ends: nobody can tell which of these open sides belong together.
+fn crowded(shape: &Shape, stitches: &Stitches, refined: &Refined) -> Vec<Corner> {
+    let vertices =
+        |corner: Corner| [corner, corner.next()].map(|c| refined.mesh.indices[c.index()]);
+    let key = |corner: Corner| {
+        let ends = vertices(corner).map(|vertex| refined.mesh.positions[vertex as usize]);
+        let mut ends = ends.map(|at| at.map(|along| (along + 0.0).to_bits()));
+        ends.sort_unstable();
+        ends
+    };
+    let is_joined = |vertex: u32| {
+        let is_source = (vertex as usize) < shape.weld.cluster_of.len();
+        is_source && stitches.joins.contains_key(&shape.weld.cluster_of[Vertex(vertex)])
+    };
+    let corners = || (0..refined.mesh.indices.len()).map(Corner::new);
+    let is_new = |&corner: &Corner| {
+        let joins = !stitches.joins.is_empty() && vertices(corner).into_iter().any(is_joined);
+        joins || refined.long_side(corner).is_some()
+    };
+    let watched: BTreeSet<_> = corners().filter(is_new).map(key).collect();
+    let mut on: BTreeMap<_, Few<Corner>> = BTreeMap::new();
+    for corner in corners() {
+        let key = key(corner);
+        if key[0] != key[1] && watched.contains(&key) {
+            on.entry(key).or_default().push(corner);
+        }
+    }
+    on.into_values().filter(|all| all.len() > 2).flatten().collect()
 }
 
 /// Vertices on a side, from its start on, one of each place; none where two of them nearly meet.
