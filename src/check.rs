@@ -11,7 +11,6 @@ mod flatness;
 mod ground;
 mod hardness;
 mod intersections;
-mod junctions;
 mod matching;
 mod nearest;
 mod origins;
@@ -168,7 +167,7 @@ fn check_geometry(
     values::check_normals(before, after, origins, findings);
     values::check_tangents(before, after, origins, findings);
     values::check_colors(before, after, findings);
-    borders::check_edges(source, result, findings);
+    surface::check_edges(source, result, findings);
     borders::check_borders(source, result, origins, findings);
     triangles::check_triangles(source, result, origins, findings);
     flatness::check_flatness(source, result, origins, findings);

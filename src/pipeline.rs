@@ -21,9 +21,7 @@ use crate::offsets::{Known, Offset, narrowed, offsets as find_offsets};
 use crate::options::{Options, Verify};
 use crate::output::{output, unchanged};
 use crate::patches::{Patches, patches};
-use crate::refine::{
-    Origins, Refined, Stitched, refine, restored, shape as finer_shape, stitch, stitched,
-};
+use crate::refine::{Origins, Refined, refine, restored, shape as finer_shape};
 use crate::report::{Chamfered, EdgeVerdict, Totals};
 use crate::rests::rests;
 use crate::room::room;
@@ -36,7 +34,7 @@ use crate::selection::selection;
 use crate::shape::Shape;
 use crate::threads::Threads;
 use crate::topology::topology;
-use crate::unpaired::{Unpaired, unpaired, with_verdicts};
+use crate::unpaired::{unpaired, with_verdicts};
 use crate::verdicts::verdicts;
 use crate::view::{View, measured, view};
 use crate::weld::{Weld, weld};
@@ -268,48 +266,10 @@ fn chamfer_hard(
     let view = space.measured;
     let threads = &Threads::new(options.threads, view.corner_count());
     let shape = shape(view, weld, options, threads, done)?;
-    let unpaired = unpaired(view, &shape);
-    // Who lists edges lists those that are there: what comes to be one is not asked for.
-    let is_free = space.is_plain(&shape.edges) && view.mesh.factors.edges.is_empty();
-    let stitched = if is_free { stitch(view, &shape, &unpaired)? } else { None };
-    match stitched {
-        Some(stitched) => chamfer_stitched(space, &stitched, options, (threads, done)),
-        None => chamfer_found(space, shape, &unpaired, options, (threads, done)),
-    }
-}
-
-/// The stages from the weld on where an edge is one on one side and several on the other, on a mesh
-/// whose sides are alike; told in terms of the source.
-fn chamfer_stitched(
-    space: Space,
-    finer: &Stitched,
-    options: &Options,
-    (threads, done): (&Threads, &mut Done),
-) -> Result<Chamfered, Error> {
-    let view = space.measured;
-    let fine = &View { mesh: finer.as_mesh(&view.mesh), ..*view };
-    // These stages were told of.
-    let shape = shape(fine, weld(&fine.mesh), options, threads, &mut |_| Ok(()))?;
-    let unpaired = unpaired(fine, &shape);
-    let hard = shape.edges.hard.iter().map(|edge| edge.sides);
-    let sides: Vec<_> = hard.chain(unpaired.iter().map(|&(side, _)| [side; 2])).collect();
-    let space = Space { source: fine, measured: fine, scale: None };
-    let chamfered = chamfer_found(space, shape, &unpaired, options, (threads, done))?;
-    Ok(stitched(&view.mesh, finer, &sides, chamfered))
-}
-
-/// The stages from the offsets on.
-fn chamfer_found(
-    space: Space,
-    shape: Shape,
-    unpaired: &[Unpaired],
-    options: &Options,
-    (threads, done): (&Threads, &mut Done),
-) -> Result<Chamfered, Error> {
-    let view = space.measured;
     memory::ask(memory::of_chamfers(&view.mesh, shape.chamfers().work()))?;
     let offsets = find_offsets(shape.surface(view), shape.chamfers(), None, threads);
     let refined = if space.is_plain(&shape.edges) { refine(view, &shape, &offsets)? } else { None };
+    let unpaired = unpaired(view, &shape);
     let chamfered = match refined {
         Some(refined) => chamfer_refined(space, (shape, offsets), &refined, options, done),
         None => {
@@ -317,7 +277,7 @@ fn chamfer_found(
             chamfer_shape(space, (shape, offsets), options, (threads, done))
         }
     };
-    Ok(with_verdicts(view, chamfered?, unpaired))
+    Ok(with_verdicts(chamfered?, unpaired))
 }
 
 /// The stages that find out what a mesh is.

@@ -92,10 +92,8 @@ impl<'a> Sides<'a> {
         };
         let (forward, backward) = self.edges[edge as usize];
         if forward.is_empty() || backward.is_empty() {
-            let sides = || forward.iter().chain(backward);
             // Nothing to measure between: its sides run the same way, or are of other lengths.
-            return verdict.outcome == Outcome::Skipped && verdict.widths == [0.0; 2]
-                || sides().any(|side| may_agree(verdict, side, ruler, tolerance));
+            return verdict.outcome == Outcome::Skipped && verdict.widths == [0.0; 2];
         }
         let pairs = forward.iter().flat_map(|one| backward.iter().map(move |other| [one, other]));
         let both_ways = pairs.flat_map(|[one, other]| [[one, other], [other, one]]);
@@ -121,19 +119,6 @@ impl<'a> Sides<'a> {
             }
         }
     }
-}
-
-/// Whether a verdict's widths may be those of an edge of which several others are the second side:
-/// means of what was measured on the first, and of something else.
-fn may_agree(verdict: &EdgeVerdict, side: &HalfEdge, ruler: &Ruler, tolerance: f64) -> bool {
-    let [from, to] = side.corners;
-    let Some(measured) = ruler.measure(side, &HalfEdge { corners: [to, from], ..*side }) else {
-        return false;
-    };
-    verdict.outcome != Outcome::Skipped
-        && verdict.widths.iter().zip(measured.distances).all(|(&told, [one, _])| {
-            told == 0.0 || 2.0 * f64::from(told) >= f64::from(one) - tolerance
-        })
 }
 
 fn vertices(surface: &Surface, half_edge: &HalfEdge) -> [u32; 2] {
