@@ -152,7 +152,7 @@ fn a_cube_has_twelve_verdicts() {
     assert_eq!(verdicts.len(), 12);
     for verdict in verdicts {
         assert_eq!((verdict.outcome, verdict.reason), (CHAMFER_OUTCOME_FULL, CHAMFER_REASON_NONE));
-        assert!(verdict.widths.iter().all(|width| (width - 0.02).abs() < 1e-5));
+        assert!(verdict.widths.iter().all(|width| (width - 0.01).abs() < 1e-5));
     }
 }
 
@@ -170,7 +170,7 @@ fn totals_agree_with_the_verdicts() {
     assert_eq!((totals.hard_edges, totals.chamfered), (12, 12));
     assert_eq!((totals.narrowed, totals.skipped), (0, 0));
     assert_eq!(totals.skipped_by_reason, [0; CHAMFER_REASON_SLOTS]);
-    assert!((totals.width - 0.02).abs() < 1e-6);
+    assert!((totals.width - 0.01).abs() < 1e-6);
 }
 
 #[test]

@@ -153,6 +153,7 @@ fn a_floor_is_seen_on_both_sides_of_a_wall() {
     }
     mesh.submesh_index_counts = vec![mesh.indices.len() as u32];
     let result = chamfered(&mesh, 0.1);
-    assert!(result.totals.chamfered > 0, "the corner of the walls");
+    let opened = result.totals.chamfered + result.totals.narrowed;
+    assert_eq!(opened, 2, "the corner of the walls, and the floor's edge: {:?}", result.verdicts);
     assert_closed_to_the_eye(&mesh, &result);
 }
