@@ -416,6 +416,17 @@ mod tests {
         assert_eq!(pairs(&boxes).len(), 8 * 7 / 2);
     }
 
+    /// The numbers of all pairs of a tree, the lower one first, sorted.
+    fn all_pairs(tree: &Tree) -> Vec<(u32, u32)> {
+        let mut found: Vec<(u32, u32)> = tree
+            .pairs(&tree.open_leaves(|_| true))
+            .map(|(a, b)| (tree.number(a), tree.number(b)))
+            .map(|(a, b)| (a.min(b), a.max(b)))
+            .collect();
+        found.sort_unstable();
+        found
+    }
+
     #[test]
     fn crowds_stand_side_by_side_and_what_is_seen_apart_is_no_pair() {
         let boxes = scattered(60.0);
@@ -427,12 +438,7 @@ mod tests {
             })
             .collect();
         let tree = Tree::new(&boxes, &kin);
-        let mut found: Vec<(u32, u32)> = tree
-            .pairs(&tree.open_leaves(|_| true))
-            .map(|(a, b)| (tree.number(a), tree.number(b)))
-            .map(|(a, b)| (a.min(b), a.max(b)))
-            .collect();
-        found.sort_unstable();
+        let found = all_pairs(&tree);
         let mut expected = overlapping(&boxes);
         expected.retain(|&(a, b)| !kin[a as usize].is_apart(&kin[b as usize]));
         assert_eq!(found, expected);
@@ -447,12 +453,7 @@ mod tests {
             |far: f32| (0..200).map(move |n| Aabb::around(&[[n as f32; 3], [n as f32 + far; 3]]));
         let views = [row(2.0).collect(), row(1.0).collect::<Vec<_>>()];
         let tree = Tree::new(&boxes, &[]).with_views(&views);
-        let mut found: Vec<(u32, u32)> = tree
-            .pairs(&tree.open_leaves(|_| true))
-            .map(|(a, b)| (tree.number(a), tree.number(b)))
-            .map(|(a, b)| (a.min(b), a.max(b)))
-            .collect();
-        found.sort_unstable();
+        let found = all_pairs(&tree);
         let mut expected = overlapping(&boxes);
         expected.retain(|(a, b)| b - a == 1);
         assert_eq!(found, expected);
