@@ -12,6 +12,7 @@
 #define INDICES 36
 /* 12 faces, two for each of the 12 edges, one for each of the 8 corners. */
 #define TRIANGLES_OUT 44
+#define SEGMENTS 3
 
 const char *name_from_the_second_unit(void);
 
@@ -226,6 +227,37 @@ static void chamfer_twice(const chamfer_mesh *cube) {
     chamfer_result_destroy(NULL);
 }
 
+/* With three segments the cube is closed, has the counts of its grids, and all edges say so. */
+static void round_the_cube(const chamfer_mesh *cube) {
+    chamfer_options options = {.struct_size = sizeof options};
+    chamfer_mesh rounded = {.struct_size = sizeof rounded};
+    chamfer_result *result = NULL;
+    const chamfer_edge_verdict *verdicts = NULL;
+    const chamfer_vertex_source *sources = NULL;
+    uint32_t verdict_count = 0, source_count = 0, off_the_faces = 0, i;
+
+    CHECK(chamfer_options_init(&options) == CHAMFER_STATUS_OK);
+    CHECK(options.segments == 1 && options.profile == 0.5f);
+    options.width = 10.0f;
+    options.segments = SEGMENTS;
+    CHECK(chamfer_run(cube, &options, NULL, NULL, &result, NULL) == CHAMFER_STATUS_OK);
+    CHECK(chamfer_result_mesh(result, &rounded) == CHAMFER_STATUS_OK);
+    CHECK(rounded.vertex_count == 24 * SEGMENTS + 4 * (SEGMENTS - 1) * (SEGMENTS - 2));
+    CHECK(rounded.index_count == 3 * (12 + 24 * SEGMENTS + 8 * SEGMENTS * SEGMENTS));
+    CHECK(is_closed(&rounded));
+
+    CHECK(chamfer_result_verdicts(result, &verdicts, &verdict_count) == CHAMFER_STATUS_OK);
+    for (i = 0; i < verdict_count; ++i) {
+        CHECK(verdicts[i].segments == SEGMENTS);
+    }
+    CHECK(chamfer_result_vertex_sources(result, &sources, &source_count) == CHAMFER_STATUS_OK);
+    for (i = 0; i < source_count; ++i) {
+        off_the_faces += (sources[i].owner_channels & CHAMFER_VERTEX_BETWEEN) != 0;
+    }
+    CHECK(off_the_faces == rounded.vertex_count - VERTICES);
+    chamfer_result_destroy(result);
+}
+
 static void smooth_the_cube(const chamfer_mesh *cube) {
     chamfer_mesh bare = *cube, smooth = {.struct_size = sizeof smooth};
     chamfer_result *result = NULL;
@@ -296,6 +328,7 @@ int main(void) {
     untouched = cube;
     mesh = view_cube(&cube);
     chamfer_twice(&mesh);
+    round_the_cube(&mesh);
     smooth_the_cube(&mesh);
     CHECK(memcmp(&cube, &untouched, sizeof cube) == 0);
     try_the_errors();

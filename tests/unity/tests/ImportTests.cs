@@ -109,6 +109,9 @@ namespace Chamfer.Tests
             Check.Equal(0, Import(mesh, "Chamfer=0.1,3").warnings.Count);
             // Of each face two triangles, of each edge two for each segment, of each corner their square.
             Check.Equal((12 + 12 * 2 * 3 + 8 * 9) * 3, mesh.GetTriangles(0).Length);
+            mesh = Shapes.FullCube();
+            Check.Equal(0, Import(mesh, "Chamfer=2%,3").warnings.Count);
+            Check.Equal((12 + 12 * 2 * 3 + 8 * 9) * 3, mesh.GetTriangles(0).Length);
             foreach (string label in new[] { "Chamfer=0.1,0", "Chamfer=0.1,33", "Chamfer=0.1,x", "Chamfer=0.1,2,2" })
             {
                 Check.That(Import(Shapes.Cube(), label).warnings.Single().Contains("Chamfer=2%,3"), label);
