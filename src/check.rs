@@ -34,6 +34,7 @@ use facts::facts;
 use origins::Origins;
 use solids::Solids;
 use surface::Surface;
+use triangles::Facing;
 use widths::Ruler;
 
 pub use carried::Extras;
@@ -55,7 +56,7 @@ pub fn check(before: &Mesh, after: &Chamfered, depth: Verify) -> Findings {
     verdicts::check_counts(before, after, &mut findings);
     if let Some(origins) = Origins::told(before, after, &mut findings) {
         let own: Vec<u32> = (0..mesh.submesh_index_counts.len() as u32).collect();
-        let extras = Extras::default().with_materials([&own; 2]);
+        let extras = Extras::default().with_materials([&own; 2]).with_scale(after.scale);
         check_geometry(&surfaces, &origins, &extras, depth, &mut findings);
         let ruler = Ruler::new(&surfaces, &origins).in_space_of(after);
         verdicts::check_verdicts(&ruler, after, &mut findings);
@@ -169,7 +170,8 @@ fn check_geometry(
     values::check_colors(before, after, findings);
     surface::check_edges(source, result, findings);
     borders::check_borders(source, result, origins, findings);
-    triangles::check_triangles(source, result, origins, findings);
+    let facing = Facing::new(extras.scale);
+    triangles::check_triangles([source, result], origins, &facing, findings);
     flatness::check_flatness(source, result, origins, findings);
     hardness::check_hard_edges(source, result, origins, findings);
     let solids = Solids::new(source);

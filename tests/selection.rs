@@ -10,10 +10,10 @@ mod shaded;
 
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
-use chamfer::check::{assert_sound, check};
+use chamfer::check::{Element, Rule, assert_sound, check};
 use chamfer::{
     Chamfered, Convexity, EdgeFactor, EdgeVerdict, Factors, Mesh, MeshBuffers, Options, Outcome,
-    Reason, Verify, Width, WidthMode, chamfer, shapes,
+    Reason, TriangleKind, Verify, Width, WidthMode, chamfer, shapes,
 };
 use glam::{DMat3, DVec3};
 use proptest::prelude::*;
@@ -366,6 +366,30 @@ fn a_scaled_box_is_sound_and_what_stays_keeps_its_bits() {
     assert_sound("a scaled box", &cube.as_mesh(), &result);
     assert_eq!(result.mesh.positions[24], [0.1; 3]);
     assert_eq!(result.mesh.normals[..25], cube.normals[..], "flat faces keep their normals");
+}
+
+// Between the side of a pyramid and its base there is more than a right angle, and the chamfer of a
+// tower that is made of it lies nearly in the base where the tower comes from: only where it stands
+// does it face along with the sides.
+#[test]
+fn slanted_faces_are_sound_where_they_are_stretched() {
+    let pyramid = shapes::pyramid(4);
+    for height in [20.0, -20.0, 0.05] {
+        let tower = [[1.0, 0.0, 0.0], [0.0, height, 0.0], [0.0, 0.0, 1.0]];
+        let options = Options::default().with_width(Width::Units(0.01)).with_scale(tower);
+        let mut result = chamfer(&pyramid.as_mesh(), &options).unwrap();
+        assert_eq!(result.totals.chamfered + result.totals.narrowed, 8, "{height}");
+        assert_sound("a tower", &pyramid.as_mesh(), &result);
+        let edge =
+            result.triangle_sources.iter().position(|t| t.kind == TriangleKind::Edge).unwrap();
+        result.mesh.indices[3 * edge..3 * edge + 3].reverse();
+        let findings = check(&pyramid.as_mesh(), &result, Verify::Fast);
+        let mut flipped = findings.breaches.iter().filter(|breach| breach.rule == Rule::Flipped);
+        assert!(
+            flipped.any(|breach| breach.first == [Element::Triangle(edge as u32)]),
+            "{findings}"
+        );
+    }
 }
 
 #[test]

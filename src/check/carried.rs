@@ -39,12 +39,20 @@ pub struct Extras<'a> {
     pub materials: Option<[&'a [u32]; 2]>,
     /// Further values of the vertices.
     pub streams: &'a [ExtraStream<'a>],
+    /// How the mesh stands where it is looked at, as in [`Options::scale`](crate::Options::scale):
+    /// there new triangles have to face along with their normals. None where it stands as it is.
+    pub scale: Option<[[f32; 3]; 3]>,
 }
 
 impl<'a> Extras<'a> {
     /// The same with materials.
     pub fn with_materials(self, materials: [&'a [u32]; 2]) -> Extras<'a> {
         Extras { materials: Some(materials), ..self }
+    }
+
+    /// The same for a mesh that stands scaled.
+    pub fn with_scale(self, scale: Option<[[f32; 3]; 3]>) -> Extras<'a> {
+        Extras { scale, ..self }
     }
 
     /// The same with further values of the vertices.

@@ -26,6 +26,7 @@ use crate::console::{say, warn, with_causes};
 use crate::fit::Wish;
 use crate::preset;
 use crate::scene::largest_length;
+use crate::stretch::stretches;
 use crate::write;
 
 use extras::Streams;
@@ -53,10 +54,15 @@ fn check(args: &CheckArgs) -> Result<Verdict> {
     part(&mut *before, &*after);
     let pairs = Pairs::new(before.meshes(), after.meshes());
     let expected = expected(&*before, args, choices.as_ref())?;
+    let is_own = args.per_mesh || choices.as_ref().is_some_and(|choices| choices.wish(1).per_mesh);
+    let stretches = if is_own { Vec::new() } else { stretches(&*before) };
     let checks = pairs.both.iter().map(|&[source, result]| {
-        let expected = expected.get(source);
+        let wanted = Wanted {
+            expected: expected.get(source),
+            scale: stretches.get(source).copied().flatten().and_then(|stretch| stretch.shape()),
+        };
         let source = Side { document: &*before, mesh: source };
-        check_pair(source, Side { document: &*after, mesh: result }, expected, args)
+        check_pair(source, Side { document: &*after, mesh: result }, wanted, args)
     });
     let mut checks: Vec<MeshCheck> = checks.collect();
     for (check, &[source, _]) in checks.iter_mut().zip(&pairs.both) {
@@ -201,19 +207,23 @@ fn part(before: &mut dyn Document, after: &dyn Document) {
     objects.values().take_while(is_of_one).for_each(|of| before.give_own(of));
 }
 
-fn check_pair(
-    source: Side,
-    result: Side,
-    expected: Option<&Chamfered>,
-    args: &CheckArgs,
-) -> MeshCheck {
+/// What was asked of a mesh.
+struct Wanted<'a> {
+    /// What chamfering it would give, where that is known.
+    expected: Option<&'a Chamfered>,
+    /// How it stands in the scene, where it is stretched.
+    scale: Option<[[f32; 3]; 3]>,
+}
+
+fn check_pair(source: Side, result: Side, wanted: Wanted, args: &CheckArgs) -> MeshCheck {
+    let expected = wanted.expected;
     let [before, after] = [source.as_stored(), result.as_stored()];
     let numbers = materials::numbers([&source.materials(), &result.materials()]);
     let counts = [&before, &after].map(|mesh| mesh.positions.len());
     let further = [source, result].map(|side| side.document.further(side.mesh));
     let streams = Streams::new(further, counts);
     let extra = streams.extra();
-    let mut extras = Extras::default().with_streams(&extra);
+    let mut extras = Extras::default().with_streams(&extra).with_scale(wanted.scale);
     if let Some([source, result]) = &numbers {
         extras = extras.with_materials([source, result]);
     }
