@@ -56,6 +56,16 @@ fn distances(document: &dyn Document, sizes: &[[f32; 3]]) -> Vec<[f32; 3]> {
     found
 }
 
+// Where the pyramid comes from, a strip at its base faces away from the normals of its sides.
+#[test]
+fn a_tower_of_a_stretched_pyramid_is_sound() {
+    let nodes = json!([{"mesh": 0, "scale": [1, 20, 1]}, {"mesh": 0, "scale": [-1, 1, 1]}]);
+    let folder = Folder::with(&[("tower.gltf", &scene(&shapes::pyramid(4), nodes))]);
+    folder.run("tower.gltf -o tower.glb --width 10mm").exits(0);
+    folder.run("check tower.gltf tower.glb --width 10mm").exits(0);
+    folder.run("check tower.gltf tower.glb --per-mesh --no-see-through").exits(1);
+}
+
 /// Whether all vertices were pulled by a width, in two directions each.
 #[track_caller]
 fn assert_pulled(document: &dyn Document, sizes: &[[f32; 3]], width: f32) {
