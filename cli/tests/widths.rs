@@ -8,7 +8,7 @@ mod run;
 use std::fs;
 
 use base64::Engine;
-use chamfer::{MeshBuffers, shapes};
+use chamfer::{ChamferSubmesh, Convexity, MeshBuffers, Options, Width, WidthMode, shapes};
 use chamfer_formats::{Document, ReadOptions, glb, read};
 use glam::{DVec3, Mat4, Vec3};
 use serde_json::{Value, json};
@@ -532,5 +532,52 @@ fn each_wrong_value_is_told_with_its_option_and_its_range() {
         let told = folder.run(&format!("a.obj -o b.obj --{option}={value}")).exits(2).err();
         let parts = [format!("--{option}"), format!("'{value}'"), range.to_owned()];
         assert!(parts.iter().all(|part| told.contains(part)), "{parts:?} in: {told}");
+    }
+}
+
+/// What the command line calls an option and its value, and the options that the library is given.
+fn said(percent: f32) -> Vec<(&'static str, Options)> {
+    let plain = Options::default().with_width(Width::PercentOfExtent(percent));
+    vec![
+        ("--width-mode depth", plain.with_width_mode(WidthMode::Depth)),
+        ("--min-angle 45", plain.with_angles(45.0, 180.0)),
+        ("--max-angle 45", plain.with_angles(0.0, 45.0)),
+        ("--convexity convex", plain.with_convexity(Convexity::Convex)),
+        ("--hard-angle 45", plain.with_hard_angle(45.0)),
+        ("--segments 3", plain.with_segments(3)),
+        ("--segments 3 --profile 0.9", plain.with_segments(3).with_profile(0.9)),
+        ("--least-breadth 70", plain.with_least_breadth(0.7)),
+        ("--evenness 0", plain.with_evenness(0.0)),
+        ("--chamfer-submesh own", plain.with_chamfer_submesh(ChamferSubmesh::Own)),
+    ]
+}
+
+#[test]
+fn each_option_is_what_it_is_in_the_library() {
+    // Submeshes without materials are one in a file.
+    let is_one = |mesh: &MeshBuffers| mesh.submesh_index_counts.len() == 1;
+    let models = shapes::demo_models().into_iter().filter(|(_, mesh)| is_one(mesh));
+    let models = models.chain([("prism", shapes::prism(12))]);
+    let models: Vec<_> = models.map(|(name, mesh)| (name.replace(' ', "_"), mesh)).collect();
+    let folder = Folder::with(&[]);
+    for (name, mesh) in &models {
+        fs::write(folder.path(&format!("{name}.gltf")), gltf(mesh).to_string()).unwrap();
+    }
+    let chamfered = |name: &str, said: &str| {
+        folder.run(&format!("{name}.gltf -o out.glb --width-percent {said}")).exits(0);
+        document(&folder, "out.glb").meshes()[0].mesh.clone()
+    };
+    let plain: Vec<_> = models.iter().map(|(name, _)| chamfered(name, "4")).collect();
+    for (arguments, options) in said(4.0) {
+        let mut does_anything = false;
+        for ((name, mesh), plain) in models.iter().zip(&plain) {
+            let found = chamfered(name, &format!("4 {arguments}"));
+            let expected = chamfer::chamfer(&mesh.as_mesh(), &options).unwrap().mesh;
+            let of =
+                |mesh: &MeshBuffers| (mesh.positions.clone(), mesh.submesh_index_counts.clone());
+            assert_eq!(of(&found), of(&expected), "{name} {arguments}");
+            does_anything |= of(&found) != of(plain);
+        }
+        assert!(does_anything, "{arguments}");
     }
 }

@@ -103,6 +103,34 @@ fn the_scale_stands_column_by_column() {
     assert_eq!(counts, [16, 16]);
 }
 
+/// Positions of a cube one of whose corners leans far inwards, so that its ends have unlike room.
+fn leaning(options: &chamfer_options) -> Vec<f32> {
+    let mut cube = Cube::new();
+    for at in cube.positions.chunks_mut(3).filter(|at| **at == [1.0; 3]) {
+        at.fill(0.2);
+    }
+    let result = run(&cube.view(), options);
+    let mesh = mesh_of(&result);
+    let count = 3 * mesh.vertex_count as usize;
+    // SAFETY: the mesh has that many positions, as long as its result lives.
+    unsafe { slice_or_empty(mesh.positions, count) }.to_vec()
+}
+
+/// 0 stands for what a caller gets who knows nothing of the field; a tiny share for none.
+#[test]
+fn evenness_and_profile_do_something() {
+    let with = |evenness, profile| {
+        leaning(&chamfer_options { evenness, profile, segments: 2, width: 0.8, ..fifth() })
+    };
+    let usual = with(0.0, 0.0);
+    assert_eq!(usual, with(0.5, 0.5));
+    let others = [with(1e-9, 0.5), with(1.0, 0.5), with(0.5, 1e-9), with(0.5, 1.0)];
+    for (number, one) in others.iter().enumerate() {
+        assert_eq!(one.len(), usual.len());
+        assert!(*one != usual && !others[..number].contains(one), "{number}");
+    }
+}
+
 #[test]
 fn each_submesh_has_a_factor() {
     let (cube, factors, none) = (Cube::new(), [0.5, 1.0], [0.0; 2]);

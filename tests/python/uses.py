@@ -159,8 +159,8 @@ one = roof(submeshes=np.array(submeshes).reshape(-1, 3))
 assert chamfer.chamfer(one).totals.hard_edges == 1 and len(one.submeshes) == 1
 
 # A chord at the right angle of the ridge is longer than the offset, by the root of two.
-def width(mesh=None, **options):
-    [verdict] = chamfer.chamfer(mesh or roof(), width=0.1, width_unit="mesh", **options).verdicts
+def width(mesh=None, width=0.1, **options):
+    [verdict] = chamfer.chamfer(mesh or roof(), width=width, width_unit="mesh", **options).verdicts
     return verdict["widths"].tolist() if verdict["outcome"] < 2 else chamfer.reason_name(verdict["reason"])
 
 
@@ -192,6 +192,22 @@ assert np.isclose(ridge_x(sheared), 0.1 / 2**0.5) and not np.isclose(ridge_x(acr
 round_roof = chamfer.chamfer(roof(), width=0.1, width_unit="mesh", segments=3)
 assert round_roof.verdicts["segments"].tolist() == [3]
 assert (round_roof.triangle_sources["kind"] == 1).sum() == 6
+def highest(profile):
+    points = chamfer.chamfer(roof(), width=0.1, width_unit="mesh", segments=2, profile=profile).mesh.positions
+    return points[:, 1].max()
+
+
+# A point half way: on the old ridge, on the circle, on the chord.
+near([highest(0.5), highest(0)], 1 - 0.1 * (2**0.5 - 1), 1 - 0.1 / 2**0.5)
+assert 0.998 < highest(1) < 1
+
+# One end of the ridge has room for half of the width alone: by how much the other one follows.
+lean = positions.astype(float)
+lean[[0, 1]] = [[-0.1, 0.9, 0], [-4, -3, 4]]
+ends = [width(roof(positions=lean), width=0.4, evenness=evenness) for evenness in (0, 0.5, 1)]
+[wide, halfway, even] = ends
+assert wide[0] > 1.5 * wide[1] and halfway[0] < 1.3 * halfway[1], ends
+near(even[:1], even[1])
 says(ValueError, "segments is 0: give 1 to 32", lambda: chamfer.chamfer(roof(), segments=0))
 says(ValueError, "segments is 33", lambda: chamfer.chamfer(roof(), segments=33))
 says(ValueError, "the profile is", lambda: chamfer.chamfer(roof(), profile=1.5))

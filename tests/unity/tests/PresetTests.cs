@@ -90,6 +90,20 @@ namespace Chamfer.Tests
             Check.Near(0.1f, WidthOf(prefab));
         }
 
+        /// Where the points of a cube go one of whose corners leans far inwards.
+        static string Leaning(string how)
+        {
+            var settings = ChamferSettings.Default;
+            settings.width = 40;
+            settings.segments = 2;
+            settings.evenness = how == "even" ? 1 : how == "free" ? 1e-9f : 0;
+            settings.profile = how == "sharp" ? 1 : how == "flat" ? 1e-9f : 0;
+            var cube = Shapes.Cube();
+            float farthest = cube.vertices.Max(p => p.x + p.y + p.z);
+            cube.vertices = cube.vertices.Select(p => p.x + p.y + p.z == farthest ? p * 0.2f : p).ToArray();
+            return string.Join(" ", MeshChamfer.Run(cube, settings).Mesh.vertices.Select(p => p.x + "," + p.y + "," + p.z));
+        }
+
         public static void Every_option_of_the_library_is_a_setting()
         {
             var settings = ChamferSettings.Default;
@@ -103,6 +117,7 @@ namespace Chamfer.Tests
             Check.That(SettingsText.Of(even) != SettingsText.Of(ChamferSettings.Default), "told apart");
             even.evenness = 2;
             Check.Throws<ChamferException>(() => MeshChamfer.Run(Shapes.Cube(), even));
+            Check.Equal(5, new[] { "", "even", "free", "sharp", "flat" }.Select(Leaning).Distinct().Count());
         }
     }
 }
