@@ -44,6 +44,20 @@ fn chamfered(mesh: &MeshBuffers, percent: f32, verify: Verify) -> Chamfered {
     chamfer(&mesh.as_mesh(), &options).unwrap()
 }
 
+fn rounded(
+    mesh: &MeshBuffers,
+    percent: f32,
+    (segments, profile): (u32, f32),
+    verify: Verify,
+) -> Chamfered {
+    let options = Options::default()
+        .with_width(Width::PercentOfExtent(percent))
+        .with_segments(segments)
+        .with_profile(profile)
+        .with_verify(verify);
+    chamfer(&mesh.as_mesh(), &options).unwrap()
+}
+
 fn findings(mesh: &MeshBuffers, percent: f32, verify: Verify) -> Findings {
     check(&mesh.as_mesh(), &chamfered(mesh, percent, verify), verify)
 }
@@ -72,6 +86,19 @@ proptest! {
     fn a_chamfered_soup_is_sound(Model(mesh) in soup(), percent in percent()) {
         let findings = findings(&mesh, percent, Verify::Fast);
         prop_assert!(is_sound_for_soup(&mesh, &findings), "{findings}");
+    }
+
+    #[test]
+    fn a_rounded_mesh_is_sound(
+        Model(mesh) in clean_mesh(),
+        percent in percent(),
+        (segments, profile) in (2..7u32, prop_oneof![3 => Just(0.5f32), 1 => 0.0..1.0f32]),
+    ) {
+        for verify in [Verify::Fast, Verify::Full] {
+            let result = rounded(&mesh, percent, (segments, profile), verify);
+            let findings = check(&mesh.as_mesh(), &result, verify);
+            prop_assert!(findings.is_sound(), "{verify:?}: {findings}");
+        }
     }
 }
 

@@ -8,7 +8,7 @@
 mod shaded;
 
 use boolmesh::prelude::{Manifold, OpType, compute_boolean};
-use chamfer::check::assert_sound;
+use chamfer::check::{assert_sound, check};
 use chamfer::{MeshBuffers, Options, Verify, Width, chamfer, shapes};
 use glam::{DQuat, DVec3};
 use proptest::collection::vec;
@@ -129,5 +129,25 @@ fn random_solids_are_sound_and_nearly_all_of_their_edges_chamfered() {
             100.0 * coverage
         );
         assert!(coverage >= least, "{coverage} at {percent} %");
+    }
+}
+
+/// Fewer than above: each is chamfered twelve times.
+#[test]
+fn random_solids_are_sound_with_rounded_chamfers() {
+    let solids = solids();
+    for (number, mesh) in solids.iter().enumerate().step_by(number("SOLIDS_STEP", 4) as usize) {
+        for (percent, segments) in [(0.5, 2), (2.0, 2), (5.0, 2), (0.5, 4), (2.0, 4), (5.0, 4)] {
+            for verify in [Verify::Fast, Verify::Full] {
+                let options = Options::default()
+                    .with_width(Width::PercentOfExtent(percent))
+                    .with_segments(segments)
+                    .with_verify(verify);
+                let result = chamfer(&mesh.as_mesh(), &options).unwrap();
+                let name = format!("solid {number} at {percent} % and {segments}");
+                let findings = check(&mesh.as_mesh(), &result, verify);
+                assert!(findings.is_sound(), "{name}, {verify:?}: {findings}");
+            }
+        }
     }
 }
