@@ -79,6 +79,7 @@ const CMAKE: &str = "cmake_minimum_required(VERSION 3.16)
 project(user C CXX)
 find_package(chamfer 0.1 REQUIRED)
 set(CMAKE_CXX_STANDARD 20)
+add_compile_options(-Wall -Wextra -Wpedantic -Werror)
 foreach(kind chamfer static)
   add_executable(c_${kind} cube.c)
   add_executable(cpp_${kind} cube.cpp)
@@ -120,7 +121,8 @@ fn pkg_config_finds_the_library() {
     for (compiler, standard, language) in [("cc", "-std=c99", "c"), ("c++", "-std=c++20", "c++")] {
         let program = folder.join(compiler);
         let mut compile = Command::new(compiler);
-        compile.args([standard, "-x", language]).arg(UNPACKED.join("examples/chamfer_cube.c"));
+        compile.args([standard, "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-x", language]);
+        compile.arg(UNPACKED.join("examples/chamfer_cube.c"));
         compile.args(["-x", "none", "-o"]).arg(&program).args(flags.split_whitespace());
         run(compile.arg(format!("-Wl,-rpath,{}", UNPACKED.join("lib").display())));
         assert_eq!(run(&mut Command::new(program)), CUBE, "{compiler}");

@@ -20,9 +20,12 @@ pub fn no_hard_edges(document: &dyn Document, smoothing_angle: f32) -> Option<St
     if sharpest < FLAT_DEGREES {
         return Some("it has no hard edges: no two faces meet at an angle".into());
     }
-    let computed = |normals: &NormalsRead| normals.computed;
+    let computed = document.normals().iter().any(|normals: &NormalsRead| normals.computed);
     let at = format!("it has no hard edges: faces meet at up to {sharpest:.0} degrees, but ");
-    Some(match document.normals().iter().any(computed) {
+    Some(match computed {
+        true if sharpest > smoothing_angle => "its smoothing groups shade all of it as one: have \
+             its normals made by angle, by --normals angle"
+            .into(),
         true => format!(
             "it came without normals, and those made shade all of it as one: give a \
              --smoothing-angle under that, {smoothing_angle} is too much"

@@ -133,12 +133,14 @@ fn nothing_to_chamfer_says_why() {
     let folder = Folder::with(&[
         ("bent.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 -1 .2\nf 1 2 3\nf 2 1 4\n"),
         ("flat.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n"),
+        ("group.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\ns 1\nf 1 2 3\nf 2 1 4\n"),
     ]);
     write(&folder, "smooth.glb", &smooth_cube());
     write(&folder, "card.glb", &card());
     for (name, told) in [
         ("smooth.glb", "faces meet at up to 90 degrees, but all its normals are smooth there"),
         ("bent.obj", "faces meet at up to 11 degrees, but it came without normals"),
+        ("group.obj", "up to 90 degrees, but its smoothing groups shade all of it as one"),
         ("flat.obj", "it has no hard edges: no two faces meet at an angle"),
         ("card.glb", "none of its hard edges is chamfered: "),
     ] {

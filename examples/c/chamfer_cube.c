@@ -1,5 +1,6 @@
 /* Chamfers a cube and counts what comes out. */
 #include <stdio.h>
+#include <string.h>
 #include "chamfer.h"
 
 int main(void) {
@@ -14,13 +15,19 @@ int main(void) {
     }
     for (uint32_t i = 0; i < 36; ++i) indices[i] = i / 6 * 4 + corners[i % 6];
 
-    chamfer_mesh mesh = {
-        .struct_size = sizeof mesh, .vertex_count = 24,
-        .positions = positions[0], .normals = normals[0],
-        .submesh_count = 1, .index_count = index_count,
-        .submesh_index_counts = &index_count, .indices = indices,
-    };
-    chamfer_error error = {.struct_size = sizeof error};
+    chamfer_mesh mesh;
+    memset(&mesh, 0, sizeof mesh); /* What is zero is absent. */
+    mesh.struct_size = sizeof mesh;
+    mesh.vertex_count = 24;
+    mesh.positions = positions[0];
+    mesh.normals = normals[0];
+    mesh.submesh_count = 1;
+    mesh.submesh_index_counts = &index_count;
+    mesh.index_count = index_count;
+    mesh.indices = indices;
+
+    chamfer_error error;
+    error.struct_size = sizeof error;
     chamfer_result *result;
     if (chamfer_run(&mesh, NULL, NULL, NULL, &result, &error) != CHAMFER_STATUS_OK) {
         fprintf(stderr, "%s\n", error.message);

@@ -53,7 +53,7 @@ fn the_example_chamfers_a_cube() {
 #[test]
 fn the_example_is_cpp_too() {
     let mut compile = Command::new(env::var_os("CXX").unwrap_or("c++".into()));
-    compile.args(["-std=c++20", "-Wall", "-pedantic", "-Werror", "-fsyntax-only", "-x", "c++"]);
+    compile.args(STRICT).args(["-std=c++20", "-fsyntax-only", "-x", "c++"]);
     compile.arg("-I").arg(source("include")).arg(source("examples/c/chamfer_cube.c"));
     let status = compile.status().expect("a C++ compiler: install c++ or set CXX");
     assert!(status.success(), "{compile:?}");

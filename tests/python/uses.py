@@ -1,8 +1,12 @@
 """What a tool in Python relies on: streams, submeshes, progress, cancelling, errors."""
 
+import warnings
+
 import numpy as np
 
 import chamfer
+
+warnings.simplefilter("ignore", chamfer.NothingChamfered)
 
 # A roof: two quads that meet at the ridge y = 1, each a submesh of its own.
 positions = np.array(
@@ -118,6 +122,9 @@ says(TypeError, "'widht': did you mean 'width'?", lambda: chamfer.chamfer(roof()
 says(TypeError, "'normal': did you mean 'normals'?", lambda: roof(normal=normals))
 says(TypeError, "there is width, ", lambda: chamfer.chamfer(roof(), xyz=0.1))
 says(ValueError, "'percents': did you mean 'percent'?", lambda: chamfer.chamfer(roof(), width_unit="percents"))
+says(TypeError, "'held' is no option but a part of the mesh", lambda: chamfer.chamfer(roof(), held=[]))
+says(TypeError, "progress is a function of the share done, not 3", lambda: chamfer.chamfer(roof(), progress=3))
+says(ValueError, "values has 3 rows: give one for each vertex", lambda: result.carry([1, 2, 3]))
 says(TypeError, "width is a number, not '1'", lambda: chamfer.chamfer(roof(), width="1"))
 says(TypeError, "verify is one of", lambda: chamfer.chamfer(roof(), verify=True))
 says(TypeError, "threads is a whole number", lambda: chamfer.chamfer(roof(), threads=1.5))
@@ -262,6 +269,21 @@ smooth = chamfer.split_by_angle(roof(normals=None), 180)
 flat = chamfer.split_by_angle(roof(normals=normals[:3]), 30)  # They are ignored.
 assert chamfer.chamfer(smooth).totals.hard_edges == 0
 assert chamfer.chamfer(flat).totals.hard_edges == 1
+
+# What comes back as it was does so with a word, unless that was asked for.
+def warning_of(*meshes, **options):
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        chamfer.chamfer_scene(meshes, [], **options)
+    assert all(warning.category is chamfer.NothingChamfered for warning in told)
+    assert all(warning.filename == __file__ for warning in told)
+    return " ".join(str(warning.message) for warning in told)
+
+
+assert "no hard edges" in warning_of(smooth) and "no hard edges" in warning_of(smooth, sheet)
+assert "none of the hard edges is chamfered: 2 contact" in warning_of(roof(held=ridge), roof(held=ridge))
+assert warning_of(roof()) == warning_of(smooth, roof()) == warning_of(roof(), max_angle=9) == warning_of() == ""
+assert warning_of(roof(submeshes=[])) == ""
 
 # Nothing comes of nothing.
 empty = chamfer.Mesh(np.empty((0, 3)), np.empty((0, 3)), [])

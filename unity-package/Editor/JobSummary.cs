@@ -6,6 +6,9 @@ namespace ChamferEditor
     /// <summary>What jobs did, in words.</summary>
     internal sealed class JobSummary
     {
+        private const string Smooth = " (all normals are smooth: where faces are to look flat, set Normals to Calculate, "
+            + "with a Smoothing Angle, in the model's import settings)";
+
         private int meshes, without, already, chamfered, narrowed, skipped;
         private readonly List<string> notes = new List<string>();
         private readonly List<string> failures = new List<string>();
@@ -52,9 +55,9 @@ namespace ChamferEditor
 
         public override string ToString()
         {
-            string text = Meshes(meshes) + ": " + chamfered + " edges chamfered, " + narrowed + " narrowed, " + skipped
+            string text = Meshes(meshes) + ": " + chamfered + " edges full, " + narrowed + " narrowed, " + skipped
                 + " skipped";
-            if (without > 0) { text += "; " + Meshes(without) + " without hard edges left alone"; }
+            if (without > 0) { text += "; " + Meshes(without) + " without hard edges left alone" + Smooth; }
             if (already > 0) { text += "; " + Meshes(already) + " chamfered already left alone"; }
             return string.Join("\n", new[] { text }.Concat(notes).Concat(failures));
         }

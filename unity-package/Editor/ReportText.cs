@@ -28,7 +28,7 @@ namespace ChamferEditor
             var text = new StringBuilder();
             text.Append(report.VerticesBefore).Append(" -> ").Append(report.VerticesAfter).Append(" vertices, ");
             text.Append(report.TrianglesBefore).Append(" -> ").Append(report.TrianglesAfter).Append(" triangles; ");
-            text.Append(report.HardEdges).Append(" hard edges, ").Append(report.Chamfered).Append(" at full width");
+            text.Append(report.HardEdges).Append(" hard edges, ").Append(report.Chamfered).Append(" full");
             AppendReasons(text, report, EdgeOutcome.Narrowed, "narrowed");
             AppendReasons(text, report, EdgeOutcome.Skipped, "skipped");
             return text.ToString();

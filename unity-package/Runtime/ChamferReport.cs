@@ -57,7 +57,7 @@ namespace Chamfer
         /// <summary>The counts in one line.</summary>
         public override string ToString()
         {
-            return HardEdges + " hard edges: " + Chamfered + " chamfered, " + Narrowed + " narrowed, " + Skipped
+            return HardEdges + " hard edges: " + Chamfered + " full, " + Narrowed + " narrowed, " + Skipped
                 + " skipped; " + TrianglesBefore + " -> " + TrianglesAfter + " triangles";
         }
     }

@@ -44,7 +44,10 @@ fn parse_chunks(bytes: &[u8]) -> Result<Container<'_>> {
         bail!("the .glb has version {version}: only version 2 can be read");
     }
     let Some(body) = bytes.get(HEADER_SIZE..length as usize) else {
-        bail!("the .glb should be {length} bytes long, but has {}: it is cut off", bytes.len());
+        bail!(
+            "the .glb should be {length} bytes long, but has {}: it is cut off, fetch or export it anew",
+            bytes.len()
+        );
     };
     let (kind, json, rest) = split_chunk(body)?;
     if kind != JSON_CHUNK {

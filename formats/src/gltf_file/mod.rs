@@ -451,7 +451,7 @@ fn read_buffer(
     };
     ensure!(
         bytes.len() >= length,
-        "{path} should have {length} bytes, but has {}: it is cut off",
+        "{path} should have {length} bytes, but has {}: it is cut off, fetch or export it anew",
         bytes.len()
     );
     bytes.truncate(length);

@@ -11,7 +11,7 @@ place with two normals. Meshes without normals get them by `split_by_angle`. All
 are copies of their own. Any number of threads may call at once.
 """
 
-from ._errors import BadInput, Cancelled, ChamferError
+from ._errors import BadInput, Cancelled, ChamferError, NothingChamfered
 from ._library import OUTCOMES, TRIANGLE_SOURCE, VERDICT, VERTEX_SOURCE, library_version, reason_name
 from ._mesh import Mesh
 from ._options import Options
@@ -26,6 +26,7 @@ __all__ = [
     "Cancelled",
     "ChamferError",
     "Mesh",
+    "NothingChamfered",
     "Options",
     "Result",
     "Totals",

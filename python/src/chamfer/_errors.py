@@ -33,6 +33,10 @@ class Cancelled(ChamferError):
     """The progress callback asked to stop."""
 
 
+class NothingChamfered(UserWarning):
+    """A mesh came back as it was; the text says why."""
+
+
 def error_of(status: int, message: str, element: int = NO_ELEMENT, mesh: int = NO_ELEMENT) -> ChamferError:
     """The exception for a status of the library."""
     if status == CANCELLED:

@@ -13,7 +13,7 @@ from ._errors import meant
 from ._library import EDGE_FACTOR, UV_CHANNELS, CMesh, sized
 
 _FACTORS = ("submesh_factors", "vertex_factors", "edges")
-_STREAMS = ("positions", "normals", "submeshes", "tangents", "colors", "uvs", "held") + _FACTORS
+STREAMS = ("positions", "normals", "submeshes", "tangents", "colors", "uvs", "held") + _FACTORS
 
 
 class Mesh:
@@ -62,7 +62,7 @@ class Mesh:
         **unknown: Any,
     ):
         for name in unknown:
-            raise TypeError(f"a mesh has no {name!r}: {meant(name, _STREAMS)}")
+            raise TypeError(f"a mesh has no {name!r}: {meant(name, STREAMS)}")
         self.positions, self.normals = positions, normals
         # An array of two dimensions is one submesh; of a list nobody can tell.
         self.submeshes = [submeshes] if isinstance(submeshes, np.ndarray) and submeshes.ndim == 2 else submeshes

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._errors import meant
+from ._mesh import STREAMS
 
 _WIDTH_UNITS = {"mesh": 0, "percent": 1}
 _VERIFY = {"fast": 0, "full": 1, "seen": 2}
@@ -61,6 +62,8 @@ class Options(TypedDict, total=False):
 def fill(struct: Any, options: Mapping[str, Any]) -> None:
     """Writes options into the struct of the library."""
     for name, value in options.items():
+        if name in STREAMS:
+            raise TypeError(f"{name!r} is no option but a part of the mesh: chamfer.Mesh(..., {name}=...)")
         if name not in Options.__annotations__:
             raise TypeError(f"there is no option {name!r}: {meant(name, Options.__annotations__)}")
         if name == "submesh":

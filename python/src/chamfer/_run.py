@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import ctypes
+import warnings
 from ctypes import POINTER, byref, c_float, c_uint32, c_void_p
+from collections import Counter
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Callable, Mapping, Optional, Sequence
 
@@ -11,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _library
-from ._errors import error_of
+from ._errors import NothingChamfered, error_of
 from ._library import CError, CMesh, CObject, COptions, CProgress, CTotals, library, reason_name, sized
 from ._mesh import Mesh, View, mesh_of
 from ._options import Options, fill, number
@@ -48,8 +50,10 @@ class Result:
 
     def carry(self, values: ArrayLike) -> NDArray[Any]:
         """Values of the source's vertices (vertices, or by anything), blended for those of the result."""
-        given, surface = np.asarray(values), self.vertex_sources["surface"]
+        given, surface = np.atleast_1d(values), self.vertex_sources["surface"]
         weights = surface["weights"].reshape(surface["weights"].shape + (1,) * (given.ndim - 1))
+        if surface.size and surface["vertices"].max() >= len(given):
+            raise ValueError(f"values has {len(given)} rows: give one for each vertex of the source")
         blended: NDArray[Any] = (given[surface["vertices"]] * weights).sum(axis=1)
         return blended
 
@@ -64,7 +68,8 @@ def chamfer(mesh: Mesh, *, progress: Optional[Progress] = None, **options: Unpac
     call ends: with `Cancelled`, or with that exception.
 
     Raises TypeError and ValueError for what is wrong with the mesh or an option, and ChamferError for
-    the rest; what the library finds wrong with a mesh is a BadInput, which is both.
+    the rest; what the library finds wrong with a mesh is a BadInput, which is both. Warns with
+    NothingChamfered where all stays as it was.
     """
     view = View(mesh)
     [result] = _run(library().chamfer_run, (byref(view.mesh),), progress, options)
@@ -115,16 +120,44 @@ def _run(
     _require(library().chamfer_options_init(byref(struct)))
     fill(struct, options)
     raised: list[BaseException] = []
-    callback = _callback(progress, raised) if progress else CProgress()
+    callback = _callback(progress, raised)
     try:
-        return _results(lambda out, error: function(*source, byref(struct), callback, None, out, error), count)
+        results = _results(lambda out, error: function(*source, byref(struct), callback, None, out, error), count)
     except Exception:
         if raised:
             raise raised[0] from None
         raise
+    why = _why_untouched(results)
+    if why:  # It points at the line that called chamfer or chamfer_scene.
+        warnings.warn(why, NothingChamfered, stacklevel=3)
+    return results
 
 
-def _callback(progress: Progress, raised: list[BaseException]) -> Any:
+def _why_untouched(results: Sequence[Result]) -> Optional[str]:
+    """Why nothing was chamfered, where that was not asked for."""
+    totals = [result.totals for result in results]
+    if any(total.chamfered + total.narrowed for total in totals):
+        return None
+    reasons = Counter[str]()
+    for total in totals:
+        reasons.update(total.skipped_by_reason)
+    if reasons:
+        listed = ", ".join(f"{count} {reason}" for reason, count in reasons.items())
+        return None if "not_selected" in reasons else f"none of the hard edges is chamfered: {listed}"
+    if not any(len(result.mesh.triangles) for result in results):
+        return None
+    return (
+        "there are no hard edges: wherever faces meet, their normals are the same. Where the faces are not to "
+        "look smooth, let chamfer.split_by_angle(mesh, 30) make the normals anew"
+    )
+
+
+def _callback(progress: Optional[Progress], raised: list[BaseException]) -> Any:
+    if progress is None:
+        return CProgress()
+    if not callable(progress):
+        raise TypeError(f"progress is a function of the share done, not {progress!r}")
+
     def step(_user: Any, done: float) -> int:
         try:
             return 1 if progress(done) else 0

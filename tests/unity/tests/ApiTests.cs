@@ -18,7 +18,7 @@ namespace Chamfer.Tests
             var original = Scene.MeshOf(item);
             var outcome = ChamferTools.Chamfer(new UnityEngine.Object[] { item }, ChamferSettings.Default);
             Check.That(outcome.IsDone && outcome.Failures.Count == 0, "done");
-            Check.Equal("1 mesh: 12 edges chamfered, 0 narrowed, 0 skipped", outcome.ToString());
+            Check.Equal("1 mesh: 12 edges full, 0 narrowed, 0 skipped", outcome.ToString());
             var modifier = item.GetComponent<ChamferModifier>();
             var settings = modifier.Settings;
             settings.width = 5;

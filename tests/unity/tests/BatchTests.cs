@@ -77,7 +77,7 @@ namespace Chamfer.Tests
                 Check.That(Debug.logged.Last().EndsWith("1 mesh chamfered already left alone"), Debug.logged.Last());
                 Check.Equal(0, Run("Assets/Again", "0.2"));
                 Check.Equal("Assets/Again/a.fbx", AssetDatabase.imported.Single());
-                Check.That(Debug.logged.Last().EndsWith("\nCube: 12 hard edges: 12 chamfered, 0 narrowed, 0 skipped; 12 -> 44 triangles"), Debug.logged.Last());
+                Check.That(Debug.logged.Last().EndsWith("\nCube: 12 hard edges: 12 full, 0 narrowed, 0 skipped; 12 -> 44 triangles"), Debug.logged.Last());
             }
             finally { Project.postprocessors.Clear(); }
         }

@@ -328,7 +328,7 @@ namespace Chamfer.Tests
                     var rows = run();
                     Check.Equal("2 models would be chamfered.", DryRun.Summary(rows));
                     Check.Equal("Assets/Try/a.fbx", rows[0].Path);
-                    Check.That(rows[0].Text.StartsWith("0.5 percent, Full; 12 -> 44 triangles; 1 mesh: 12 edges chamfered"), rows[0].Text);
+                    Check.That(rows[0].Text.StartsWith("0.5 percent, Full; 12 -> 44 triangles; 1 mesh: 12 edges full"), rows[0].Text);
                     Check.That(!first() && !second(), "nothing was imported");
                     AssetDatabase.ImportAsset("Assets/Try/a.fbx", ImportAssetOptions.Default);
                     Check.Equal("Assets/Try/b.fbx", run().Single().Path);
@@ -355,7 +355,7 @@ namespace Chamfer.Tests
         {
             var record = (ChamferRecord)Import(Shapes.Cube(), "Chamfer=0.1").objects.Single();
             Check.Equal(0.1f, record.settings.width);
-            Check.That(record.report.StartsWith("Cube: 12 hard edges: 12 chamfered"), record.report);
+            Check.That(record.report.StartsWith("Cube: 12 hard edges: 12 full"), record.report);
             var bad = Shapes.Cube();
             bad.normals = new Vector3[0];
             Check.That(((ChamferRecord)Import(bad, "Chamfer").objects.Single()).failures.Single().Contains("normals"), "failures");

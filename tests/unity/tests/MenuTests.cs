@@ -19,12 +19,20 @@ namespace Chamfer.Tests
             Mesh shared;
             var root = Scene.Hierarchy(out shared);
             string summary = ChamferAll(root, root.children[0]).ToString();
-            Check.Equal("2 meshes: 24 edges chamfered, 0 narrowed, 0 skipped", summary);
+            Check.Equal("2 meshes: 24 edges full, 0 narrowed, 0 skipped", summary);
             Check.That(Scene.MeshOf(root) != shared, "a new mesh");
             Check.That(Scene.MeshOf(root) == Scene.MeshOf(root.children[0]), "one for both");
             Check.Equal("Cube Chamfered", Scene.MeshOf(root).name);
             Check.Equal(12 * 3, shared.GetTriangles(0).Length);
             Check.That(!EditorUtility.barShown, "the bar is gone");
+        }
+
+        public static void A_mesh_whose_normals_are_smooth_is_left_with_a_word()
+        {
+            var smooth = Shapes.Cube();
+            smooth.normals = smooth.vertices.Select(corner => corner * 0.5773503f).ToArray();
+            string summary = ChamferAll(Scene.Holding(smooth, "Ball")).ToString();
+            Check.That(summary.Contains("1 mesh without hard edges left alone (all normals are smooth"), summary);
         }
 
         public static void One_undo_takes_all_of_it_back()
@@ -114,7 +122,7 @@ namespace Chamfer.Tests
             Selection.objects = new Object[] { shared };
             Check.That(ChamferMenu.CanRun(), "a mesh asset");
             ChamferMenu.Run();
-            Check.That(Debug.logged.Last().Contains("12 edges chamfered"), Debug.logged.Last());
+            Check.That(Debug.logged.Last().Contains("12 edges full"), Debug.logged.Last());
         }
 
         public static void Every_menu_entry_has_a_validator()

@@ -184,7 +184,7 @@ namespace Chamfer.Tests
             modifier.settings.width = 200;
             ModifierActions.Chamfer(modifier);
             string text = ReportText.Of(modifier);
-            Check.That(text.StartsWith("Cube: 24 -> 24 vertices, 12 -> 44 triangles; 12 hard edges, 0 at full width\n  12 narrowed: "), text);
+            Check.That(text.StartsWith("Cube: 24 -> 24 vertices, 12 -> 44 triangles; 12 hard edges, 0 full\n  12 narrowed: "), text);
             LoadScriptsAgain();
             Check.Equal(text, ReportText.Of(modifier));
         }

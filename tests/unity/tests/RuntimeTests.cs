@@ -33,7 +33,7 @@ namespace Chamfer.Tests
         public static void The_report_counts()
         {
             var report = Run(Shapes.Cube()).Report;
-            Check.Equal("12 hard edges: 12 chamfered, 0 narrowed, 0 skipped; 12 -> 44 triangles", report.ToString());
+            Check.Equal("12 hard edges: 12 full, 0 narrowed, 0 skipped; 12 -> 44 triangles", report.ToString());
             Check.Equal(24, report.VerticesBefore);
             Check.Equal(24, report.VerticesAfter);
             Check.Equal(12, report.Verdicts.Count);
