@@ -277,13 +277,25 @@ impl Tree {
     /// The pairs of places that are not apart, each once: those in open leaves (`open: #nodes`) with
     /// all others.
     pub fn pairs<'a>(&'a self, open: &'a [bool]) -> impl Iterator<Item = (usize, usize)> + 'a {
+        self.pairs_counted(open, &|| ())
+    }
+
+    /// As [`Tree::pairs`], calling `step` whenever it looks at a node or at two places.
+    pub fn pairs_counted<'a, Step: Fn()>(
+        &'a self,
+        open: &'a [bool],
+        step: &'a Step,
+    ) -> impl Iterator<Item = (usize, usize)> + 'a {
         // Where all are open, those before a leaf have met it already.
         let are_all = self.leaves().all(|leaf| open[leaf]);
         let leaves = self.leaves().filter(|&leaf| open[leaf]);
         leaves
             .flat_map(move |leaf| {
                 let from = if are_all { leaf } else { 0 };
-                let near = self.leaves_near(from, move |node| self.nodes_are_apart(leaf, node));
+                let near = self.leaves_near(from, move |node| {
+                    step();
+                    self.nodes_are_apart(leaf, node)
+                });
                 near.filter(move |&other| other >= leaf || !open[other]).flat_map(move |other| {
                     let pair = move |a| {
                         let from = if other == leaf { a + 1 } else { self.places(other).start };
@@ -292,7 +304,10 @@ impl Tree {
                     self.places(leaf).flat_map(pair)
                 })
             })
-            .filter(|&(a, b)| !self.are_apart(a, b))
+            .filter(move |&(a, b)| {
+                step();
+                !self.are_apart(a, b)
+            })
     }
 
     /// Whether two boxes have no point in common, or are told apart by their kin.

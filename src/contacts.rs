@@ -44,10 +44,20 @@ struct Rim {
     border: Corner,
 }
 
+impl Rim {
+    /// Whether it is where a sheet of two sides ends.
+    fn is_of_sheet(&self, topology: &Topology) -> bool {
+        self.border.is_some() && topology.twin[self.border].is_some()
+    }
+}
+
 /// All that may rest on a mesh, in a tree: its own open borders, and what the caller told.
 pub struct Contacts {
-    /// `#rims`.
+    /// `#rims`, those that are alike next to each other, at one place: thousands of faces may meet at
+    /// one edge, and each of them asks what rests on it.
     rims: Vec<Rim>,
+    /// Where the rims of each place in the tree begin, and where the last end.
+    starts: Arc<[u32]>,
     tree: Arc<Tree>,
     /// Within this distance, in mesh units, something touches.
     tolerance: f64,
@@ -70,12 +80,36 @@ pub fn contacts(view: &View, topology: &Topology, faces: &Faces) -> Result<Conta
         radius: f64::from(held.radius),
         border: Corner::NONE,
     });
-    let rims: Vec<Rim> = borders.chain(outside).collect();
+    let (rims, starts) = side_by_side(topology, borders.chain(outside).collect());
     let tolerance = if rims.is_empty() { 0.0 } else { tolerance(view) };
-    let boxes: Vec<Aabb> =
-        rims.iter().map(|rim| around(rim.ends, rim.radius.max(tolerance))).collect();
+    let bounds = |&start: &u32| {
+        let Rim { ends, radius, .. } = rims[start as usize];
+        around(ends, radius.max(tolerance))
+    };
+    let boxes: Vec<Aabb> = starts[..starts.len() - 1].iter().map(bounds).collect();
     let tree = Tree::new(&boxes, &[]).into();
-    Ok(Contacts { rims, tree, tolerance })
+    Ok(Contacts { rims, starts: starts.into(), tree, tolerance })
+}
+
+/// Rims of the same ends, radius and kind next to each other, and where each such place begins, and
+/// where the last ends. Places stand in the order of the first rim of each.
+fn side_by_side(topology: &Topology, rims: Vec<Rim>) -> (Vec<Rim>, Vec<u32>) {
+    let key = |&rim: &u32| {
+        let rim = &rims[rim as usize];
+        let ends = rim.ends.map(|end| end.to_array().map(f64::to_bits));
+        (ends, rim.radius.to_bits(), rim.border.is_some(), rim.is_of_sheet(topology))
+    };
+    let mut order: Vec<u32> = (0..rims.len() as u32).collect();
+    order.sort_by_cached_key(key);
+    let mut groups: Vec<&[u32]> = order.chunk_by(|one, other| key(one) == key(other)).collect();
+    groups.sort_unstable_by_key(|group| group[0]);
+    let mut starts = vec![0];
+    starts.extend(groups.iter().scan(0, |end, group| {
+        *end += group.len() as u32;
+        Some(*end)
+    }));
+    let rims = groups.concat().into_iter().map(|rim| rims[rim as usize].clone()).collect();
+    (rims, starts)
 }
 
 /// The open borders of a mesh, in mesh units; none of a mesh that breaks a rule.
@@ -147,7 +181,8 @@ impl Contacts {
         let mut rims = self.rims.clone();
         let borders = rims.iter_mut().map(|rim| &mut rim.border).filter(|border| border.is_some());
         borders.for_each(|border| *border = name(*border));
-        Contacts { rims, tree: self.tree.clone(), ..*self }
+        let (starts, tree) = (self.starts.clone(), self.tree.clone());
+        Contacts { rims, starts, tree, tolerance: self.tolerance }
     }
 
     /// How many lines may rest on the mesh.
@@ -190,10 +225,10 @@ impl Contacts {
         if self.near(ends, self.tolerance * 3.0).next().is_none() {
             return false;
         }
-        if self
-            .near(ends, 0.0)
-            .any(|rim| rim.radius > self.tolerance && distance_between(rim.ends, ends) < rim.radius)
-        {
+        let is_ball = |rim: &Rim| {
+            rim.radius > self.tolerance && distance_between(rim.ends, ends) < rim.radius
+        };
+        if self.places_near(ends, 0.0).any(|rims| is_ball(&rims[0])) {
             return true;
         }
         let Some(wedge) = Wedge::new(view, faces, [side, topology.twin[side]]) else {
@@ -207,7 +242,8 @@ impl Contacts {
     /// Whether something other than the borders of a corner's own position runs through it.
     pub fn touch_corner(&self, view: &View, topology: &Topology, corner: Corner) -> bool {
         let (at, cluster) = ([view.position_at(corner); 2], topology.cluster_at[corner]);
-        self.near(at, 0.0).any(|rim| {
+        self.places_near(at, 0.0).any(|rims| {
+            let rim = &rims[0];
             let is_own = rim.border.is_some()
                 && [rim.border, rim.border.next()]
                     .iter()
@@ -228,8 +264,17 @@ impl Contacts {
 
     /// What may come within a distance of a segment.
     fn near(&self, segment: [DVec3; 2], reach: f64) -> impl Iterator<Item = &Rim> {
+        self.places_near(segment, reach).flatten()
+    }
+
+    /// The same, all rims at one place together: what does not depend on the fan that a rim ends is to
+    /// be asked of the first alone.
+    fn places_near(&self, segment: [DVec3; 2], reach: f64) -> impl Iterator<Item = &[Rim]> {
         let near = self.tree.overlapping(around(segment, reach));
-        near.map(|number| &self.rims[number as usize])
+        near.map(|place| {
+            let [from, to] = [0, 1].map(|k| self.starts[place as usize + k] as usize);
+            &self.rims[from..to]
+        })
     }
 
     /// The stretches of border that lie in the wedge that is cut off along an edge where both its
@@ -241,11 +286,14 @@ impl Contacts {
         wedge: &Wedge,
         width: f64,
     ) -> Few<Stretch> {
-        self.near(wedge.ends(), width + self.tolerance)
-            .filter_map(|rim| {
-                let stretch = wedge.clip(rim.ends, width, self.tolerance)?;
-                let is_own = rim.border.is_some() && is_own_border(topology, side, rim.border);
-                (!is_own).then_some(stretch)
+        let is_own = |rim: &Rim| rim.border.is_some() && is_own_border(topology, side, rim.border);
+        self.places_near(wedge.ends(), width + self.tolerance)
+            .filter_map(|rims| {
+                let stretch = wedge.clip(rims[0].ends, width, self.tolerance)?;
+                // Sheets at one place are all its own or none. Of the others a few are at most, so
+                // one that is not is soon met.
+                let asked = if rims[0].is_of_sheet(topology) { &rims[..1] } else { rims };
+                (!asked.iter().all(is_own)).then_some(stretch)
             })
             .collect()
     }

@@ -11,11 +11,17 @@ mod apart;
 mod crowds;
 mod eyes;
 
+use std::cell::Cell;
+
 use glam::DVec3;
 use robust::{Coord, Coord3D, orient2d, orient3d};
 
 use crate::bvh::{Aabb, Kin, Tree};
+use crate::error::Error;
 use crate::tolerance::NEARLY_FLAT;
+#[cfg(any(test, feature = "check"))]
+use crate::watch::Unwatched;
+use crate::watch::Watch;
 
 use apart::{are_apart, are_apart_but_for_corner};
 use eyes::Eyes;
@@ -27,6 +33,9 @@ pub(crate) type Triangle = [[f32; 3]; 3];
 /// With more boxes that overlap for each triangle, directions are asked too. Of a common mesh it is a
 /// dozen.
 const CROWDED: usize = 24;
+
+/// So many are told at a time.
+const MOST_STEPS: usize = 1024;
 
 /// The pairs of triangles that cut each other, the smaller number first, in ascending order.
 ///
@@ -48,8 +57,8 @@ pub(crate) fn self_intersections(
             };
             let (own, before) = (of(triangles), || of(source));
             let kin = crowds(&own).unwrap_or_default();
-            let pairs =
-                cutting_pairs(&own, &kin, before, &Asked { open: |_| true, pair: |_, _| true });
+            let all = Asked { open: |_| true, pair: |_, _| true };
+            let pairs = cutting_pairs(&own, &kin, before, &all, &Unwatched).unwrap_or_default();
             pairs.into_iter().map(|(a, b)| (part[a as usize], part[b as usize]))
         })
         .collect();
@@ -66,23 +75,31 @@ pub(crate) struct Asked<Open, Pair> {
 /// The pairs of triangles that cut each other, of those that are asked for; the smaller number
 /// first, in ascending order. `kin` is `#triangles`, or none where no crowd meets; where they
 /// met before they were pulled apart they are [seen](Eyes) from, if need be.
+///
+/// # Errors
+/// [`Error::Cancelled`] where the watch stops it.
 pub(crate) fn cutting_pairs<Open: Fn(u32) -> bool, Pair: Fn(u32, u32) -> bool>(
     triangles: &[Triangle],
     kin: &[Kin],
     source: impl Fn() -> Vec<Triangle>,
     asked: &Asked<Open, Pair>,
-) -> Vec<(u32, u32)> {
+    watch: &dyn Watch,
+) -> Result<Vec<(u32, u32)>, Error> {
+    watch.worked(triangles.len())?;
     let boxes: Vec<Aabb> = triangles.iter().map(bounds).collect();
     let tree = Tree::new(&boxes, kin);
     let few = triangles.len().saturating_mul(CROWDED);
-    let found = cutting_within(&tree, triangles, asked, few);
-    let mut pairs = found.unwrap_or_else(|| {
-        let eyes = Eyes::of(&[&source(), triangles].concat());
-        let tree = tree.with_views(&eyes.views(triangles));
-        cutting_within(&tree, triangles, asked, usize::MAX).unwrap_or_default()
-    });
+    let mut pairs = match cutting_within(&tree, triangles, asked, few, watch)? {
+        Some(pairs) => pairs,
+        None => {
+            let eyes = Eyes::of(&[&source(), triangles].concat());
+            let tree = tree.with_views(&eyes.views(triangles));
+            watch.worked(triangles.len())?;
+            cutting_within(&tree, triangles, asked, usize::MAX, watch)?.unwrap_or_default()
+        }
+    };
     pairs.sort_unstable();
-    pairs
+    Ok(pairs)
 }
 
 /// The same in no order, without looking at more than `most` pairs; none where there are more.
@@ -91,19 +108,25 @@ fn cutting_within<Open: Fn(u32) -> bool, Pair: Fn(u32, u32) -> bool>(
     triangles: &[Triangle],
     asked: &Asked<Open, Pair>,
     most: usize,
-) -> Option<Vec<(u32, u32)>> {
+    watch: &dyn Watch,
+) -> Result<Option<Vec<(u32, u32)>>, Error> {
     let corners = |t: u32| &triangles[t as usize];
     let (mut pairs, open) = (Vec::new(), tree.open_leaves(&asked.open));
-    for (looked_at, (a, b)) in tree.pairs(&open).enumerate() {
+    let steps = Cell::new(0);
+    let step = || steps.set(steps.get() + 1);
+    for (looked_at, (a, b)) in tree.pairs_counted(&open, &step).enumerate() {
         if looked_at == most {
-            return None;
+            return Ok(None);
+        }
+        if steps.get() >= MOST_STEPS {
+            watch.worked(steps.take())?;
         }
         let (a, b) = (tree.number(a), tree.number(b));
         if (asked.pair)(a, b) && cut_each_other(corners(a), corners(b)) {
             pairs.push((a.min(b), a.max(b)));
         }
     }
-    Some(pairs)
+    Ok(Some(pairs))
 }
 
 /// A triangle with two corners at one place cuts nothing, so it meets nothing: otherwise many at
@@ -428,16 +451,20 @@ mod tests {
         (0..count).flat_map(|number| sides(spike(number))).collect()
     }
 
+    fn within(tree: &Tree, triangles: &[Triangle], most: usize) -> Option<Vec<(u32, u32)>> {
+        let all = Asked { open: |_| true, pair: |_, _| true };
+        cutting_within(tree, triangles, &all, most, &Unwatched).unwrap()
+    }
+
     #[test]
     fn what_boxes_do_not_tell_apart_is_seen_apart_from_the_middle() {
         let triangles = spikes(2000);
         let boxes: Vec<Aabb> = triangles.iter().map(bounds).collect();
-        let all = Asked { open: |_| true, pair: |_, _| true };
         let few = triangles.len() * CROWDED;
         let tree = Tree::new(&boxes, &[]);
-        assert!(cutting_within(&tree, &triangles, &all, few).is_none(), "boxes do not tell");
+        assert!(within(&tree, &triangles, few).is_none(), "boxes do not tell");
         let tree = tree.with_views(&Eyes::of(&triangles).views(&triangles));
-        assert!(cutting_within(&tree, &triangles, &all, few).is_some(), "eyes do");
+        assert!(within(&tree, &triangles, few).is_some(), "eyes do");
     }
 
     #[test]
@@ -457,8 +484,7 @@ mod tests {
         assert!(expected.len() > 20, "{}", expected.len());
         let boxes: Vec<Aabb> = triangles.iter().map(bounds).collect();
         let tree = Tree::new(&boxes, &[]).with_views(&Eyes::of(&triangles).views(&triangles));
-        let all = Asked { open: |_| true, pair: |_, _| true };
-        let mut found = cutting_within(&tree, &triangles, &all, usize::MAX).unwrap();
+        let mut found = within(&tree, &triangles, usize::MAX).unwrap();
         found.sort_unstable();
         assert_eq!(found, expected);
     }

@@ -106,6 +106,7 @@ mod unpaired;
 mod validity;
 mod verdicts;
 mod view;
+mod watch;
 mod weld;
 
 pub use error::{Error, Stream};

@@ -18,6 +18,7 @@ use crate::ids::{IdVec, Ring, Sector};
 use crate::options::Verify;
 use crate::placement::Placement;
 use crate::report::Reason;
+use crate::watch::Watch;
 
 pub use elements::Element;
 
@@ -51,11 +52,13 @@ pub struct Limits<'a> {
 /// The most that is sound, up to the room that each sector has (`room: #sectors`).
 ///
 /// # Errors
-/// [`Error::OutOfMemory`] where what collisions need is not to be had.
+/// [`Error::OutOfMemory`] where what collisions need is not to be had, and [`Error::Cancelled`]
+/// where the watch stops it.
 pub fn limits<'a>(
     given: &Given<'a>,
     room: &IdVec<Sector, f64>,
     verify: Verify,
+    watch: &dyn Watch,
 ) -> Result<Limits<'a>, Error> {
     let mut limits = bounded(given, room);
     let bad = bad_elements(given, &limits.placement);
@@ -64,7 +67,7 @@ pub fn limits<'a>(
         grow(given, room, &mut limits);
     }
     if verify != Verify::Fast {
-        collisions::resolve(given, &mut limits)?;
+        collisions::resolve(given, &mut limits, watch)?;
     }
     Ok(limits)
 }
@@ -72,14 +75,16 @@ pub fn limits<'a>(
 /// What cuts where strips and fills are rounded gets less so: see [`collisions::lessen_cuts`].
 ///
 /// # Errors
-/// [`Error::OutOfMemory`] where what collisions need is not to be had.
+/// [`Error::OutOfMemory`] where what collisions need is not to be had, and [`Error::Cancelled`]
+/// where the watch stops it.
 pub fn lessen_cuts<S: Sync>(
     given: &Given,
     placement: &Placement,
     (state, rounded): (&mut S, &collisions::Rounded<S>),
+    watch: &dyn Watch,
     lessen: impl FnMut(&mut S, &[Element]) -> bool,
 ) -> Result<(), Error> {
-    collisions::lessen_cuts(given, placement, state, rounded, lessen)
+    collisions::lessen_cuts(given, placement, state, rounded, watch, lessen)
 }
 
 /// Every sector at the width that its own triangles leave room for.

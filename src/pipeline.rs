@@ -37,6 +37,7 @@ use crate::topology::topology;
 use crate::unpaired::{unpaired, with_verdicts};
 use crate::verdicts::verdicts;
 use crate::view::{View, measured, view};
+use crate::watch::{Caller, STEPS, Watch};
 use crate::weld::{Weld, weld};
 
 /// Chamfers all hard edges of a mesh: the method of the thesis (Algma 2018, chapter 6), as
@@ -51,7 +52,8 @@ pub fn chamfer(mesh: &Mesh, options: &Options) -> Result<Chamfered, Error> {
     chamfer_with_progress(mesh, options, &mut |_| ControlFlow::Continue(()))
 }
 
-/// As [`chamfer`], calling `progress` between stages with the share done (0 to 1).
+/// As [`chamfer`], calling `progress` between stages, and again and again within the longest, with
+/// the share done (0 to 1).
 ///
 /// # Errors
 /// As [`chamfer`]; [`Error::Cancelled`] where `progress` breaks.
@@ -123,8 +125,8 @@ impl Stage {
     }
 }
 
-/// Told whenever a stage ends; an error ends the call.
-type Done<'a> = dyn FnMut(Stage) -> Result<(), Error> + 'a;
+/// Told whenever a stage ends, and of none where one goes on; an error ends the call.
+type Done<'a> = dyn FnMut(Option<Stage>) -> Result<(), Error> + 'a;
 
 /// Chamfers a mesh, a large one of many parts block by block.
 fn chamfer_by_blocks(
@@ -142,7 +144,11 @@ fn chamfer_by_blocks(
                 each_block(&view, &blocks, options, progress)
             }
             None => {
-                chamfer_welded(view, weld, options, &mut |stage| told(progress(stage.share_done())))
+                let mut share = 0.0;
+                chamfer_welded(view, weld, options, &mut |stage| {
+                    share = stage.map_or(share, Stage::share_done);
+                    told(progress(share))
+                })
             }
         }
     })
@@ -157,22 +163,22 @@ fn each_block(
 ) -> Result<Chamfered, Error> {
     let threads = &Threads::new(options.threads, view.corner_count());
     let alone = &Options { threads: 1, ..*options };
-    let chamfered = |block: usize| {
+    let chamfered = |watch: &dyn Watch, block: usize| {
         let own = cut(view, blocks, block);
         let mesh = Mesh { factors: view.mesh.factors, ..own.as_mesh() };
         let view = View { mesh, ..*view };
         let weld = weld(&view.mesh);
-        chamfer_welded(view, weld, alone, &mut |_| Ok(()))
+        chamfer_welded(view, weld, alone, &mut |_| watch.worked(STEPS))
     };
     let mut results = Vec::with_capacity(blocks.len());
     let all: Vec<usize> = (0..blocks.len()).collect();
     for some in all.chunks(BLOCKS_AT_ONCE * threads.count()) {
-        let done = threads.map_large(some, || (), |(), &block| chamfered(block));
-        for result in done {
-            results.push(result?);
-        }
-        let share = results.len() as f32 / blocks.len() as f32;
-        told(progress(share * SHARE_OF_BLOCKS))?;
+        let share = |done: usize| done as f32 / blocks.len() as f32 * SHARE_OF_BLOCKS;
+        let mut ask = || told(progress(share(results.len())));
+        let watch = Caller::new(&mut ask);
+        let done = threads.map_watched(some, &watch, |watch, &block| chamfered(watch, block))?;
+        results.extend(done);
+        told(progress(share(results.len())))?;
     }
     let counts = |count: fn(&Chamfered) -> usize| results.iter().map(count).sum::<usize>();
     let (vertices, triangles) =
@@ -205,9 +211,9 @@ pub fn chamfer_by_stages(
     options: &Options,
     after: &mut dyn FnMut(Stage) -> ControlFlow<()>,
 ) -> Result<Chamfered, Error> {
-    let done = &mut |stage: Stage| told(after(stage));
+    let done = &mut |stage: Option<Stage>| stage.map_or(Ok(()), |stage| told(after(stage)));
     turned_right(mesh, options, |view| {
-        done(Stage::View)?;
+        done(Some(Stage::View))?;
         let weld = weld(&view.mesh);
         chamfer_welded(view, weld, options, done)
     })
@@ -236,7 +242,7 @@ fn chamfer_welded(
     options: &Options,
     done: &mut Done,
 ) -> Result<Chamfered, Error> {
-    done(Stage::Weld)?;
+    done(Some(Stage::Weld))?;
     let scale = Scale::new(options)?;
     if scale.is_some() {
         memory::ask(memory::of_measured(&view.mesh))?;
@@ -251,7 +257,7 @@ fn chamfer_welded(
         memory::ask(memory::of_copy(&view.mesh))?;
         unchanged(&view, options.chamfer_submesh)
     };
-    done(Stage::Output)?;
+    done(Some(Stage::Output))?;
     Ok(chamfered)
 }
 
@@ -273,7 +279,7 @@ fn chamfer_hard(
     let chamfered = match refined {
         Some(refined) => chamfer_refined(space, (shape, offsets), &refined, options, done),
         None => {
-            done(Stage::Offsets)?;
+            done(Some(Stage::Offsets))?;
             chamfer_shape(space, (shape, offsets), options, (threads, done))
         }
     };
@@ -290,17 +296,17 @@ pub(crate) fn shape(
 ) -> Result<Shape, Error> {
     memory::ask(memory::up_to_edges(&view.mesh))?;
     let topology = topology(view, &weld);
-    done(Stage::Topology)?;
+    done(Some(Stage::Topology))?;
     let faces = faces(view, &topology, threads);
-    done(Stage::Faces)?;
+    done(Some(Stage::Faces))?;
     let contacts = contacts(view, &topology, &faces)?;
-    done(Stage::Contacts)?;
+    done(Some(Stage::Contacts))?;
     let selection = selection(view, &weld, options);
     let edges = edges(view, &topology, &faces, &contacts, &selection);
-    done(Stage::Edges)?;
+    done(Some(Stage::Edges))?;
     memory::ask(memory::of_sectors(edges.hard.len()))?;
     let sectors = sectors(view, &topology, &edges, &contacts);
-    done(Stage::Sectors)?;
+    done(Some(Stage::Sectors))?;
     Ok(Shape { weld, topology, faces, contacts, edges, sectors })
 }
 
@@ -319,13 +325,13 @@ fn chamfer_refined(
     let fine = &View { mesh: refined.as_mesh(&view.mesh), ..*view };
     let threads = &Threads::new(options.threads, fine.corner_count());
     let Some(finer) = finer_shape(fine, refined, &shape) else {
-        done(Stage::Offsets)?;
+        done(Some(Stage::Offsets))?;
         return chamfer_shape(space, (shape, offsets), options, (threads, done));
     };
     let known = Known { sectors: &shape.sectors, offsets: &offsets, is_new: &refined.is_new() };
     memory::ask(memory::of_chamfers(&fine.mesh, finer.chamfers().work()))?;
     let offsets = find_offsets(finer.surface(fine), finer.chamfers(), Some(&known), threads);
-    done(Stage::Offsets)?;
+    done(Some(Stage::Offsets))?;
     let hard = finer.edges.hard.clone();
     let origins = Origins::new(&view.mesh, refined, &shape.edges.hard, &hard);
     let fine_space = Space { source: fine, measured: fine, scale: None };
@@ -379,9 +385,11 @@ fn make(
     let room = evenness(asked, room(asked), options.evenness.into());
     let offsets = &*narrowed(surface, chamfers.sectors, offsets, &room.fronts);
     let given = &Given { offsets, ..*asked };
-    let limits = limits(given, &room.shares(), options.verify)?;
+    let limits = limits(given, &room.shares(), options.verify, &Caller::new(&mut || done(None)))?;
     let placement = &limits.placement;
-    done(Stage::Limits)?;
+    done(Some(Stage::Limits))?;
+    let mut ask = || done(None);
+    let watch = Caller::new(&mut ask);
     let patches = patches(view, chamfers, placement, threads);
     let search = |rows: &mut Rows, triangles: &Triangles, lessen: &mut Lessen| {
         let patch = |element: Element| match element {
@@ -393,18 +401,18 @@ fn make(
         let lessen = |rows: &mut Rows, cutting: &[Element]| {
             lessen(rows, &cutting.iter().filter_map(|&e| patch(e)).collect::<Vec<_>>())
         };
-        lessen_cuts(given, placement, (rows, &rounded), lessen)
+        lessen_cuts(given, placement, (rows, &rounded), &watch, lessen)
     };
     let profile = options.profile.into();
     let round = Rounds { view, chamfers, placement, profile };
     let search: Option<&Search> = (options.verify != Verify::Fast).then_some(&search);
     let rounding = rounding(round, &patches, options.segments, threads, search)?;
     let verdicts = verdicts(view, chamfers, &limits, (&patches, rounding.as_ref()));
-    done(Stage::Patches)?;
+    done(Some(Stage::Patches))?;
     let attributes = attributes(space, surface, weld, chamfers, placement);
-    done(Stage::Attributes)?;
+    done(Some(Stage::Attributes))?;
     let charts = charts(surface, chamfers, placement, &patches, &attributes, threads);
-    done(Stage::Charts)?;
+    done(Some(Stage::Charts))?;
     let flaps = flaps(surface, chamfers, placement);
     Ok(Made { patches, rounding, charts, flaps, attributes, verdicts })
 }

@@ -24,6 +24,7 @@ use crate::surface::Surface;
 use crate::threads::Threads;
 use crate::topology::{Topology, topology};
 use crate::view::{View, view};
+use crate::watch::Unwatched;
 use crate::weld::{Weld, weld};
 
 /// What each stage has made of a mesh.
@@ -111,7 +112,7 @@ impl Stages<'_> {
         let (surface, chamfers) = (self.surface(), self.chamfers());
         let Stages { narrowed, room, rests, deep, threads, .. } = self;
         let given = &Given { surface, chamfers, offsets: narrowed, rests, deep, threads };
-        limits(given, &room.shares(), verify).unwrap()
+        limits(given, &room.shares(), verify, &Unwatched).unwrap()
     }
 
     fn space(&self) -> Space<'_> {

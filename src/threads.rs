@@ -3,7 +3,16 @@
 //! Every value is computed by itself and put at its own place, so the result is the same for any
 //! number of threads.
 
+#[cfg(feature = "parallel")]
+use std::sync::mpsc::{RecvTimeoutError, channel};
+#[cfg(feature = "parallel")]
+use std::time::Duration;
+
+use crate::error::Error;
 use crate::ids::{Id, IdVec};
+use crate::watch::Watch;
+#[cfg(feature = "parallel")]
+use crate::watch::{Flag, STEPS};
 
 /// With less work than this in one stage, waking another thread takes longer than doing it.
 #[cfg(feature = "parallel")]
@@ -15,6 +24,10 @@ const BLOCK: usize = 256;
 /// Up to so many threads, one for each core, however many are asked for.
 #[cfg(feature = "parallel")]
 const MOST_THREADS: usize = 64;
+
+/// So long the calling thread waits for the others before it asks the caller.
+#[cfg(feature = "parallel")]
+const PATIENCE: Duration = Duration::from_millis(20);
 
 /// The threads of one call.
 #[derive(Debug, Default)]
@@ -151,6 +164,27 @@ impl Threads {
         items.iter().map(|item| value(&mut scratch, item)).collect()
     }
 
+    /// As [`Threads::map_large`], where the work reports to a watch, and may be stopped.
+    ///
+    /// # Errors
+    /// What `watch` gives, or else the first that a value gives.
+    pub fn map_watched<I: Sync, T: Send>(
+        &self,
+        items: &[I],
+        watch: &dyn Watch,
+        value: impl Fn(&dyn Watch, &I) -> Result<T, Error> + Sync + Send,
+    ) -> Result<Vec<T>, Error> {
+        #[cfg(feature = "parallel")]
+        if let Some(pool) = &self.pool {
+            use rayon::prelude::*;
+            let flag = Flag::default();
+            let each = |item| value(&flag, item);
+            let all = || items.par_iter().with_max_len(1).map(each).collect::<Vec<_>>();
+            return waited_for(pool, (watch, &flag), all)?.into_iter().collect();
+        }
+        items.iter().map(|item| value(watch, item)).collect()
+    }
+
     /// The ids that are such, in ascending order.
     pub fn filter<I: Id + Send>(
         &self,
@@ -167,10 +201,40 @@ impl Threads {
     }
 }
 
+/// Does some work on a pool, while the calling thread asks whether it is to go on, and raises the
+/// flag if not.
+#[cfg(feature = "parallel")]
+fn waited_for<T: Default + Send>(
+    pool: &rayon::ThreadPool,
+    (watch, flag): (&dyn Watch, &Flag),
+    work: impl FnOnce() -> T + Send,
+) -> Result<T, Error> {
+    let (mut result, mut answer) = (T::default(), Ok(()));
+    // Nothing is sent: that the sender is gone tells that the work is done.
+    let (sender, done) = channel::<()>();
+    pool.in_place_scope(|scope| {
+        let result = &mut result;
+        scope.spawn(move |_| {
+            let _held = sender;
+            *result = work();
+        });
+        while done.recv_timeout(PATIENCE) == Err(RecvTimeoutError::Timeout) {
+            answer = answer.and_then(|()| watch.worked(STEPS));
+            if answer.is_err() {
+                flag.raise();
+            }
+        }
+    });
+    answer.map(|()| result)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::cell::Cell;
+
     use crate::ids::Vertex;
+    use crate::watch::Unwatched;
 
     #[test]
     fn each_value_is_at_its_place_whatever_the_threads() {
@@ -184,6 +248,34 @@ mod tests {
             assert_eq!(counted, (1..10).collect::<Vec<u32>>());
             let odd = threads.filter(10_000, |vertex: Vertex| vertex.0 % 2 == 1);
             assert!(odd.into_iter().eq((0..5_000).map(|half| Vertex(2 * half + 1))));
+        }
+    }
+
+    /// Stops when it is asked the third time.
+    struct Impatient(Cell<u32>);
+
+    impl Watch for Impatient {
+        fn worked(&self, _: usize) -> Result<(), Error> {
+            self.0.set(self.0.get() + 1);
+            if self.0.get() < 3 { Ok(()) } else { Err(Error::Cancelled) }
+        }
+    }
+
+    #[test]
+    fn work_without_end_can_be_stopped() {
+        for threads in [1, 2, 5] {
+            let (threads, watch) = (Threads::new(threads, 100_000), Impatient(Cell::new(0)));
+            let work = |watch: &dyn Watch, _: &u32| -> Result<(), Error> {
+                loop {
+                    watch.worked(1)?;
+                }
+            };
+            let stopped = threads.map_watched(&[0; 9], &watch, work);
+            assert!(matches!(stopped, Err(Error::Cancelled)));
+            assert_eq!(watch.0.get(), 3, "who has said so is asked no more");
+            let work = |watch: &dyn Watch, k: &u32| watch.worked(1).map(|()| k + 1);
+            let all = threads.map_watched(&[1, 2], &Unwatched, work).unwrap();
+            assert_eq!(all, [2, 3]);
         }
     }
 

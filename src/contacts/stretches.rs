@@ -24,7 +24,8 @@ impl Contacts {
     ) -> Few<[f64; 2]> {
         let ends = [side, side.next()].map(|corner| view.position_at(corner));
         let slack = self.tolerance * HOLD_SLACK;
-        let balls = self.near(ends, 0.0).filter(|rim| rim.radius > self.tolerance);
+        let first = self.places_near(ends, 0.0).map(|rims| &rims[0]);
+        let balls = first.filter(|rim| rim.radius > self.tolerance);
         let mut all: Few<[f64; 2]> =
             balls.filter_map(|rim| within(ends, rim.ends, rim.radius, slack)).collect();
         if let Some(wedge) = Wedge::new(view, faces, [side, topology.twin[side]]) {

@@ -144,3 +144,21 @@ fn segments_are_as_far_as_their_nearest_points() {
     assert_eq!(distance([[0.0; 3]; 2], [[0.0, 3.0, 4.0]; 2]), 5.0, "two points");
     assert_eq!(distance(along_x, [[-3.0, 1.0, 0.0], [3.0, 1.0, 0.0]]), 1.0, "side by side");
 }
+
+//   A, B and C are one line, told three times; D runs the other way, and E is thicker.
+#[test]
+fn lines_that_are_alike_are_one_place_in_the_order_of_the_first() {
+    let [from, to] = EDGE;
+    let [thin, back, thick] = [(from, to, 0.0), (to, from, 0.0), (from, to, 0.5)]
+        .map(|(from, to, radius)| Held { from, to, radius });
+    let (mesh, held) = (cube(), [thin, back, thin, thick, thin]);
+    let mesh = Mesh { held: &held, ..mesh.as_mesh() };
+    let view = view(&mesh, &Options::default()).unwrap();
+    let topology = topology(&view, &weld(&mesh));
+    let faces = faces(&view, &topology, &Threads::default());
+    let contacts = contacts(&view, &topology, &faces).unwrap();
+    assert_eq!(contacts.starts[..], [0, 3, 4, 5]);
+    let near: Vec<_> = contacts.places_near(EDGE.map(wide), 0.0).map(<[Rim]>::len).collect();
+    assert_eq!(near, [3, 1, 1]);
+    assert_eq!(contacts.near(EDGE.map(wide), 0.0).count(), 5);
+}

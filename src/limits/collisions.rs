@@ -20,6 +20,7 @@ use crate::placement::Placement;
 use crate::report::Reason;
 use crate::strips;
 use crate::topology::solids;
+use crate::watch::Watch;
 
 use super::crowds::{Crowd, Crowds, crowds};
 use super::elements::{Element, around, flap_joints, sectors_of};
@@ -36,17 +37,19 @@ const GIVE_BACK_ROUNDS: usize = 3;
 /// back what is safe.
 ///
 /// # Errors
-/// [`Error::OutOfMemory`] where what searching the parts needs is not to be had.
-pub fn resolve(given: &Given, limits: &mut Limits) -> Result<(), Error> {
+/// [`Error::OutOfMemory`] where what searching the parts needs is not to be had, and
+/// [`Error::Cancelled`] where the watch stops it.
+pub fn resolve(given: &Given, limits: &mut Limits, watch: &dyn Watch) -> Result<(), Error> {
     let parts = parts(given);
     memory::ask(memory::of_collisions(most_searched(given, &parts)))?;
     // Most parts are clean, and no part has a say in another: so all can be searched at once.
-    let cuts = |(): &mut (), part: &Part| part.new_cuts(&limits.placement, &part.elements);
-    let cuts = given.threads.map_large(&parts, || (), cuts);
+    let cuts =
+        |watch: &dyn Watch, part: &Part| part.new_cuts(&limits.placement, &part.elements, watch);
+    let cuts = given.threads.map_watched(&parts, watch, cuts)?;
     let free = limits.placement.share.clone();
     for (part, cuts) in parts.iter().zip(cuts).filter(|(_, cuts)| !cuts.is_empty()) {
-        let shrunk = shrink_cuts(given, limits, part, cuts);
-        give_back(given, limits, part, &shrunk, &free);
+        let shrunk = shrink_cuts(given, limits, (part, watch), cuts)?;
+        give_back(given, limits, (part, watch), (&shrunk, &free))?;
     }
     Ok(())
 }
@@ -55,12 +58,14 @@ pub fn resolve(given: &Given, limits: &mut Limits) -> Result<(), Error> {
 /// until nothing cuts that did not in the source, or `lessen` leaves the state as it is.
 ///
 /// # Errors
-/// [`Error::OutOfMemory`] where what searching the parts needs is not to be had.
+/// [`Error::OutOfMemory`] where what searching the parts needs is not to be had, and
+/// [`Error::Cancelled`] where the watch stops it.
 pub fn lessen_cuts<S: Sync>(
     given: &Given,
     placement: &Placement,
     state: &mut S,
     rounded: &Rounded<S>,
+    watch: &dyn Watch,
     mut lessen: impl FnMut(&mut S, &[Element]) -> bool,
 ) -> Result<(), Error> {
     let parts = parts(given);
@@ -69,12 +74,12 @@ pub fn lessen_cuts<S: Sync>(
         let shared: &S = state;
         let lay = |element: Element| rounded(shared, element);
         memory::ask(memory::of_collisions(most_rounded(given, &left, &lay)))?;
-        let cuts = |(): &mut (), part: &&Part| {
+        let cuts = |watch: &dyn Watch, part: &&Part| {
             let open = part.elements.iter().copied().filter(|&element| lay(element).is_some());
             let open: Vec<Element> = open.collect();
-            part.new_cuts_of(placement, &open, Some(&lay))
+            part.new_cuts_of(placement, &open, Some(&lay), watch)
         };
-        let cuts = given.threads.map_large(&left, || (), cuts);
+        let cuts = given.threads.map_watched(&left, watch, cuts)?;
         left = left.into_iter().zip(&cuts).filter(|(_, c)| !c.is_empty()).map(|(p, _)| p).collect();
         if left.is_empty() || !lessen(state, &cuts.concat()) {
             return Ok(());
@@ -107,9 +112,9 @@ fn most_searched(given: &Given, parts: &[Part]) -> usize {
 fn shrink_cuts(
     given: &Given,
     limits: &mut Limits,
-    part: &Part,
+    (part, watch): (&Part, &dyn Watch),
     mut cutting: Vec<Element>,
-) -> Vec<Sector> {
+) -> Result<Vec<Sector>, Error> {
     let mut all = Vec::new();
     for round in 0.. {
         let mut shrunk = Vec::new();
@@ -122,12 +127,12 @@ fn shrink_cuts(
         apply(given, limits, round, &mut shrunk);
         let bad = bad_around(given, &limits.placement, &shrunk);
         shrunk.extend(shrink(given, limits, bad));
-        cutting = part.cuts_now(&limits.placement, cutting, &shrunk);
+        cutting = part.cuts_now(&limits.placement, cutting, &shrunk, watch)?;
         all.extend(shrunk);
     }
     all.sort_unstable();
     all.dedup();
-    all
+    Ok(all)
 }
 
 /// Bisects the shares of all sectors that lost some, together: whatever takes part in a cut goes
@@ -135,10 +140,9 @@ fn shrink_cuts(
 fn give_back(
     given: &Given,
     limits: &mut Limits,
-    part: &Part,
-    shrunk: &[Sector],
-    free: &IdVec<Sector, f64>,
-) {
+    (part, watch): (&Part, &dyn Watch),
+    (shrunk, free): (&[Sector], &IdVec<Sector, f64>),
+) -> Result<(), Error> {
     let mut tries: Vec<Try> = shrunk
         .iter()
         .map(|&sector| (sector, limits.placement.share[sector], free[sector]))
@@ -147,13 +151,13 @@ fn give_back(
         .collect();
     let sectors: Vec<Sector> = tries.iter().map(|each| each.sector).collect();
     if tries.is_empty() {
-        return;
+        return Ok(());
     }
     for _ in 0..GIVE_BACK_ROUNDS {
         for each in &tries {
             limits.placement.set(each.sector, (each.safe + each.unsafe_from) / 2.0);
         }
-        let mut cutting = part.cuts_now(&limits.placement, Vec::new(), &sectors);
+        let mut cutting = part.cuts_now(&limits.placement, Vec::new(), &sectors, watch)?;
         loop {
             let mut bad = cutting.clone();
             bad.extend(bad_around(given, &limits.placement, &sectors));
@@ -165,12 +169,13 @@ fn give_back(
             if back.is_empty() {
                 break;
             }
-            cutting = part.cuts_now(&limits.placement, cutting, &back);
+            cutting = part.cuts_now(&limits.placement, cutting, &back, watch)?;
         }
         for each in &mut tries {
             each.safe = limits.placement.share[each.sector];
         }
     }
+    Ok(())
 }
 
 /// A sector that lost some of its share: what is safe for it, and what is not.
@@ -230,17 +235,23 @@ impl Part<'_> {
         placement: &Placement,
         before: Vec<Element>,
         moved: &[Sector],
-    ) -> Vec<Element> {
+        watch: &dyn Watch,
+    ) -> Result<Vec<Element>, Error> {
         let mut open = before;
         open.extend(around(self.given, moved));
         open.sort_unstable_by_key(|element| element.key());
-        self.new_cuts(placement, &open)
+        self.new_cuts(placement, &open, watch)
     }
 
     /// The elements that take part in a cut in which one of the open ones does, in order; none
     /// where the part cut through itself already. `open` in order.
-    fn new_cuts(&self, placement: &Placement, open: &[Element]) -> Vec<Element> {
-        self.new_cuts_of(placement, open, None)
+    fn new_cuts(
+        &self,
+        placement: &Placement,
+        open: &[Element],
+        watch: &dyn Watch,
+    ) -> Result<Vec<Element>, Error> {
+        self.new_cuts_of(placement, open, None, watch)
     }
 
     fn new_cuts_of(
@@ -248,7 +259,9 @@ impl Part<'_> {
         placement: &Placement,
         open: &[Element],
         rounded: Option<&Lay>,
-    ) -> Vec<Element> {
+        watch: &dyn Watch,
+    ) -> Result<Vec<Element>, Error> {
+        watch.worked(self.elements.len())?;
         let laid = self.lay_out(placement, open, rounded);
         let triangles: Vec<Triangle> = laid.iter().map(|each| each.corners).collect();
         let open = |number: u32| laid[number as usize].is_open;
@@ -257,24 +270,26 @@ impl Part<'_> {
             (a.is_open | b.is_open) & (a.is_changed | b.is_changed)
         };
         let (kin, source) = (self.kin(placement, &laid), || self.source_triangles());
-        let pairs = cutting_pairs(&triangles, &kin, source, &Asked { open, pair });
-        if pairs.is_empty() || self.was_cut() {
-            return Vec::new();
+        let pairs = cutting_pairs(&triangles, &kin, source, &Asked { open, pair }, watch)?;
+        if pairs.is_empty() || self.was_cut(watch)? {
+            return Ok(Vec::new());
         }
         let mut places: Vec<u32> =
             pairs.iter().flat_map(|&(a, b)| [a, b]).map(|t| laid[t as usize].element).collect();
         places.sort_unstable();
         places.dedup();
-        places.into_iter().map(|place| self.elements[place as usize]).collect()
+        Ok(places.into_iter().map(|place| self.elements[place as usize]).collect())
     }
 
-    fn was_cut(&self) -> bool {
-        *self.was_cut.get_or_init(|| {
-            let triangles = self.source_triangles();
-            let kin = intersect::crowds(&triangles).unwrap_or_default();
-            let all = Asked { open: |_| true, pair: |_, _| true };
-            !cutting_pairs(&triangles, &kin, Vec::new, &all).is_empty()
-        })
+    fn was_cut(&self, watch: &dyn Watch) -> Result<bool, Error> {
+        if let Some(&known) = self.was_cut.get() {
+            return Ok(known);
+        }
+        let triangles = self.source_triangles();
+        let kin = intersect::crowds(&triangles).unwrap_or_default();
+        let all = Asked { open: |_| true, pair: |_, _| true };
+        let was_cut = !cutting_pairs(&triangles, &kin, Vec::new, &all, watch)?.is_empty();
+        Ok(*self.was_cut.get_or_init(|| was_cut))
     }
 
     /// The part as it was.
@@ -425,12 +440,15 @@ fn parts<'a>(given: &'a Given<'a>) -> Vec<Part<'a>> {
 
 #[cfg(test)]
 mod tests {
+    use std::cell::RefCell;
+
     use super::*;
     use crate::given::tests::given_of;
     use crate::intersect::cut_each_other;
     use crate::mesh::MeshBuffers;
     use crate::shapes;
     use crate::stages::stages_of;
+    use crate::watch::Unwatched;
 
     /// For each part, how many elements it has.
     fn sizes(mesh: &MeshBuffers) -> Vec<usize> {
@@ -451,7 +469,7 @@ mod tests {
         let placement = stages.placed(share);
         let given = given_of(&stages);
         let parts = parts(&given);
-        let found = parts[0].new_cuts(&placement, &parts[0].elements);
+        let found = parts[0].new_cuts(&placement, &parts[0].elements, &Unwatched).unwrap();
         assert_eq!(found, each_with_each(&parts[0], &placement));
         found.len()
     }
@@ -484,5 +502,43 @@ mod tests {
     #[test]
     fn all_cuts_in_crowds_are_found() {
         assert!(cutting(&shapes::pyramid(60), 0.3, 1.0) > 0);
+    }
+
+    /// Notes what it is told, and stops the work when it is told so often.
+    struct Notes {
+        told: RefCell<Vec<usize>>,
+        last: usize,
+    }
+
+    impl Watch for Notes {
+        fn worked(&self, steps: usize) -> Result<(), Error> {
+            self.told.borrow_mut().push(steps);
+            if self.told.borrow().len() < self.last { Ok(()) } else { Err(Error::Cancelled) }
+        }
+    }
+
+    /// A pyramid of many sides that shrinks, watched.
+    fn watched(last: usize) -> (Result<(), Error>, Vec<usize>) {
+        let mesh = shapes::pyramid(600);
+        let stages = stages_of(&mesh, 0.3);
+        let (given, placement) = (given_of(&stages), stages.placed(1.0));
+        let reason = IdVec::filled(Reason::None, stages.offsets.len());
+        let notes = Notes { told: RefCell::default(), last };
+        let result = resolve(&given, &mut Limits { placement, reason }, &notes);
+        (result, notes.told.into_inner())
+    }
+
+    #[test]
+    fn the_caller_is_told_of_all_steps_a_few_at_a_time_and_can_stop_at_each() {
+        let (result, told) = watched(usize::MAX);
+        assert!(result.is_ok());
+        // Its 1,198 faces, 600 strips of two and 601 fills, of which one has 600 sides, in a tree.
+        let most = told.iter().max().unwrap();
+        assert!(*most < 2 * 4_000, "{most} steps between two calls");
+        assert!(told.iter().sum::<usize>() > 50 * 4_000 && told.len() > 100, "{}", told.len());
+        for last in (1..=told.len()).step_by(told.len() / 40) {
+            let (result, told) = watched(last);
+            assert!(matches!(result, Err(Error::Cancelled)) && told.len() == last);
+        }
     }
 }

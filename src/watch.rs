@@ -1,0 +1,94 @@
+//! Watch: inside of long work the caller is told that it goes on, and may stop it.
+
+use std::cell::{Cell, RefCell};
+#[cfg(feature = "parallel")]
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use crate::error::Error;
+
+/// After so many steps the caller is told. The longest, two triangles compared exactly, takes two
+/// millionths of a second; so this is well below the twentieth that a caller waits.
+pub const STEPS: usize = 1 << 14;
+
+/// What long work reports to.
+pub trait Watch {
+    /// So many more steps have been made.
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`] where the work is to stop.
+    fn worked(&self, steps: usize) -> Result<(), Error>;
+}
+
+/// Asks the caller, on the caller's own thread.
+pub struct Caller<'a> {
+    ask: RefCell<&'a mut Ask<'a>>,
+    /// Made since it was asked last.
+    steps: Cell<usize>,
+}
+
+/// An error stops the work.
+pub type Ask<'a> = dyn FnMut() -> Result<(), Error> + 'a;
+
+impl<'a> Caller<'a> {
+    pub fn new(ask: &'a mut Ask<'a>) -> Caller<'a> {
+        Caller { ask: RefCell::new(ask), steps: Cell::new(0) }
+    }
+}
+
+impl Watch for Caller<'_> {
+    fn worked(&self, steps: usize) -> Result<(), Error> {
+        let sum = self.steps.get().saturating_add(steps);
+        self.steps.set(if sum < STEPS { sum } else { 0 });
+        if sum < STEPS { Ok(()) } else { (self.ask.borrow_mut())() }
+    }
+}
+
+/// Stops nothing.
+#[cfg(any(test, feature = "check"))]
+pub struct Unwatched;
+
+#[cfg(any(test, feature = "check"))]
+impl Watch for Unwatched {
+    fn worked(&self, _: usize) -> Result<(), Error> {
+        Ok(())
+    }
+}
+
+/// Stops work on other threads once it is raised: only the caller's own may ask the caller.
+#[cfg(feature = "parallel")]
+#[derive(Default)]
+pub struct Flag(AtomicBool);
+
+#[cfg(feature = "parallel")]
+impl Flag {
+    pub fn raise(&self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+}
+
+#[cfg(feature = "parallel")]
+impl Watch for Flag {
+    fn worked(&self, _: usize) -> Result<(), Error> {
+        if self.0.load(Ordering::Relaxed) { Err(Error::Cancelled) } else { Ok(()) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_caller_is_asked_after_so_many_steps() {
+        let asked = Cell::new(0);
+        let mut ask = || {
+            asked.set(asked.get() + 1);
+            if asked.get() < 3 { Ok(()) } else { Err(Error::Cancelled) }
+        };
+        let caller = Caller::new(&mut ask);
+        assert!(caller.worked(STEPS - 1).is_ok() && asked.get() == 0);
+        assert!(caller.worked(1).is_ok() && asked.get() == 1);
+        assert!(caller.worked(usize::MAX).is_ok() && asked.get() == 2);
+        assert!(caller.worked(1).is_ok() && asked.get() == 2);
+        assert!(matches!(caller.worked(STEPS), Err(Error::Cancelled)));
+    }
+}
