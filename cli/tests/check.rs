@@ -475,6 +475,11 @@ fn edges_that_the_options_leave_out_are_no_chamfers_and_not_missed() {
     let (code, report) = folder.check(" --options some.toml");
     let left = &report["meshes"][0]["left_without_need"];
     assert_eq!((code, left), (1, &json!(6)), "{report:#}");
+    folder.run("before.glb -o after.glb --width-percent 2");
+    let (code, report) = folder.check(" --options some.toml");
+    let found = &report["meshes"][0]["defects"][0];
+    assert_eq!((code, &found["count"]), (1, &json!(12)), "{report:#}");
+    assert_eq!(found["rule"], "chamfered although not selected");
     let refused = folder.run("check before.glb after.glb --options none.toml");
     assert_eq!(refused.0.status.code(), Some(2));
 }

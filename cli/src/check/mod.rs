@@ -240,18 +240,33 @@ fn check_pair(source: Side, result: Side, wanted: Wanted, args: &CheckArgs) -> M
     if matches!(args.verify, CheckDepth::Fast) {
         findings.leave_out(Rule::SelfIntersection, "left out by --verify fast");
     }
+    let mut unasked = Vec::new();
     if let Some(expected) = expected {
         let unselected = unselected(&expected.verdicts);
-        // At a flap the two sides of an edge that stays hard come apart: that is no chamfer of it.
-        findings.edges.retain(|edge| unselected.binary_search(&edge.vertices).is_err());
+        let is_unselected =
+            |edge: &mut MeasuredEdge| unselected.binary_search(&edge.vertices).is_ok();
+        unasked = findings.edges.extract_if(.., is_unselected).collect();
+        unasked.retain(|edge| is_chamfered(edge, expected));
     }
     let mut check = MeshCheck::new(source.name(), &findings);
     streams.not_told.iter().for_each(|(what, reason)| check.leave_out(what, reason));
     if let Some(expected) = expected {
         check.expect(expected.width, &left_without_need(&findings, &expected.verdicts));
         check.expect_widths(&wider_than_asked(&findings, expected));
+        check.expect_hard(&unasked.iter().map(|edge| edge.vertices).collect::<Vec<_>>());
     }
     check
+}
+
+/// Both sides of an end are so far from the old edge, as a share of the width asked for, where they
+/// were pulled: a width that is less nobody sees.
+const LEAST_PULLED: f32 = 0.02;
+
+/// Whether an edge that nobody asked for has a chamfer. At a flap the two sides of an edge that stays
+/// hard come apart too, but there one of them stays on it.
+fn is_chamfered(edge: &MeasuredEdge, expected: &Chamfered) -> bool {
+    let least = LEAST_PULLED * expected.width / least_scale(expected);
+    (0..2).any(|end| edge.is_open[end] && edge.distances[end].iter().all(|&side| side > least))
 }
 
 /// The edges that nobody asked for, sorted.
@@ -282,13 +297,17 @@ fn left_without_need(findings: &Findings, verdicts: &[EdgeVerdict]) -> Vec<[u32;
 /// off, one of them makes up for the other.
 const MOST_WIDENED: f32 = 1.3;
 
-/// The chamfers that are wider than asked, and than chamfering would make them.
-fn wider_than_asked(findings: &Findings, expected: &Chamfered) -> Vec<[u32; 2]> {
-    // Widths are asked for in a space in which lengths of the mesh are at least so many times as long.
-    let scaled = expected.scale.map_or(1.0, |axes| {
+/// Widths are asked for in a space in which lengths of the mesh are at least so many times as long.
+fn least_scale(expected: &Chamfered) -> f32 {
+    expected.scale.map_or(1.0, |axes| {
         let length = |axis: [f32; 3]| axis.iter().map(|part| part * part).sum::<f32>().sqrt();
         axes.map(length).into_iter().fold(f32::INFINITY, f32::min)
-    });
+    })
+}
+
+/// The chamfers that are wider than asked, and than chamfering would make them.
+fn wider_than_asked(findings: &Findings, expected: &Chamfered) -> Vec<[u32; 2]> {
+    let scaled = least_scale(expected);
     let widest = |verdict: &EdgeVerdict| verdict.widths[0].max(verdict.widths[1]);
     let made: BTreeMap<[u32; 2], f32> =
         expected.verdicts.iter().map(|verdict| (verdict.vertices, widest(verdict))).collect();

@@ -339,6 +339,11 @@ impl MeshCheck {
         self.expect_none("chamfer wider than asked", too_wide);
     }
 
+    /// Adds the chamfers of edges that were to stay hard.
+    pub fn expect_hard(&mut self, chamfered: &[[u32; 2]]) {
+        self.expect_none("chamfered although not selected", chamfered);
+    }
+
     /// Adds edges of which there should be none.
     fn expect_none(&mut self, rule: &str, edges: &[[u32; 2]]) {
         if !edges.is_empty() {
