@@ -418,7 +418,7 @@ impl Spread {
         let start =
             known.most.iter().map(|&(c, solid, sides)| Reverse((0, c, solid, Reverse(sides))));
         // The nearest first, and of those as near the one with most sides.
-        let mut open: BinaryHeap<Reverse<(Length, u32, u32, Reverse<usize>)>> = start.collect();
+        let mut open: BinaryHeap<_> = start.collect();
         let mut most = BTreeMap::new();
         while let Some(Reverse((so_far, cluster, solid, Reverse(sides)))) = open.pop() {
             let Entry::Vacant(place) = most.entry((cluster, solid)) else { continue };
