@@ -82,7 +82,7 @@ proptest! {
         let mesh = assembly(&blocks, turn, is_merged);
         let options = Options::default().with_width(Width::PercentOfExtent(percent));
         for (segments, verify) in WAYS {
-            let options = options.clone().with_segments(segments).with_verify(verify);
+            let options = options.with_segments(segments).with_verify(verify);
             let result = chamfer(&mesh.as_mesh(), &options).unwrap();
             let findings = check(&mesh.as_mesh(), &result, verify);
             prop_assert!(findings.is_sound(), "{segments} segments, {verify:?}: {findings}");
