@@ -7,7 +7,7 @@
 #[path = "support/boxes.rs"]
 mod boxes;
 
-use chamfer::check::{assert_sound, check, compare};
+use chamfer::check::{Element, Rule, assert_sound, check, compare};
 use chamfer::{Chamfered, MeshBuffers, Options, Reason, Verify, Width, chamfer};
 use glam::{DMat3, DVec3};
 use proptest::collection::vec;
@@ -31,6 +31,16 @@ fn config() -> Config {
         ..asked
     }
 }
+
+/// Segments, and how much is verified.
+const WAYS: [(u32, Verify); 6] = [
+    (1, Verify::Fast),
+    (1, Verify::Full),
+    (2, Verify::Fast),
+    (2, Verify::Full),
+    (4, Verify::Fast),
+    (4, Verify::Full),
+];
 
 /// Places on a coarse grid, so that boxes have corners, edges and sides in common.
 fn block() -> impl Strategy<Value = Block> {
@@ -70,12 +80,12 @@ proptest! {
         percent in percent(),
     ) {
         let mesh = assembly(&blocks, turn, is_merged);
-        for verify in [Verify::Fast, Verify::Full] {
-            let width = Width::PercentOfExtent(percent);
-            let options = Options::default().with_width(width).with_verify(verify);
+        let options = Options::default().with_width(Width::PercentOfExtent(percent));
+        for (segments, verify) in WAYS {
+            let options = options.with_segments(segments).with_verify(verify);
             let result = chamfer(&mesh.as_mesh(), &options).unwrap();
             let findings = check(&mesh.as_mesh(), &result, verify);
-            prop_assert!(findings.is_sound(), "{verify:?}: {findings}");
+            prop_assert!(findings.is_sound(), "{segments} segments, {verify:?}: {findings}");
         }
     }
 }
@@ -154,5 +164,32 @@ fn copies_of_a_box_are_not_torn_by_what_touches_one_of_them() {
         let mesh = assembly(&[above, open, apart], DMat3::IDENTITY, is_merged);
         let result = chamfered("boxes", &mesh, 0.04);
         assert_eq!(result.totals.skipped[Reason::Contact], 2, "both copies of one edge");
+    }
+}
+
+/// Between the rows of a rounded chamfer, too, no more sides meet than there were skins: one that is
+/// there twice has four on each edge, and one triangle more is found.
+#[test]
+fn one_more_triangle_between_rows_is_found() {
+    for skin in [Skin::Once, Skin::Copied] {
+        let mesh = assembly(&[Block::new([0.0; 3], [1.0; 3]).with(skin)], DMat3::IDENTITY, false);
+        let options = Options::default().with_width(Width::Units(0.02)).with_segments(3);
+        let mut result = chamfer(&mesh.as_mesh(), &options).unwrap();
+        assert_sound("box", &mesh.as_mesh(), &result);
+        let triangles = result.mesh.indices.as_chunks::<3>().0;
+        let mut sides = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
+        let is_new = |vertex: u32| vertex as usize >= mesh.positions.len();
+        let [a, b] = sides.find(|side| side.iter().all(|&vertex| is_new(vertex))).unwrap();
+        result.mesh.indices.extend([a, b, 0]);
+        result.mesh.submesh_index_counts[0] += 3;
+        result.triangle_sources.extend(result.triangle_sources.last().copied());
+        let edge = Element::Edge(a.min(b), a.max(b));
+        for found in [
+            check(&mesh.as_mesh(), &result, Verify::Fast),
+            compare(&mesh.as_mesh(), &result.mesh.as_mesh(), Verify::Fast),
+        ] {
+            let crowded = found.breaches.iter().find(|breach| breach.rule == Rule::NonManifold);
+            assert!(crowded.unwrap().first.contains(&edge), "{skin:?}: {found}");
+        }
     }
 }

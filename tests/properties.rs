@@ -84,8 +84,11 @@ proptest! {
 
     #[test]
     fn a_chamfered_soup_is_sound(Model(mesh) in soup(), percent in percent()) {
-        let findings = findings(&mesh, percent, Verify::Fast);
-        prop_assert!(is_sound_for_soup(&mesh, &findings), "{findings}");
+        for segments in [1, 2, 4] {
+            let result = rounded(&mesh, percent, (segments, 0.5), Verify::Fast);
+            let findings = check(&mesh.as_mesh(), &result, Verify::Fast);
+            prop_assert!(is_sound_for_soup(&mesh, &findings), "{segments} segments: {findings}");
+        }
     }
 
     #[test]

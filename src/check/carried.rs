@@ -10,10 +10,10 @@ use glam::DVec3;
 
 use super::ground::{Foot, Ground, at};
 use super::origins::Origins;
-use super::rules::{Element, Findings, MeasuredEdge, Rule};
+use super::rules::{Element, Findings, Rule};
 use super::stored::normal_with_area;
 use super::streams::{ExtraStream, Slack, Stream};
-use super::surface::Surface;
+use super::surface::{HalfEdge, Surface};
 
 /// How far, relative to the extent, a corner may be off the surface that it lies on.
 const PLANE_TOLERANCE: f64 = 1e-5;
@@ -83,7 +83,7 @@ pub(super) fn check_carried(
         origins,
         streams: Stream::all([before.mesh, after.mesh], extras.streams),
         tolerance: (PLANE_TOLERANCE * extent).max(2.0 * before.rounding()),
-        reach: REACH * largest_width(&findings.edges),
+        reach: REACH * largest_pull([before, after], origins),
     };
     let is_kept = carried.kept();
     carried.check_vertices(&is_kept, findings);
@@ -91,10 +91,52 @@ pub(super) fn check_carried(
     carried.check_covered(findings);
 }
 
-/// How far the sides of an edge were pulled at most.
-fn largest_width(edges: &[MeasuredEdge]) -> f64 {
-    let distances = edges.iter().flat_map(|edge| edge.distances.as_flattened());
-    f64::from(distances.fold(0.0, |most: f32, distance| most.max(*distance)))
+/// How far anything was pulled from its edge at most: a side of one, or what a cut has added there, as
+/// an edge may be open there alone.
+fn largest_pull(surfaces: [&Surface; 2], origins: &Origins) -> f64 {
+    pull_of_sides(surfaces, origins).max(pull_of_cuts(surfaces, origins))
+}
+
+/// Of each side, whichever other one it is chamfered with: at an edge of many, who can tell?
+fn pull_of_sides([before, after]: [&Surface; 2], origins: &Origins) -> f64 {
+    let now = origins.corners_after(before.mesh.indices.len());
+    let pull = |side: &HalfEdge| {
+        let [from, to] = side.corners.map(|corner| before.position(corner));
+        let moved = side.corners.into_iter().filter_map(|corner| now[corner as usize]);
+        let pull = |corner| distance_from_line([from, to], after.position(corner));
+        moved.map(pull).fold(0.0, f64::max)
+    };
+    let may_open =
+        |edge: &(&[HalfEdge], &[HalfEdge])| edge.0.len() + edge.1.len() > 2 || before.is_hard(edge);
+    let sides = before.edges().filter(may_open).flat_map(|(a, b)| a.iter().chain(b));
+    sides.map(pull).fold(0.0, f64::max)
+}
+
+fn pull_of_cuts([before, after]: [&Surface; 2], origins: &Origins) -> f64 {
+    let corners = || 0..after.mesh.indices.len() as u32;
+    let source = |corner: u32| origins.triangles[corner as usize / 3];
+    let mut is_at_chamfer = vec![false; after.mesh.positions.len()];
+    for corner in corners().filter(|&corner| source(corner).is_none()) {
+        is_at_chamfer[after.cluster(corner) as usize] = true;
+    }
+    let is_added = |corner: &u32| {
+        is_at_chamfer[after.cluster(*corner) as usize] && origins.own_corner(*corner).is_none()
+    };
+    let pull = |corner: u32| {
+        let [first, ..] = source(corner)?;
+        Some(distance_from_sides(before.triangle(first / 3), after.position(corner)))
+    };
+    corners().filter(is_added).filter_map(pull).fold(0.0, f64::max)
+}
+
+/// How far a point is from the nearest line along a side of a triangle.
+fn distance_from_sides(corners: [DVec3; 3], point: DVec3) -> f64 {
+    let distance = |k: usize| distance_from_line([corners[k], corners[(k + 1) % 3]], point);
+    distance(0).min(distance(1)).min(distance(2))
+}
+
+fn distance_from_line([from, to]: [DVec3; 2], point: DVec3) -> f64 {
+    (point - from).cross((to - from).normalize_or_zero()).length()
 }
 
 struct Carried<'a> {

@@ -1,5 +1,9 @@
 //! Which solid each triangle is part of: what merely touches another solid is judged by itself.
 
+use std::cmp::Reverse;
+use std::collections::btree_map::{BTreeMap, Entry};
+use std::collections::{BTreeSet, BinaryHeap};
+
 use glam::DVec3;
 
 use super::origins::Origins;
@@ -299,7 +303,7 @@ pub(super) fn check_sides(
     if after.sides_past_two() <= before.sides_past_two() {
         return;
     }
-    let allowed = Allowed::new([before, after], source, origins);
+    let allowed = Allowed::new([before, after], [source, result], origins);
     for edge in after.edges().filter(|(a, b)| a.len() + b.len() > 2) {
         let clusters = edge.0.first().or(edge.1.first()).map_or([0; 2], |h| h.clusters);
         let allowed = allowed.on(clusters);
@@ -325,7 +329,11 @@ struct Allowed {
 }
 
 impl Allowed {
-    fn new([before, after]: [&Surface; 2], source: &Solids, origins: &Origins) -> Allowed {
+    fn new(
+        [before, after]: [&Surface; 2],
+        [source, result]: [&Solids; 2],
+        origins: &Origins,
+    ) -> Allowed {
         let mut at_source: Vec<(u32, u32, usize)> = Vec::new();
         for edge in before.edges().filter(|(a, b)| a.len() + b.len() > 2) {
             let clusters = edge.0.first().or(edge.1.first()).map_or([0; 2], |h| h.clusters);
@@ -346,7 +354,8 @@ impl Allowed {
             let sides = place.map_or(LEAST_SIDES, |place| at_source.most[place].2);
             (after.cluster(now), solid, sides.max(LEAST_SIDES))
         });
-        Allowed::sorted(carried.collect())
+        let known = Allowed::sorted(carried.collect());
+        Spread::new(after, result, source.of.len() as u32).from(known)
     }
 
     fn sorted(mut most: Vec<(u32, u32, usize)>) -> Allowed {
@@ -364,19 +373,67 @@ impl Allowed {
         &self.most[first..first + count]
     }
 
-    /// The solids at both ends of an edge, sorted, and how many sides each may have. Nothing is
-    /// known of the vertex in the middle of a corner: the other end tells.
-    fn on(&self, clusters: [u32; 2]) -> Vec<(u32, usize)> {
-        let own = |&(_, solid, sides): &(u32, u32, usize)| (solid, sides);
-        match clusters.map(|cluster| self.at(cluster)) {
-            [one, []] | [[], one] => one.iter().map(own).collect(),
-            [one, other] => {
-                let both = |&(_, solid, sides): &(u32, u32, usize)| {
-                    let place = other.binary_search_by_key(&solid, |&(_, solid, _)| solid).ok()?;
-                    Some((solid, sides.min(other[place].2)))
-                };
-                one.iter().filter_map(both).collect()
+    /// The solids at both ends of an edge, sorted, and how many sides each may have.
+    fn on(&self, [one, other]: [u32; 2]) -> Vec<(u32, usize)> {
+        let other = self.at(other);
+        let both = |&(_, solid, sides): &(u32, u32, usize)| {
+            let place = other.binary_search_by_key(&solid, |&(_, solid, _)| solid).ok()?;
+            Some((solid, sides.min(other[place].2)))
+        };
+        self.at(one).iter().filter_map(both).collect()
+    }
+}
+
+/// How what is allowed reaches places that no triangle of the source has, such as the rows of a
+/// rounded chamfer: each solid's from the nearest place that has some, along sides of new triangles
+/// that are its own or nobody's.
+struct Spread {
+    /// Sorted: a cluster, one beside it, the solid of the triangle between, if known, and how far.
+    ways: Vec<(u32, u32, Option<u32>, Length)>,
+}
+
+/// Bits of a positive number, which are in the order of their numbers.
+type Length = u64;
+
+impl Spread {
+    fn new(after: &Surface, result: &Solids, solids: u32) -> Spread {
+        let mut ways = Vec::new();
+        for (forward, backward) in after.edges() {
+            for side in forward.iter().chain(backward) {
+                let [a, b] = side.corners.map(|corner| after.position(corner));
+                let solid = Some(result.of_side(side)).filter(|&solid| solid < solids);
+                let [one, other] = side.clusters;
+                let length = a.distance(b).to_bits();
+                ways.extend([(one, other, solid, length), (other, one, solid, length)]);
             }
         }
+        ways.sort_unstable();
+        ways.dedup();
+        Spread { ways }
+    }
+
+    /// With what is known, and what is nearest to it elsewhere (Dijkstra's way).
+    fn from(&self, known: Allowed) -> Allowed {
+        let is_known: BTreeSet<u32> = known.most.iter().map(|&(cluster, ..)| cluster).collect();
+        let start =
+            known.most.iter().map(|&(c, solid, sides)| Reverse((0, c, solid, Reverse(sides))));
+        // The nearest first, and of those as near the one with most sides.
+        let mut open: BinaryHeap<_> = start.collect();
+        let mut most = BTreeMap::new();
+        while let Some(Reverse((so_far, cluster, solid, Reverse(sides)))) = open.pop() {
+            let Entry::Vacant(place) = most.entry((cluster, solid)) else { continue };
+            place.insert(sides);
+            let first = self.ways.partition_point(|&(from, ..)| from < cluster);
+            let ways = self.ways[first..].iter().take_while(|&&(from, ..)| from == cluster);
+            let is_open = |to: u32| !is_known.contains(&to) && !most.contains_key(&(to, solid));
+            for &(_, to, of, length) in ways {
+                if of.is_none_or(|of| of == solid) && is_open(to) {
+                    let length = f64::from_bits(so_far) + f64::from_bits(length);
+                    open.push(Reverse((length.to_bits(), to, solid, Reverse(sides))));
+                }
+            }
+        }
+        let sorted = most.into_iter().map(|((cluster, solid), sides)| (cluster, solid, sides));
+        Allowed { most: sorted.collect() }
     }
 }
