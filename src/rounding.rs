@@ -121,7 +121,7 @@ impl Rounding {
         all.map(|patch| self.of(patch).map_or_else(|| own(patch), |r| r.triangles.len())).sum()
     }
 
-    /// How many segments the ends of an edge have, those of an end that does not open included.
+    /// How many segments the ends of an edge have; one that does not open, as many as were asked for.
     pub fn rows(&self, edge: Edge) -> [u8; 2] {
         self.rows[edge]
     }
@@ -156,7 +156,8 @@ fn first_rows(given: Given, patches: &Patches, segments: u8) -> Rows {
         let sectors = given.chamfers.sectors;
         let ring = sectors.ring(sectors.fans[sectors.sector_of[parted.corner]].ring);
         if ring.len() < 3 {
-            for end in ring.iter().filter_map(|&sector| given.after(sector)) {
+            let ends = ring.iter().filter_map(|&sector| given.after(sector));
+            for end in ends.filter(|&end| given.is_open(end)) {
                 rows[given.edge(end)][given.place_of(end)] = 1;
             }
         }
@@ -294,9 +295,6 @@ impl Rounding {
         let own: Few<usize> = (0..3).filter(|&k| of(k) < joints).collect();
         let corners: Few<_> = own.iter().map(|&k| parts.joints[of(k)]).collect();
         let sum: f64 = own.iter().map(|&k| parents.weights[k]).sum();
-        if sum <= 0.0 {
-            return nearest(given.view, parts.joints, point);
-        }
         let shares: Few<f64> = own.iter().map(|&k| parents.weights[k] / sum).collect();
         let by_joints = near(&given, sector, &corners, &shares, point);
         if sum >= 1.0 {
