@@ -121,7 +121,7 @@ impl Rounding {
         all.map(|patch| self.of(patch).map_or_else(|| own(patch), |r| r.triangles.len())).sum()
     }
 
-    /// How many segments the ends of an edge have, those of an end that does not open included.
+    /// How many segments the ends of an edge have; one that does not open, as many as were asked for.
     pub fn rows(&self, edge: Edge) -> [u8; 2] {
         self.rows[edge]
     }
@@ -156,7 +156,8 @@ fn first_rows(given: Given, patches: &Patches, segments: u8) -> Rows {
         let sectors = given.chamfers.sectors;
         let ring = sectors.ring(sectors.fans[sectors.sector_of[parted.corner]].ring);
         if ring.len() < 3 {
-            for end in ring.iter().filter_map(|&sector| given.after(sector)) {
+            let ends = ring.iter().filter_map(|&sector| given.after(sector));
+            for end in ends.filter(|&end| given.is_open(end)) {
                 rows[given.edge(end)][given.place_of(end)] = 1;
             }
         }
@@ -294,9 +295,6 @@ impl Rounding {
         let own: Few<usize> = (0..3).filter(|&k| of(k) < joints).collect();
         let corners: Few<_> = own.iter().map(|&k| parts.joints[of(k)]).collect();
         let sum: f64 = own.iter().map(|&k| parents.weights[k]).sum();
-        if sum <= 0.0 {
-            return nearest(given.view, parts.joints, point);
-        }
         let shares: Few<f64> = own.iter().map(|&k| parents.weights[k] / sum).collect();
         let by_joints = near(&given, sector, &corners, &shares, point);
         if sum >= 1.0 {
@@ -333,4 +331,63 @@ fn ask_for_memory(given: Given, patches: &Patches, rows: &Rows) -> Result<(), Er
         return Err(Error::TooLarge);
     }
     memory::ask(memory::of_rounding(mesh, points, triangles))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::MeshBuffers;
+    use crate::shapes;
+    use crate::stages::stages_of;
+
+    /// The rows of each edge after some patches were bad once, of eight at first, and what is to be
+    /// looked at again.
+    fn lessened(mesh: &MeshBuffers, bad: impl Fn(Given, &Patches) -> Patch) -> (Rows, Vec<Patch>) {
+        let stages = stages_of(mesh, 0.1);
+        let (placement, chamfers) = (stages.placement(), stages.chamfers());
+        let patches = stages.patches(&placement);
+        let given = Given { view: &stages.view, chamfers, placement: &placement, profile: 0.5 };
+        let mut rows = first_rows(given, &patches, 8);
+        assert!(rows.iter().all(|ends| *ends == [8; 2]));
+        let bad = bad(given, &patches);
+        let around = fewer_rows(given, &patches, &mut rows, &[bad]);
+        (rows, around)
+    }
+
+    fn count(rows: &Rows, ends: [u8; 2]) -> usize {
+        rows.iter().filter(|found| **found == ends).count()
+    }
+
+    //   8------4====4------8     a strip halves both of its ends; the fills there, which have these
+    //                            ends too, and it itself are looked at again
+    #[test]
+    fn a_bad_strip_halves_both_ends() {
+        let (rows, around) = lessened(&shapes::plain_cube(1.0), |_, _| Patch::new(0));
+        assert_eq!(rows[Edge::new(0)], [4; 2]);
+        assert_eq!((count(&rows, [4; 2]), count(&rows, [8; 2])), (1, 11));
+        let fills = |patch: &&Patch| patch.index() >= 12;
+        assert_eq!((around.len(), around.iter().filter(fills).count()), (3, 2));
+        assert_eq!(around[0], Patch::new(0));
+    }
+
+    #[test]
+    fn a_bad_fill_halves_the_ends_around_it() {
+        let fill = |given: Given, patches: &Patches| {
+            patches.fill_of(given.ring_of(End::of(&given.chamfers.edges.hard[Edge::new(0)])[0]))
+        };
+        let (rows, around) = lessened(&shapes::plain_cube(1.0), fill);
+        assert_eq!(count(&rows, [4, 8]) + count(&rows, [8, 4]), 3);
+        assert_eq!(count(&rows, [8; 2]), 9);
+        let strips = |patch: &&Patch| patch.index() < 12;
+        assert_eq!((around.len(), around.iter().filter(strips).count()), (4, 3));
+    }
+
+    //  8----4|4====4|4----8     where two strips have one curve, both get fewer there
+    #[test]
+    fn a_bad_strip_halves_the_ends_that_it_shares() {
+        let (rows, around) = lessened(&shapes::cylinder(8), |_, _| Patch::new(0));
+        assert_eq!((count(&rows, [4; 2]), count(&rows, [8; 2])), (1, 13));
+        assert_eq!(count(&rows, [4, 8]) + count(&rows, [8, 4]), 2);
+        assert_eq!(around.iter().filter(|patch| patch.index() < 16).count(), 3);
+    }
 }

@@ -23,8 +23,10 @@ pub fn verdicts(
     let is_open = |edge| !patches.strip(edge).triangles.is_empty();
     let of_edge = |edge| {
         let verdict = verdict(view, sectors, limits, (&edges.hard[edge], is_open(edge)));
-        let segments = segments(limits, rounding, (edge, &edges.hard[edge]));
-        EdgeVerdict { segments: if is_open(edge) { segments } else { 0 }, ..verdict }
+        EdgeVerdict {
+            segments: if is_open(edge) { segments(rounding, edge) } else { 0 },
+            ..verdict
+        }
     };
     let verdicts: Vec<EdgeVerdict> = edges.hard.ids().map(of_edge).collect();
     let totals = totals(view, chamfers, limits, &verdicts);
@@ -58,12 +60,10 @@ fn verdict(
     EdgeVerdict { vertices, outcome, reason, widths, segments: 0 }
 }
 
-/// The least that an end which opens has.
-fn segments(limits: &Limits, rounding: Option<&Rounding>, (edge, hard): (Edge, &HardEdge)) -> u32 {
-    let Some(rounding) = rounding else { return 1 };
-    let [b1, a1, a2, b2] = strips::corners(hard).map(|corner| limits.placement.position_at(corner));
-    let open = [a1 != a2, b1 != b2].into_iter().zip(rounding.rows(edge));
-    open.filter(|(is_open, _)| *is_open).map(|(_, rows)| rows.into()).min().unwrap_or(1)
+/// The least that an end has: one that does not open has no fewer than the other.
+fn segments(rounding: Option<&Rounding>, edge: Edge) -> u32 {
+    let [one, other] = rounding.map_or([1; 2], |rounding| rounding.rows(edge));
+    one.min(other).into()
 }
 
 /// Whether a face beside an edge is wound against its own normals: no chamfer can face along with

@@ -81,9 +81,9 @@ impl Given<'_> {
 
     /// Of a ring of two sectors the other end: both have one curve, which is made from the first.
     pub fn twin_of(&self, end: End) -> Option<End> {
-        let ring = self.ring_of(end);
-        match (self.chamfers.sectors.ring(ring), self.chamfers.sectors.rings[ring].closed) {
-            (&[one, two], true) => self.after(if self.sectors(end)[0] == one { two } else { one }),
+        // In an open ring no end comes after the second sector.
+        match *self.chamfers.sectors.ring(self.ring_of(end)) {
+            [one, two] => self.after(if self.sectors(end)[0] == one { two } else { one }),
             _ => None,
         }
     }

@@ -290,4 +290,17 @@ mod tests {
         add_grid(&[0, 2, 2, 3, 4, 5], 2, &mut triangles);
         assert_eq!(triangles, [[0, 2, 3], [2, 4, 3], [3, 4, 5]]);
     }
+    // 0 - - 1 - - 2    the side, and below it the steps of the grid
+    // 0  1  2  3  4
+    #[test]
+    fn a_step_takes_the_nearest_point_of_a_side_with_fewer() {
+        let place = Place { point: DVec3::ZERO, normal: DVec3::ZERO };
+        let side = |line| Side { arc: Arc::straight(place, place), line };
+        let taken = |side: &Side, count: usize| -> Vec<u32> {
+            (0..=count).map(|step| on_side(side, step, count)).collect()
+        };
+        assert_eq!(taken(&side(vec![0, 1, 2]), 4), [0, 1, 1, 2, 2]);
+        assert_eq!(taken(&side(vec![0, 1]), 4), [0, 0, 1, 1, 1]);
+        assert_eq!(taken(&side(vec![0, 1, 2, 3, 4]), 4), [0, 1, 2, 3, 4]);
+    }
 }

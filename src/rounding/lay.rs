@@ -131,3 +131,31 @@ fn zip(lay: &mut Lay, start: &[u32], stop: &[u32]) {
 pub fn joint(given: &Given, sector: Sector) -> Place {
     Place { point: given.placement.point[sector], normal: unit(given.placement.normals[sector][0]) }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec3;
+
+    // start 0 - 1 - 2 - 3 - 4     two rows on the left for each one on the right
+    //       |  / \ /|  / \ /|
+    // stop  5 - - - 6 - - - 7
+    #[test]
+    fn unlike_ends_are_joined_evenly() {
+        let normal = DVec3::Z;
+        let line = |count: u32, y: f64| {
+            (0..count).map(move |k| DVec3::new(f64::from(k) / f64::from(count - 1), y, 0.0))
+        };
+        let points = line(5, 1.0).chain(line(3, 0.0));
+        let places = points.map(|point| Place { point, normal }).collect();
+        let mut lay = Lay { places, ..Lay::default() };
+        zip(&mut lay, &[0, 1, 2, 3, 4], &[5, 6, 7]);
+        assert_eq!(lay.triangles.len(), 6);
+        let x = |place: u32| lay.places[place as usize].point.x;
+        let sides = lay.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
+        // From one end to the other nothing leans by more than a row.
+        for [one, other] in sides.filter(|side| (side[0] < 5) != (side[1] < 5)) {
+            assert!((x(one) - x(other)).abs() <= 0.25, "{:?}", lay.triangles);
+        }
+    }
+}
