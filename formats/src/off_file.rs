@@ -93,7 +93,7 @@ impl<'a> Lines<'a> {
 
     fn next(&mut self, of: &str) -> Result<Line<'a>> {
         let next = self.left.take().or_else(|| self.lines.next());
-        next.with_context(|| format!("cut off: {of} are missing"))
+        next.with_context(|| format!("cut off: {of} are missing; fetch or export it anew"))
     }
 }
 

@@ -82,7 +82,10 @@ fn parse(bytes: &[u8]) -> Result<Vec<Triangle>> {
     };
     if length > bytes.len() as u64 {
         let room = (bytes.len() - PREFIX_LENGTH) / RECORD_LENGTH;
-        bail!("cut off: the header announces {announced} triangles, the file holds {room}");
+        bail!(
+            "cut off: the header announces {announced} triangles, the file holds \
+            {room}; fetch or export it anew"
+        );
     }
     bytes[PREFIX_LENGTH..length as usize]
         .chunks_exact(RECORD_LENGTH)
@@ -127,7 +130,7 @@ fn parse_ascii(bytes: &[u8]) -> Result<Vec<Triangle>> {
         }
     }
     if !ended || corners.len() % 3 != 0 {
-        bail!("cut off: the ASCII STL ends without endsolid");
+        bail!("cut off: the ASCII STL ends without endsolid; fetch or export it anew");
     }
     Ok(corners.chunks_exact(3).map(|three| [three[0], three[1], three[2]]).collect())
 }
