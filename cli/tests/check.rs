@@ -483,3 +483,32 @@ fn edges_that_the_options_leave_out_are_no_chamfers_and_not_missed() {
     let refused = folder.run("check before.glb after.glb --options none.toml");
     assert_eq!(refused.0.status.code(), Some(2));
 }
+
+//      +---+                +---+
+//     /   /                /   /     plates hang from both ends of the upper edge of a beam: it
+//   -+---+----------------+---+-     opens in its middle alone
+//
+#[test]
+fn an_edge_that_opens_in_its_middle_is_not_missed() {
+    let mut beam = shapes::plain_cube(1.0);
+    beam.positions.iter_mut().for_each(|position| position[0] *= 10.0);
+    for [from, to] in [[-5.0, -4.0], [4.0, 5.0]] {
+        let first = beam.positions.len() as u32;
+        let corners = [[from, 0.5, 0.5], [from, 0.2, 1.5], [to, 0.2, 1.5], [to, 0.5, 0.5]];
+        beam.positions.extend(corners);
+        beam.normals.extend([[0.0, 0.957_826_3, 0.287_347_9]; 4]);
+        beam.indices.extend([0, 1, 2, 0, 2, 3].map(|corner| first + corner));
+    }
+    beam.submesh_index_counts = vec![beam.indices.len() as u32];
+    let folder = Folder::new();
+    folder.write("before.glb", glb::encode("shape", &beam, &[], &[]).unwrap());
+    folder.run("before.glb -o after.glb --width 0.02 --report r.json --report-edges");
+    let report: Value =
+        serde_json::from_slice(&fs::read(folder.0.path().join("r.json")).unwrap()).unwrap();
+    let edges = report["files"][0]["meshes"][0]["edges"].as_array().unwrap();
+    let is_closed_at_its_ends = |edge: &&Value| edge["widths"] == json!([0.0, 0.0]);
+    let found: Vec<&Value> = edges.iter().filter(is_closed_at_its_ends).collect();
+    assert!(found.iter().any(|edge| edge["outcome"] == "narrowed"), "{edges:#?}");
+    let (code, report) = folder.check(" --width 0.02");
+    assert_eq!(code, 0, "{report:#}");
+}

@@ -251,7 +251,7 @@ fn check_pair(source: Side, result: Side, wanted: Wanted, args: &CheckArgs) -> M
     let mut check = MeshCheck::new(source.name(), &findings);
     streams.not_told.iter().for_each(|(what, reason)| check.leave_out(what, reason));
     if let Some(expected) = expected {
-        check.expect(expected.width, &left_without_need(&findings, &expected.verdicts));
+        check.expect(expected.width, &left_without_need(&findings, expected));
         check.expect_widths(&wider_than_asked(&findings, expected));
         check.expect_hard(&unasked.iter().map(|edge| edge.vertices).collect::<Vec<_>>());
     }
@@ -277,13 +277,15 @@ fn unselected(verdicts: &[EdgeVerdict]) -> Vec<[u32; 2]> {
     vertices
 }
 
-/// The hard edges that are left although chamfering would not leave them.
-fn left_without_need(findings: &Findings, verdicts: &[EdgeVerdict]) -> Vec<[u32; 2]> {
-    let mut chamfered: Vec<[u32; 2]> = verdicts
-        .iter()
-        .filter(|verdict| verdict.outcome != Outcome::Skipped)
-        .map(|verdict| verdict.vertices)
-        .collect();
+/// The hard edges that are left although chamfering would not leave them. One that opens in its
+/// middle alone, as where something rests on both its ends, is not measured.
+fn left_without_need(findings: &Findings, expected: &Chamfered) -> Vec<[u32; 2]> {
+    let least = LEAST_PULLED * expected.width;
+    let opens_at_an_end = |verdict: &&EdgeVerdict| {
+        verdict.outcome != Outcome::Skipped && verdict.widths.iter().any(|&width| width > least)
+    };
+    let chamfered = expected.verdicts.iter().filter(opens_at_an_end);
+    let mut chamfered: Vec<[u32; 2]> = chamfered.map(|verdict| verdict.vertices).collect();
     chamfered.sort_unstable();
     findings
         .edges
