@@ -15,9 +15,6 @@ use super::stored::normal_with_area;
 use super::streams::{ExtraStream, Slack, Stream};
 use super::surface::{HalfEdge, Surface};
 
-/// How far, relative to the extent, a corner may be off the surface that it lies on.
-const PLANE_TOLERANCE: f64 = 1e-5;
-
 /// The cosine of the angle (a quarter of a degree) by which a triangle may lean that lies flat on
 /// another one: a chamfer leans by half of what the faces beside it do.
 const FLAT_COSINE: f64 = 0.999_99;
@@ -71,19 +68,19 @@ pub(super) fn check_carried(
     if before.triangle_count() == 0 || after.triangle_count() == 0 {
         return;
     }
-    let extent = f64::from(before.mesh.extent());
     let corners = 0..before.mesh.indices.len() as u32;
     let mut corners_at: Vec<_> = corners.map(|c| (before.cluster(c), c)).collect();
     corners_at.sort_unstable();
+    let source = Ground::new(before);
     let carried = Carried {
         corners_at,
         is_any_lost: findings.lost > 0,
-        source: Ground::new(before),
         after,
         origins,
         streams: Stream::all([before.mesh, after.mesh], extras.streams),
-        tolerance: (PLANE_TOLERANCE * extent).max(2.0 * before.rounding()),
+        tolerance: source.tolerance,
         reach: REACH * largest_pull([before, after], origins),
+        source,
     };
     let is_kept = carried.kept();
     carried.check_vertices(&is_kept, findings);

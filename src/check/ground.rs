@@ -6,9 +6,14 @@ use super::stored::normal_with_area;
 use super::surface::Surface;
 use crate::bvh::{Aabb, Tree};
 
+/// How far, relative to the extent, a corner may be off the surface that it lies on.
+const PLANE_TOLERANCE: f64 = 1e-5;
+
 /// The triangles of a mesh, to be found by place.
 pub(super) struct Ground<'a> {
     pub surface: &'a Surface<'a>,
+    /// How far off the surface counts as on it.
+    pub tolerance: f64,
     tree: Tree,
 }
 
@@ -28,7 +33,9 @@ impl<'a> Ground<'a> {
             Aabb::around(&points)
         };
         let boxes: Vec<Aabb> = triangles.map(around).collect();
-        Ground { surface, tree: Tree::new(&boxes, &[]) }
+        let extent = f64::from(surface.mesh.extent());
+        let tolerance = (PLANE_TOLERANCE * extent).max(2.0 * surface.rounding());
+        Ground { surface, tolerance, tree: Tree::new(&boxes, &[]) }
     }
 
     /// The nearest place of each triangle that is at most so far away.

@@ -1,9 +1,11 @@
 //! Source triangles that were cut, because a hard edge beside them got vertices.
 
+use std::cell::OnceCell;
 use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec3;
 
+use super::ground::Ground;
 use super::stored::normal_with_area;
 use super::surface::Surface;
 
@@ -80,7 +82,7 @@ fn share_of_area(piece: &Piece) -> f64 {
 pub(super) fn pieces_in_order(surfaces: [&Surface; 2], triangles: &mut [Option<[u32; 3]>]) -> Cuts {
     let [before, after] = surfaces;
     let beside = beside(after, triangles);
-    let mut patches = Patches { surfaces, of: BTreeMap::new() };
+    let mut patches = Patches { surfaces, ground: OnceCell::new(), of: BTreeMap::new() };
     let (mut first, mut start) = (0, 0);
     for (submesh, &indices) in after.mesh.submesh_index_counts.iter().enumerate() {
         let sources = before.mesh.submesh_index_counts.get(submesh).map_or(0, |count| count / 3);
@@ -103,6 +105,8 @@ pub(super) fn pieces_in_order(surfaces: [&Surface; 2], triangles: &mut [Option<[
 /// Source triangles in pieces, as far as they are found.
 struct Patches<'a> {
     surfaces: [&'a Surface<'a>; 2],
+    /// That of the source, once it is asked for.
+    ground: OnceCell<Ground<'a>>,
     /// By source triangle, its pieces.
     of: BTreeMap<u32, Vec<u32>>,
 }
@@ -122,8 +126,29 @@ impl Patches<'_> {
             let [now, then] = [patch, &with].map(|patch| misfit(self.surfaces, source, patch));
             (then - now, source)
         };
-        let grown = sources.filter(|&source| is_shaded_as(self.surfaces, source, piece)).map(grown);
+        let may_be = |&source: &u32| {
+            is_shaded_as(self.surfaces, source, piece) && self.lies_on(source, piece)
+        };
+        let grown = sources.filter(may_be).map(grown);
         grown.min_by(|one, other| one.0.total_cmp(&other.0)).map(|(_, source)| source)
+    }
+
+    /// Whether a piece lies on its triangle or on the surface around: rows of a rounded chamfer beside
+    /// a face that is shaded as a curved one are shaded like it, but do not.
+    fn lies_on(&self, source: u32, piece: u32) -> bool {
+        let [before, after] = self.surfaces;
+        let ground = self.ground.get_or_init(|| Ground::new(before));
+        let facing = normal_with_area(after.triangle(piece));
+        let faces_along = |triangle: u32| {
+            let was = normal_with_area(before.triangle(triangle));
+            was.zip(facing).is_none_or(|(was, is)| was.dot(is) > 0.0)
+        };
+        let is_on = |point| {
+            let mut near = ground.near(point, ground.tolerance);
+            ground.on_plane(source, point, ground.tolerance).is_some()
+                || near.any(|foot| faces_along(foot.triangle))
+        };
+        after.triangle(piece).into_iter().all(is_on)
     }
 
     fn add(&mut self, piece: u32, source: u32, first_piece: impl Fn(u32) -> u32) {
