@@ -8,9 +8,9 @@ mod own_models;
 use std::path::{Path, PathBuf};
 
 use chamfer::check::compare;
-use chamfer::{EdgeFactor, Factors, Mesh, Options, Verify, chamfer};
+use chamfer::{EdgeFactor, Factors, Mesh, Options, Verify, Width, chamfer};
 use chamfer_formats::{ReadOptions, read};
-use measure::{FOLDER, Measured, Sum, measure, models};
+use measure::{FOLDER, Measured, Sum, Unlike, measure, measure_with, models};
 
 /// Models, as the folder's own list has it.
 const MODELS: usize = 120;
@@ -77,10 +77,18 @@ fn at_two_percent_all_are_sound() {
 #[test]
 fn all_are_sound_by_what_went_in_and_what_came_out_alone() {
     for path in paths("alone") {
-        for percent in [0.5, 2.0] {
-            let measured = measure(&path, percent, Verify::Full, |before, after| {
-                let found = compare(before, &after.mesh.as_mesh(), Verify::Full);
-                assert!(found.is_sound(), "{} at {percent} %:\n{found}", path.display());
+        for (percent, segments, verify) in
+            [(0.5, 1, Verify::Full), (2.0, 1, Verify::Full), (2.0, 2, Verify::Fast)]
+        {
+            let options = Options::default()
+                .with_width(Width::PercentOfExtent(percent))
+                .with_segments(segments)
+                .with_verify(verify);
+            let plain = |_: &Mesh| Unlike::default();
+            let measured = measure_with(&path, &options, plain, |before, after| {
+                let found = compare(before, &after.mesh.as_mesh(), verify);
+                let asked = format!("{} at {percent} %, {segments}", path.display());
+                assert!(found.is_sound(), "{asked}:\n{found}");
             });
             assert!(measured.is_ok(), "{}", path.display());
         }
