@@ -148,10 +148,12 @@ mod tests {
     use super::*;
     use crate::given::tests::given_of;
     use crate::ids::Edge;
-    use crate::mesh::MeshBuffers;
+    use crate::ids::Id;
+    use crate::mesh::{Factors, Mesh, MeshBuffers};
+    use crate::options::{Options, Width};
     use crate::room::room;
     use crate::shapes;
-    use crate::stages::{Stages, stages_of};
+    use crate::stages::{Stages, stages_of, stages_of_mesh};
     use crate::strips;
 
     /// The shares of an edge in the order of its strip's corners, where one front has so little
@@ -193,6 +195,23 @@ mod tests {
         let cube = shapes::plain_cube(1.0);
         let stages = stages_of(&cube, 0.1);
         assert_near(shares(&stages, Edge(0), 0.0, 0.5), [0.1, 0.0, 0.3, 0.2]);
+    }
+
+    // b------------a      at a corner of the cube edges are to be twice as wide: the slope is told by
+    // :            |      the wider end
+    #[test]
+    fn a_width_grows_by_the_larger_of_what_is_asked_at_both_ends() {
+        let cube = shapes::plain_cube(1.0);
+        let start = stages_of(&cube, 0.1).edges.hard[Edge(0)].sides[0];
+        let wide = cube.positions[cube.indices[start.index()] as usize];
+        let mask: Vec<f32> =
+            cube.positions.iter().map(|at| if *at == wide { 2.0 } else { 1.0 }).collect();
+        let factors = Factors { vertices: &mask, ..Factors::default() };
+        let options = Options::default().with_width(Width::Units(0.1));
+        let stages = stages_of_mesh(Mesh { factors, ..cube.as_mesh() }, &options);
+        let [one, other] = stages.edges.hard[Edge(0)].widths;
+        assert!((one - 0.2).abs() < 1e-6 && (other - 0.1).abs() < 1e-6, "{one}, {other}");
+        assert_near(shares(&stages, Edge(0), 0.3, 0.5), [0.35, 0.3, 0.6, 0.65]);
     }
 
     #[test]

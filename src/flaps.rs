@@ -67,3 +67,30 @@ fn place(view: &View, [_, end, start]: [Corner; 3], at: DVec3) -> Blend {
     let [start, end] = [start, end].map(|corner| view.vertex_at(corner).0);
     Blend::new([start, end, start], [1.0 - share, share, 0.0])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shapes;
+    use crate::stages::stages_of;
+
+    // c
+    // | '.        half a face of a cube, as if it were a flap of its own
+    // a---b
+    #[test]
+    fn a_flap_is_a_triangle_in_the_plane_of_its_face() {
+        let cube = shapes::plain_cube(1.0);
+        let stages = stages_of(&cube, 0.1);
+        let joints = [Corner(0), Corner(1), Corner(2)];
+        let [a, b, c] = stages.view.triangle(Corner(0).triangle());
+        let up = stages.faces.normal[Corner(0).triangle()];
+        let is_valid = |points| is_valid(stages.surface(), joints, points);
+        assert!(is_valid([a, b, c]));
+        assert!(is_valid([a, b, c + up * 0.01]), "it leans by half a degree");
+        assert!(!is_valid([a, b, c + up * 0.05]), "it leans by three");
+        assert!(!is_valid([a, c, b]), "it is turned over");
+        let height = c - a;
+        assert!(!is_valid([a, b, a + height * 1e-8]), "single precision takes it for a line");
+        assert!(is_valid([a, a, c]), "it is closed");
+    }
+}

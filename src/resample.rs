@@ -91,8 +91,8 @@ fn nearest(
 
 /// The way over a face of the corner's own where the offset leads over one beyond: behind a hard edge
 /// that is not chamfered or, from a line, where the faces around the corner have one normal all over,
-/// so that they keep it. None where the offset leads out of that face's plane, as then it is not the
-/// place that the vertex comes to.
+/// so that they keep it. Where the offset leads a hair out of that face's plane, the place below counts:
+/// a face that is shaded flat stays so.
 fn own_foot(surface: Surface, sectors: &Sectors, offset: &Offset, corner: Corner) -> Option<Foot> {
     let sector = sectors.sector_of[corner];
     let leaves = || [corner, offset.within].iter().any(|at| !has_plane(surface, at.triangle()));
@@ -117,10 +117,6 @@ fn own_foot(surface: Surface, sectors: &Sectors, offset: &Offset, corner: Corner
     } else {
         None
     }?;
-    let rise = offset.vector.dot(surface.faces.normal[own.triangle()]).abs();
-    if rise > surface.view.resolution {
-        return None;
-    }
     locate(surface.view, own, surface.view.position_at(own), offset.vector)
 }
 

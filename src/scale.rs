@@ -124,3 +124,39 @@ impl Measured {
         Mesh { positions: &self.positions, normals: &self.normals, held: &self.held, ..*mesh }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::area_vector;
+    use crate::shapes;
+    use crate::view::view;
+
+    /// What is sheared, and as high as ten.
+    const SCALE: [[f32; 3]; 3] = [[2.0, 0.0, 0.0], [0.5, 10.0, 0.0], [0.0, 0.0, 1.0]];
+
+    #[test]
+    fn normals_stay_upright_on_slanted_faces_there_and_back() {
+        let pyramid = shapes::pyramid(4);
+        let options = Options::default().with_scale(SCALE);
+        let scale = Scale::new(&options).unwrap().unwrap();
+        let measured = scale.measured(&pyramid.as_mesh());
+        let mesh = measured.mesh(&pyramid.as_mesh());
+        let [source, measured] =
+            [pyramid.as_mesh(), mesh].map(|mesh| view(&mesh, &options).unwrap());
+        let space = Space { source: &source, measured: &measured, scale: Some(scale) };
+        for triangle in pyramid.indices.chunks(3) {
+            let points = [0, 1, 2].map(|k| wide(mesh.positions[triangle[k] as usize]));
+            for (&v, point) in triangle.iter().zip(points) {
+                let at = wide(pyramid.positions[v as usize]);
+                let there = DVec3::new(2.0 * at.x + 0.5 * at.y, 10.0 * at.y, at.z);
+                assert!(point.distance(there) < 1e-6, "{point} is not {there}");
+                assert!(space.back(point).distance(at) < 1e-6);
+                let normal = wide(mesh.normals[v as usize]);
+                assert!(normal.distance(unit(area_vector(points))) < 1e-6, "{normal}");
+                let before = wide(pyramid.normals[v as usize]);
+                assert!(space.normal_back(normal).distance(before) < 1e-6);
+            }
+        }
+    }
+}

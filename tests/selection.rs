@@ -464,6 +464,22 @@ fn a_face_beside_an_edge_that_stays_hard_stays_flat() {
     }
 }
 
+// There C leans by less than a tenth of a degree, so that nothing holds O to O-R: it goes over C, a hair
+// out of the plane of A, which is shaded flat all the same.
+#[test]
+fn a_face_that_is_nearly_in_one_plane_with_others_keeps_its_normal() {
+    let (mut block, kept) = block([0.005, 1.0, 0.0]);
+    let q = |at: &&mut [f32; 3]| at[1] > 0.0;
+    block.positions.iter_mut().filter(q).for_each(|at| at[1] = 0.002);
+    let edges = listed(&block, |_, ends| !kept.iter().all(|end| ends.contains(end)));
+    let o = block.indices[0] as usize;
+    for width in [0.002, 0.02, 0.05] {
+        let result = with_edges(&block, &edges, width);
+        assert!(result.mesh.positions[o][1] > 0.0, "{width}");
+        assert_eq!(result.mesh.normals[o], [0.0, 1.0, 0.0], "{width}");
+    }
+}
+
 /// The block, whose first triangle is A, and the ends O and R.
 fn block(at_o: [f32; 3]) -> (MeshBuffers, [[f32; 3]; 2]) {
     let [o, p, r] = [[1.0, 0.0, 1.0], [1.0, 0.0, -1.0], [0.0, 0.0, -1.0]];

@@ -50,7 +50,7 @@ pub fn parted(
     let mut parted = Vec::new();
     for first in chamfered_at.ids().filter(|&corner| chamfered_at[corner].is_some()) {
         let Some(fan) = around.fan(first, chamfered_at) else { continue };
-        let Some(bends) = around.bends(&fan).filter(|bends| bends.len() > 1) else { continue };
+        let Some(bends) = around.bends(&fan) else { continue };
         if around.can_part(&fan, &bends) {
             let last = fan[fan.len() - 1].prev();
             let widths = [
@@ -58,7 +58,7 @@ pub fn parted(
                 hard[chamfered_at[last]].width_at_end(last),
             ];
             let width = (widths[0] + widths[1]) / 2.0;
-            parted.extend(bends[1..].iter().map(|&at| Parted { corner: fan[at], width }));
+            parted.extend(bends.iter().skip(1).map(|&at| Parted { corner: fan[at], width }));
         }
     }
     parted.sort_unstable_by_key(|parted| parted.corner);
@@ -116,10 +116,8 @@ impl Around<'_> {
         starts.into_iter().all(|end| {
             let (face, is_across) = (&fan[from..end], from > 0 && !is_last(end));
             from = end;
-            let turn = self.turn(face);
-            turn.is_convex()
-                && turn.sin() >= LEAST_SLIDE_SINE
-                && (!is_across || self.is_level(face))
+            // Past half a turn the sine is negative.
+            self.turn(face).sin() >= LEAST_SLIDE_SINE && (!is_across || self.is_level(face))
         })
     }
 
@@ -140,5 +138,107 @@ impl Around<'_> {
             self.faces.normal[triangle].dot(normal) > FLAT_COSINE
                 && triangle.corners().into_iter().all(is_shaded_flat)
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use crate::math::{area_vector, unit};
+    use crate::mesh::{EdgeFactor, Factors, Held, Mesh, MeshBuffers};
+    use crate::options::{Options, Width};
+    use crate::stages::stages_of_mesh;
+
+    /// Where the edges of the faces end.
+    const E: [f32; 3] = [1.0, 0.0, 0.0];
+    const K1: [f32; 3] = [0.0, 0.0, 1.0];
+    const K2: [f32; 3] = [0.0, 1.0, 0.0];
+
+    /// Faces around the origin, each over some points; each shaded flat.
+    fn around(faces: &[&[[f32; 3]]]) -> MeshBuffers {
+        let mut mesh = MeshBuffers::default();
+        for face in faces {
+            let first = mesh.positions.len() as u32;
+            let points: Vec<DVec3> = face.iter().map(|at| DVec3::from(at.map(f64::from))).collect();
+            let areas = points.windows(2).map(|ends| area_vector([DVec3::ZERO, ends[0], ends[1]]));
+            let normal = unit(areas.sum()).as_vec3().to_array();
+            mesh.positions.push([0.0; 3]);
+            mesh.positions.extend(*face);
+            mesh.normals.extend(vec![normal; face.len() + 1]);
+            for place in 1..face.len() as u32 {
+                mesh.indices.extend([first, first + place, first + place + 1]);
+            }
+        }
+        mesh.submesh_index_counts = vec![mesh.indices.len() as u32];
+        mesh
+    }
+
+    /// How many edges part sectors where that from the origin to E is chamfered, and those to some
+    /// others are too but for a rim that rests on them.
+    fn count(mesh: &MeshBuffers, held: &[[f32; 3]]) -> usize {
+        let end = |at: [f32; 3]| mesh.positions.iter().position(|point| *point == at).unwrap();
+        let edge = |at: &[f32; 3]| EdgeFactor { vertices: [0, end(*at) as u32], factor: 1.0 };
+        let edges: Vec<EdgeFactor> = [E].iter().chain(held).map(edge).collect();
+        let rim = |&to: &[f32; 3]| Held { from: [0.0; 3], to, radius: 0.0 };
+        let held: Vec<Held> = held.iter().map(rim).collect();
+        let factors = Factors { edges: &edges, ..Factors::default() };
+        let mesh = Mesh { factors, held: &held, ..mesh.as_mesh() };
+        let options = Options::default().with_width(Width::Units(0.1));
+        stages_of_mesh(mesh, &options).edges.parted.len()
+    }
+
+    //  \  A  |  B  /
+    //   k1   e   k2       the corner of a box: all but the first of those that stay hard part
+    //     \  |  /
+    //      \ | /   C
+    #[test]
+    fn all_edges_but_the_first_part() {
+        assert_eq!(count(&around(&[&[E, K1], &[K1, K2], &[K2, E]]), &[]), 1);
+        let between = [-0.5, 0.7, 0.7];
+        assert_eq!(count(&around(&[&[E, K1], &[K1, between], &[between, K2], &[K2, E]]), &[]), 2);
+    }
+
+    // The first face is so slim that its vertex would go far along its edge, or just wide enough.
+    #[test]
+    fn nothing_parts_beside_a_face_that_cannot_slide() {
+        let between = [0.0, -0.5, 1.0];
+        for (aside, expected) in [(0.05, 0), (0.15, 2)] {
+            let k1 = [1.0, 0.0, aside];
+            let faces: [&[[f32; 3]]; 4] = [&[E, k1], &[k1, between], &[between, K2], &[K2, E]];
+            assert_eq!(count(&around(&faces), &[]), expected, "{aside}");
+        }
+    }
+
+    //  .-----.
+    //  |     |         C is all of a wall but the corner from which e comes towards us
+    //  |  C  e---k2
+    //  |     |
+    //  '-----k1
+    #[test]
+    fn nothing_parts_across_a_concave_face() {
+        let wall = [K2, [0.0, 0.0, -1.0], [0.0, -1.0, 0.0], K1];
+        assert_eq!(count(&around(&[&[E, K2], &wall, &[K1, E]]), &[]), 0);
+    }
+
+    // The first face has two halves in one plane, which are shaded differently.
+    #[test]
+    fn an_edge_between_faces_in_one_plane_parts_nothing() {
+        let half = [1.0, 0.0, 1.0];
+        let mut mesh = around(&[&[E, half], &[half, K1], &[K1, K2], &[K2, E]]);
+        mesh.normals[..3].fill([0.1, -0.995, 0.0]);
+        assert_eq!(count(&mesh, &[]), 1);
+    }
+
+    // The first face bends: by 17 degrees where it is shaded smoothly, or by three at an edge that is
+    // held, and so is not merely not selected.
+    #[test]
+    fn nothing_parts_beside_a_face_that_bends() {
+        let bend = [1.0, -0.3, 1.0];
+        assert_eq!(count(&around(&[&[E, bend, K1], &[K1, K2], &[K2, E]]), &[]), 0);
+        let bend = [1.0, -0.03, 1.0];
+        let mesh = around(&[&[E, bend], &[bend, K1], &[K1, K2], &[K2, E]]);
+        assert_eq!(count(&mesh, &[bend]), 0);
+        assert_eq!(count(&mesh, &[]), 2, "where it is not selected it parts as others do");
     }
 }

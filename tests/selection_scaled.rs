@@ -1,0 +1,56 @@
+//! What is measured where a scale leads: what is hard, what is held, and the widest chamfer.
+
+#[allow(dead_code)] // Other tests use more of it.
+#[path = "support/shaded.rs"]
+mod shaded;
+
+use chamfer::check::assert_sound;
+use chamfer::{Held, Mesh, Options, Reason, Width, chamfer, shapes};
+
+/// A stretch along the three axes.
+fn along_axes([x, y, z]: [f32; 3]) -> [[f32; 3]; 3] {
+    [[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]]
+}
+
+//      _ _.--.._ _        a roof of half a degree, and as it stands twenty times as high
+#[test]
+fn an_edge_is_hard_where_it_turns_enough_as_it_is_measured() {
+    let height = 0.25_f32.to_radians().tan();
+    let points = [-1.0, 1.0].map(|z| [[-1.0, 0.0, z], [0.0, height, z], [1.0, 0.0, z]]).concat();
+    let faces = [0, 3, 4, 0, 4, 1, 1, 4, 5, 1, 5, 2];
+    let roof = shaded::shaded(&points, &faces, 0.1);
+    for (height, expected) in [(1.0, 0), (20.0, 1)] {
+        let options = Options::default().with_scale(along_axes([1.0, height, 1.0]));
+        let result = chamfer(&roof.as_mesh(), &options).unwrap();
+        assert_sound("a roof", &roof.as_mesh(), &result);
+        assert_eq!(result.totals.hard_edges, expected, "{height}");
+    }
+}
+
+//    .-----------.
+//   /      o    /|     a ball behind the middle of an edge: it holds that where it reaches it
+//  +-----------+ |
+#[test]
+fn what_a_ball_holds_grows_with_the_longest_axis() {
+    let cube = shapes::plain_cube(1.0);
+    let at = [0.0, 0.5, 0.3];
+    for (longest, expected) in [(1.0, 0), (1.5, 0), (2.5, 1)] {
+        let held = [Held { from: at, to: at, radius: 0.1 }];
+        let mesh = Mesh { held: &held, ..cube.as_mesh() };
+        let options = Options::default()
+            .with_width(Width::Units(0.01))
+            .with_scale(along_axes([longest, 1.0, 1.0]));
+        let result = chamfer(&mesh, &options).unwrap();
+        assert_eq!(result.totals.skipped[Reason::Contact], expected, "{longest}");
+    }
+}
+
+// Along the axis that gets longest, as the scene is four times as large as the mesh there.
+#[test]
+fn the_largest_width_is_told_in_units_of_the_mesh() {
+    let cube = shapes::plain_cube(1.0);
+    let options =
+        Options::default().with_width(Width::Units(0.1)).with_scale(along_axes([4.0, 2.0, 1.0]));
+    let result = chamfer(&cube.as_mesh(), &options).unwrap();
+    assert!((result.largest_width - 0.025).abs() < 1e-7, "{}", result.largest_width);
+}
