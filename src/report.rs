@@ -33,7 +33,7 @@ pub struct Chamfered {
     /// [`Options::scale`](crate::Options::scale), where it was given: widths are those of that space.
     pub scale: Option<[[f32; 3]; 3]>,
     /// The largest width asked for of any edge, with all factors, in mesh units: no vertex goes
-    /// farther than three of these.
+    /// farther than three of these. Under a scale that stretches axes unlike, along the longest one.
     pub largest_width: f32,
     /// Sums over the verdicts.
     pub totals: Totals,
