@@ -10,8 +10,8 @@ use super::surface::Surface;
 /// What faces where, as the mesh stands: between the normals of a stretched mesh there may be more
 /// than a right angle where it comes from, and less where it stands.
 pub(super) struct Facing {
-    /// How normals go along with the mesh.
-    to: DMat3,
+    /// How normals go along with the mesh; none where it stands as it is.
+    to: Option<DMat3>,
 }
 
 impl Facing {
@@ -19,7 +19,7 @@ impl Facing {
     pub fn new(scale: Option<[[f32; 3]; 3]>) -> Facing {
         let axes = scale.map(|axes| axes.map(|axis| vector(&axis)));
         // The cofactors: right for normals, and for area vectors. A mirror turns neither.
-        let to = axes.map_or(DMat3::IDENTITY, |[x, y, z]| {
+        let to = axes.map(|[x, y, z]| {
             let sign = x.cross(y).dot(z).signum();
             DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * sign
         });
@@ -28,12 +28,16 @@ impl Facing {
 
     /// Where a triangle faces, as long as its area; none without area.
     fn area(&self, surface: &Surface, triangle: u32) -> Option<DVec3> {
-        Some(self.to * normal_with_area(surface.triangle(triangle))?)
+        let area = normal_with_area(surface.triangle(triangle))?;
+        Some(self.to.map_or(area, |to| to * area))
     }
 
-    /// The sum of the vertex normals.
+    /// The sum of the vertex normals: as long as they come, or of length 1 where they are stretched.
     fn shading(&self, surface: &Surface, triangle: u32) -> DVec3 {
-        let normal = |side| (self.to * surface.normal(3 * triangle + side)).normalize_or_zero();
+        let normal = |side| {
+            let stored = surface.normal(3 * triangle + side);
+            self.to.map_or(stored, |to| (to * stored).normalize_or_zero())
+        };
         [0, 1, 2].map(normal).iter().sum()
     }
 
