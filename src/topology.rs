@@ -137,7 +137,11 @@ fn join_all(view: &View, joined: &mut Topology) {
     }
     if !crowds.is_empty() {
         let mut parts = parts(joined);
-        crowds.into_iter().for_each(|crowd| join_crowd(view, &spokes[crowd], &mut parts, joined));
+        // What is left over depends on which faces are of one part: those edges come last.
+        let (even, uneven): (Vec<_>, Vec<_>) =
+            crowds.into_iter().partition(|crowd| is_even(&spokes[crowd.clone()], joined));
+        let all = even.into_iter().chain(uneven);
+        all.for_each(|crowd| join_crowd(view, &spokes[crowd], &mut parts, joined));
     }
 }
 
@@ -174,6 +178,12 @@ fn buckets(view: &View, joined: &Topology) -> (Vec<u32>, Vec<Spoke>) {
         spokes[starts[near.index()] as usize] = spoke;
     });
     (starts, spokes)
+}
+
+/// Whether as many half-edges of an edge run forth as run back.
+fn is_even(edge: &[Spoke], joined: &Topology) -> bool {
+    let forth = |spoke: &&Spoke| joined.cluster_at[spoke.half_edge] < spoke.far;
+    2 * edge.iter().filter(forth).count() == edge.len()
 }
 
 /// Pairs the half-edges of an edge of two sides, if they run opposite ways.

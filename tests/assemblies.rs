@@ -193,3 +193,41 @@ fn one_more_triangle_between_rows_is_found() {
         }
     }
 }
+
+/// Three boxes touch at a corner, and their chamfers, each of the full width, touch along an edge
+/// there: one by the floor of a box over an open wall, one by the corner of the third. Each has
+/// vertices of its own on it, and is as closed as before.
+#[test]
+fn chamfers_may_touch_along_an_edge() {
+    let open = Block { without: 0b1000, ..Block::new([2.0, 2.0, 1.0], [4.0, 3.0, 3.0]) };
+    let behind = Block::new([1.0, 0.0, 3.0], [4.0, 3.0, 4.0]);
+    let above = Block::new([2.0, 3.0, 3.0], [4.0, 4.0, 4.0]);
+    let mesh = assembly(&[behind, open, above], DMat3::IDENTITY, false);
+    let result = chamfered("boxes", &mesh, 0.04);
+    assert_eq!(result.totals.chamfered, result.totals.hard_edges);
+}
+
+/// An open wall stands on an edge of a box that is there twice. What is left over there is known once
+/// the other edges have told which faces are of one copy.
+#[test]
+fn a_wall_on_a_doubled_box_tears_none_of_its_copies() {
+    let wall = Block { without: 0b100, ..Block::new([1.0, 3.0, 3.0], [2.0, 4.0, 4.0]) };
+    let below = Block::new([1.0, 1.0, 2.0], [2.0, 3.0, 3.0]).with(Skin::Copied);
+    let beside = Block::new([0.0, 0.0, 2.0], [1.0, 3.0, 3.0]).with(Skin::Copied);
+    let apart = Block::new([3.0, 0.0, 0.0], [4.0, 1.0, 1.0]).with(Skin::Copied);
+    let blocks = [wall, Block { without: 0b10, ..beside }, below, apart];
+    chamfered("boxes", &assembly(&blocks, DMat3::IDENTITY, false), 0.04);
+}
+
+/// An open box and a closed one continue each other, both there twice and with vertices in common:
+/// each chamfer is of the box whose sides it lies beside. A third box stands apart.
+#[test]
+fn chamfers_of_copies_that_continue_each_other_are_told_apart() {
+    let open = Block { without: 0b1_0000, ..Block::new([2.0, 1.0, 3.0], [3.0, 3.0, 4.0]) };
+    let closed = Block::new([2.0, 1.0, 1.0], [3.0, 3.0, 3.0]);
+    let turn = DMat3::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), 1.5722056);
+    let [open, closed] = [open, closed].map(|block| block.with(Skin::Copied));
+    let apart = Block::new([0.0, 2.0, 0.0], [1.0, 3.0, 1.0]);
+    let mesh = assembly(&[open, apart, closed], turn, true);
+    chamfered("boxes", &mesh, 0.04);
+}

@@ -53,8 +53,11 @@ impl Solids {
             origins.triangles.iter().map(|s| s.map(|[c, ..]| self.of[c as usize / 3])).collect();
         let across = Across::new(after, &known);
         across.spread(&mut known);
+        // Beside a triangle of the source a strip lies with its long side, beside other new ones with
+        // an end, where the next solid may begin.
+        let is_old = |triangle: u32| origins.triangles[triangle as usize].is_some();
         for _ in 0..MOST_ROUNDS {
-            if !adopt(after, &mut known) {
+            if !adopt(after, &mut known, &is_old) && !adopt(after, &mut known, &|_| true) {
                 break;
             }
             across.spread(&mut known);
@@ -251,15 +254,16 @@ fn ends(surface: &Surface, half_edge: &HalfEdge) -> [usize; 2] {
 }
 
 /// Where the new triangles on one side of an edge are as many as one solid alone lacks there, they
-/// are its own. Tells whether there were any.
-fn adopt(surface: &Surface, known: &mut [Option<u32>]) -> bool {
+/// are its own, if all on the other side are of those to look at. Tells whether there were any.
+fn adopt(surface: &Surface, known: &mut [Option<u32>], looks_at: &dyn Fn(u32) -> bool) -> bool {
     let mut adopted = false;
     let few = |(a, b): &(&[HalfEdge], &[HalfEdge])| a.len() + b.len() <= MOST_SIDES;
     for (forward, backward) in surface.edges().filter(few) {
         for (here, there) in [(forward, backward), (backward, forward)] {
             let new: Vec<u32> =
                 here.iter().map(triangle).filter(|&t| known[t as usize].is_none()).collect();
-            let knows_all = there.iter().all(|h| known[triangle(h) as usize].is_some());
+            let knows = |t: u32| known[t as usize].is_some() && looks_at(t);
+            let knows_all = there.iter().map(triangle).all(knows);
             if new.is_empty() || !knows_all {
                 continue;
             }
@@ -294,6 +298,7 @@ fn lacking(known: &[Option<u32>], here: &[HalfEdge], there: &[HalfEdge]) -> Vec<
 /// A skin that is there twice has four sides on each edge, before and after. Where several sides
 /// meet on an edge of the source, its chamfers may have them too. Only where the mesh has more such
 /// sides than before is there anything to find: which solid a side belongs to is not always certain.
+/// Chamfers that come to touch along an edge, each with vertices of its own there, touch as solids do.
 pub(super) fn check_sides(
     [before, after]: [&Surface; 2],
     [source, result]: [&Solids; 2],
@@ -305,6 +310,9 @@ pub(super) fn check_sides(
     }
     let allowed = Allowed::new([before, after], [source, result], origins);
     for edge in after.edges().filter(|(a, b)| a.len() + b.len() > 2) {
+        if is_closed_by_vertices(after, edge) {
+            continue;
+        }
         let clusters = edge.0.first().or(edge.1.first()).map_or([0; 2], |h| h.clusters);
         let allowed = allowed.on(clusters);
         let together = allowed.iter().map(|&(_, sides)| sides).sum::<usize>().max(LEAST_SIDES);
@@ -317,6 +325,20 @@ pub(super) fn check_sides(
             findings.note(Rule::NonManifold, Element::Edge(clusters[0], clusters[1]));
         }
     }
+}
+
+/// Whether each side of an edge shares its two vertices with one other side alone, which runs back.
+fn is_closed_by_vertices(
+    surface: &Surface,
+    (forward, backward): (&[HalfEdge], &[HalfEdge]),
+) -> bool {
+    let sorted = |sides: &[HalfEdge]| {
+        let mut sorted: Vec<[usize; 2]> = sides.iter().map(|side| ends(surface, side)).collect();
+        sorted.sort_unstable();
+        sorted
+    };
+    let [forward, backward] = [forward, backward].map(sorted);
+    forward == backward && forward.windows(2).all(|pair| pair[0] != pair[1])
 }
 
 /// Any edge may have two sides.
