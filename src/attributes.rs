@@ -3,22 +3,34 @@
 //! A vertex whose corners lie in several sectors that part becomes several (thesis 6.2); the first
 //! keeps the index, the others are appended. A flat face keeps its normal to the bit, a curved one
 //! the shading that it had at that place.
+//!
+//! Collapsed triangles: two of their corners stand at one position, so they are but a line.
+//!
+//! They stay lines: their corners go with the first real triangle on that line, all of them with
+//! the same one, so that nothing opens and no edge gets crowded that was not.
+//!
+//! Index: the vertices of the result by where they came from, and so by where they can be equal.
+//!
+//! Vertices of two charts become equal when both are copied to one place in a third. What is equal
+//! stands at one place, so there is a list of the vertices that came from each cluster, or several
+//! by where they stand now: the tip of a huge cone has as many as it has sides.
 
-mod collapsed;
-mod index;
 mod streams;
+
+use std::collections::BTreeMap;
 
 use crate::breaks::same_chart;
 use crate::chamfers::Chamfers;
-use crate::ids::{Corner, Few, IdVec, Sector, Vertex};
+use crate::ids::{Cluster, Corner, Few, Id, IdVec, Sector, Triangle, Vertex};
 use crate::placement::Placement;
 use crate::report::Blend;
 use crate::resample::blended_normal;
 use crate::scale::Space;
 use crate::sectors::Sectors;
 use crate::surface::Surface;
+use crate::topology::Topology;
 use crate::view::View;
-use crate::weld::Weld;
+use crate::weld::{Weld, hash_of};
 
 use streams::Row;
 pub use streams::{Streams, Taken};
@@ -60,7 +72,7 @@ pub fn attributes(
     attributes.streams.look_up(weld);
     add_parted((space, surface), placement, &parted, &mut attributes);
     if moved().next().is_some() {
-        collapsed::close(surface.view, surface.topology, &mut attributes.vertex_at);
+        close_collapsed(surface.view, surface.topology, &mut attributes.vertex_at);
     }
     attributes
 }
@@ -187,6 +199,137 @@ fn blends(view: &View, placement: &Placement, sector: Sector, corner: Corner) ->
 
     let surface = placement.surface_foot(sector, corner).blend(view, share);
     [surface, from_own(chart.blend(view, share))]
+}
+
+/// Moves the corners of collapsed triangles along.
+fn close_collapsed(view: &View, topology: &Topology, vertex_at: &mut IdVec<Corner, u32>) {
+    let is_collapsed = |triangle: &Triangle| topology.is_collapsed(*triangle);
+    let collapsed: Vec<Triangle> = view.triangles().filter(is_collapsed).collect();
+    if collapsed.is_empty() {
+        return;
+    }
+    let first_on = first_half_edges(view, topology, &collapsed);
+    for triangle in collapsed {
+        let corners = triangle.corners();
+        let line = line_of(topology, triangle);
+        for corner in corners {
+            let at = topology.cluster_at[corner];
+            let own = corners.into_iter().find(|&other| topology.cluster_at[other] == at);
+            let carrier = first_on.get(&line).copied().flatten().map(|half_edge| {
+                let starts_here = topology.cluster_at[half_edge] == at;
+                if starts_here { half_edge } else { half_edge.next() }
+            });
+            vertex_at[corner] = vertex_at[carrier.or(own).unwrap_or(corner)];
+        }
+    }
+}
+
+/// The two clusters that a collapsed triangle spans, lower first; one twice if it is a point.
+fn line_of(topology: &Topology, triangle: Triangle) -> [Cluster; 2] {
+    let clusters = triangle.corners().map(|corner| topology.cluster_at[corner]);
+    [clusters.into_iter().min(), clusters.into_iter().max()].map(|c| c.unwrap_or(Cluster::NONE))
+}
+
+/// For each line of a collapsed triangle, the first half-edge of a real triangle there.
+fn first_half_edges(
+    view: &View,
+    topology: &Topology,
+    collapsed: &[Triangle],
+) -> BTreeMap<[Cluster; 2], Option<Corner>> {
+    let mut first: BTreeMap<[Cluster; 2], Option<Corner>> =
+        collapsed.iter().map(|&triangle| (line_of(topology, triangle), None)).collect();
+    // Most half-edges do not start where one of these lines ends.
+    let mut is_end = IdVec::filled(false, topology.clusters);
+    first.keys().flatten().for_each(|&cluster| is_end[cluster] = true);
+    let real = view.triangles().filter(|&triangle| !topology.is_collapsed(triangle));
+    for half_edge in real.flat_map(Triangle::corners) {
+        let ends = [half_edge, half_edge.next()].map(|corner| topology.cluster_at[corner]);
+        if !ends.iter().all(|&cluster| is_end[cluster]) {
+            continue;
+        }
+        if let Some(found) = first.get_mut(&[ends[0].min(ends[1]), ends[0].max(ends[1])]) {
+            found.get_or_insert(half_edge);
+        }
+    }
+    first
+}
+
+/// The end of a list.
+const NONE: u32 = u32::MAX;
+
+/// A cluster with this many vertices for each of its lists gets more lists.
+const LONG: u32 = 16;
+
+/// The output vertices of each cluster.
+#[derive(Default)]
+pub struct Index {
+    /// `#clusters + 1`: the first list of each, and the end.
+    lists_of: IdVec<Cluster, u32>,
+    /// `#lists`: the vertex that each begins with.
+    first: Vec<u32>,
+    /// `#output vertices`: the one that follows in the list.
+    next: Vec<u32>,
+}
+
+impl Index {
+    /// Lists the source vertices, where they stand now.
+    pub fn of_source(weld: &Weld, positions: &[[f32; 3]]) -> Index {
+        let lists_of = lists_of(weld);
+        let lists = lists_of.iter().last().map_or(0, |&end| end as usize);
+        let mut index = Index { lists_of, first: vec![NONE; lists], next: Vec::new() };
+        index.next.resize(weld.cluster_of.len(), NONE);
+        // From the last to the first: each list begins with its first vertex.
+        for vertex in weld.cluster_of.ids().rev() {
+            let list = index.list_at(weld.cluster_of[vertex], positions[vertex.index()]);
+            index.next[vertex.index()] = std::mem::replace(&mut index.first[list], vertex.0);
+        }
+        index
+    }
+
+    /// The list of a cluster for what stands at a position.
+    pub fn list_at(&self, cluster: Cluster, position: [f32; 3]) -> usize {
+        let [start, end] = [cluster, Cluster(cluster.0 + 1)].map(|cluster| self.lists_of[cluster]);
+        match end - start {
+            1 => start as usize,
+            lists => start as usize + ((hash_of(position) >> 32) as usize & (lists as usize - 1)),
+        }
+    }
+
+    /// A vertex of a list that is such.
+    pub fn find(&self, list: usize, is_such: impl Fn(u32) -> bool) -> Option<u32> {
+        let mut listed = self.first[list];
+        while listed != NONE && !is_such(listed) {
+            listed = self.next[listed as usize];
+        }
+        (listed != NONE).then_some(listed)
+    }
+
+    /// Leaves the next new vertex out of all lists, and tells its number.
+    pub fn skip(&mut self) -> u32 {
+        self.next.push(NONE);
+        self.next.len() as u32 - 1
+    }
+
+    /// Puts the next new vertex at the head of a list, and tells its number.
+    pub fn add(&mut self, list: usize) -> u32 {
+        let vertex = self.next.len() as u32;
+        self.next.push(std::mem::replace(&mut self.first[list], vertex));
+        vertex
+    }
+}
+
+/// `#clusters + 1`: a power of two of lists for each.
+fn lists_of(weld: &Weld) -> IdVec<Cluster, u32> {
+    let mut lists_of = IdVec::filled(0, weld.first_vertex.len() + 1);
+    for cluster in weld.cluster_of.iter() {
+        lists_of[*cluster] += 1;
+    }
+    let mut end = 0;
+    for lists in lists_of.iter_mut() {
+        let vertices = std::mem::replace(lists, end);
+        end += (vertices / LONG).next_power_of_two();
+    }
+    lists_of
 }
 
 #[cfg(test)]

@@ -5,7 +5,6 @@
 //! is seen. Which parts make a block depends on the mesh alone, so the result is the same for any
 //! number of threads.
 
-mod cut;
 mod join;
 
 use crate::bvh::{Aabb, Tree};
@@ -14,10 +13,10 @@ use crate::error::Error;
 use crate::groups::Groups;
 use crate::ids::{Cluster, Id, IdVec, Triangle, Vertex};
 use crate::memory;
+use crate::mesh::{MeshBuffers, Uv, UvBuffer};
 use crate::view::View;
 use crate::weld::Weld;
 
-pub use cut::cut;
 pub use join::join;
 
 /// Meshes of fewer triangles are done at once: threads within the stages do for these.
@@ -189,4 +188,51 @@ fn together(view: &View, weld: &Weld, parts: Groups) -> Option<IdVec<Cluster, Cl
     let near = near.labels();
     let together = |&part: &u32| Cluster(first[near[number_of[part as usize]] as usize]);
     Some(IdVec::from_vec(part_of.iter().map(together).collect()))
+}
+
+/// A block of a mesh, with all submeshes that the mesh has.
+pub fn cut(view: &View, blocks: &Blocks, block: usize) -> MeshBuffers {
+    let (mesh, vertices) = (&view.mesh, blocks.vertices.of(block));
+    let uv = |uv: &Uv| UvBuffer {
+        components: uv.components,
+        values: values_of(uv.values, uv.components as usize, vertices),
+    };
+    let triangles = blocks.triangles.of(block);
+    let corners = triangles.iter().flat_map(|triangle| triangle.corners());
+    let counts = triangle_counts(view, blocks, block).into_iter();
+    MeshBuffers {
+        positions: of(mesh.positions, vertices),
+        normals: of(mesh.normals, vertices),
+        tangents: of(mesh.tangents, vertices),
+        colors: of(mesh.colors, vertices),
+        uvs: mesh.uvs.each_ref().map(uv),
+        indices: corners.map(|corner| blocks.place[view.vertex_at(corner)]).collect(),
+        submesh_index_counts: counts.map(|count| 3 * count).collect(),
+    }
+}
+
+/// `#submeshes`: how many triangles of a block belong to each.
+pub fn triangle_counts(view: &View, blocks: &Blocks, block: usize) -> Vec<u32> {
+    let (mut triangles, mut end) = (blocks.triangles.of(block), 0);
+    let count = |indices: &u32| {
+        end += indices / 3;
+        let (own, rest) = triangles.split_at(triangles.partition_point(|t| t.0 < end));
+        triangles = rest;
+        own.len() as u32
+    };
+    view.mesh.submesh_index_counts.iter().map(count).collect()
+}
+
+/// The values of some vertices; an absent stream stays absent.
+fn of<T: Copy>(values: &[T], vertices: &[Vertex]) -> Vec<T> {
+    let present = if values.is_empty() { &[] } else { vertices };
+    present.iter().map(|vertex| values[vertex.index()]).collect()
+}
+
+fn values_of(values: &[f32], components: usize, vertices: &[Vertex]) -> Vec<f32> {
+    let present = if components == 0 { &[] } else { vertices };
+    let range = |vertex: &Vertex| vertex.index() * components..(vertex.index() + 1) * components;
+    let mut own = Vec::with_capacity(present.len() * components);
+    present.iter().for_each(|vertex| own.extend_from_slice(&values[range(vertex)]));
+    own
 }

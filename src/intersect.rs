@@ -7,7 +7,6 @@
 //! (Shewchuk's predicates), in the manner of Guigue and Devillers, *Fast and Robust
 //! Triangle-Triangle Overlap Test Using Orientation Predicates* (2003).
 
-mod apart;
 mod crowds;
 mod eyes;
 
@@ -23,8 +22,8 @@ use crate::tolerance::NEARLY_FLAT;
 use crate::watch::Unwatched;
 use crate::watch::Watch;
 
-use apart::{are_apart, are_apart_but_for_corner};
 use eyes::Eyes;
+use eyes::{are_apart, are_apart_but_for_corner};
 
 pub(crate) use crowds::{Around, crowds};
 

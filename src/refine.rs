@@ -12,7 +12,6 @@
 //! This is a step from mesh to mesh. The pipeline then goes on with the finer mesh as with any
 //! other, and [`restored`] tells the result in terms of the source.
 
-mod cuts;
 mod restored;
 mod shape;
 mod splits;
@@ -31,9 +30,9 @@ use crate::report::Blend;
 use crate::shape::Shape;
 use crate::view::{View, wide};
 
-use cuts::{CutCorner, Point, pieces};
 pub use restored::{Origins, restored};
 pub use shape::shape;
+use shape::{CutCorner, Point, pieces};
 
 /// Where a hard edge gets vertices.
 #[derive(Clone, Debug, PartialEq)]

@@ -8,28 +8,28 @@
 mod arc;
 mod ends;
 mod fill;
-mod given;
 mod lay;
 mod near;
 
 use glam::DVec3;
 
+use crate::chamfers::Chamfers;
 use crate::error::Error;
 use crate::ids::{Edge, Few, Id, IdVec, Patch, Vertex};
 use crate::memory;
 use crate::patches::{Parts, Patches, nearest};
+use crate::placement::Placement;
 use crate::report::Blend;
 use crate::threads::Threads;
-
-use ends::{End, ends_of};
-use fill::{lay_fill, loose_ends};
-use lay::{Lay, lay_strip};
-use near::near;
+use crate::view::View;
 
 pub use ends::Rows;
-pub use given::Given;
+use ends::{End, ends_of};
+use fill::{lay_fill, loose_ends};
 pub use lay::Parents;
+use lay::{Lay, lay_strip};
 pub use near::joined;
+use near::near;
 
 /// All rounded patches, by the number of that with one segment.
 #[derive(Default)]
@@ -331,6 +331,15 @@ fn ask_for_memory(given: Given, patches: &Patches, rows: &Rows) -> Result<(), Er
         return Err(Error::TooLarge);
     }
     memory::ask(memory::of_rounding(mesh, points, triangles))
+}
+
+/// The arguments of [`rounding`](super::rounding), for the files of this stage alone.
+#[derive(Clone, Copy)]
+pub struct Given<'a> {
+    pub view: &'a View<'a>,
+    pub chamfers: Chamfers<'a>,
+    pub placement: &'a Placement<'a>,
+    pub profile: f64,
 }
 
 #[cfg(test)]

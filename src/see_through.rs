@@ -8,18 +8,16 @@
 
 mod raster;
 mod sight;
-mod views;
-mod windows;
 
 use std::collections::{BTreeSet, HashSet};
 
 use glam::DVec3;
 
 use crate::threads::Threads;
+use raster::View;
 use raster::{Depths, Faces};
 use sight::Sight;
-use views::View;
-use windows::{Sample, Window};
+use sight::{Sample, Window};
 
 /// A triangle of a scene, `3 by 3`: counter-clockwise where seen from outside.
 pub type SceneTriangle = [[f32; 3]; 3];
@@ -39,7 +37,7 @@ pub struct Eyes {
 
 impl Eyes {
     /// Further directions are left out.
-    pub const MOST_VIEWS: usize = views::DIRECTIONS.len();
+    pub const MOST_VIEWS: usize = raster::DIRECTIONS.len();
 
     /// Each thread needs memory for its own pictures.
     pub const MOST_THREADS: u32 = 4;
@@ -117,7 +115,7 @@ pub fn leaks(
     eyes: Eyes,
 ) -> Vec<Leak> {
     let changes = Changes::between(before, after);
-    let frame = views::Frame::around(before).filter(|_| !changes.gone.is_empty());
+    let frame = raster::Frame::around(before).filter(|_| !changes.gone.is_empty());
     let Some(frame) = frame else { return Vec::new() };
     let views: Vec<View> = frame.views(eyes.views, eyes.resolution).collect();
     let reach = f64::from(width) * REACH;

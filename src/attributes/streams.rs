@@ -7,7 +7,7 @@
 use glam::{DVec2, DVec3};
 use smallvec::SmallVec;
 
-use super::index::Index;
+use super::Index;
 use crate::ids::{Cluster, Id, Vertex};
 use crate::math::unit;
 use crate::mesh::{MeshBuffers, Uv, UvBuffer};

@@ -3,7 +3,7 @@
 //! Source vertices and triangles go back to where they were; what is new follows, block by block.
 
 use super::Blocks;
-use super::cut::triangle_counts;
+use super::triangle_counts;
 use crate::ids::{Triangle, Vertex};
 use crate::mesh::{MeshBuffers, Uv, UvBuffer};
 use crate::report::{Chamfered, EdgeVerdict, Piece, TriangleKind, TriangleSource, VertexSources};

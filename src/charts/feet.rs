@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::channels_of;
-use super::ways::{Spread, Way, Wings};
+use super::{Spread, Way, Wings};
 use crate::breaks::seam_between;
 use crate::chamfers::Chamfers;
 use crate::foot::locate;

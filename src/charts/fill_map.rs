@@ -5,13 +5,11 @@ use std::cmp::Reverse;
 
 use glam::{DVec2, DVec3};
 
-use super::density::density;
 use super::feet::{Frame, Lay, Room, flat_lay, is_broken, kite};
 use super::fit::{Facing, Lie, MOST_STRETCH, misfit};
-use super::ground::Ground;
+use super::ground::{Ground, density};
 use super::owners::Owners;
-use super::ways::{FILL_WAYS, Way};
-use super::{Given, TakenAt, channels_of, place_of};
+use super::{FILL_WAYS, Given, TakenAt, Way, channels_of, place_of};
 use crate::attributes::Taken;
 use crate::ids::{Corner, Edge, Few, Ring, Sector, Triangle};
 use crate::math::{area_vector, unit};

@@ -2,9 +2,9 @@
 
 use glam::{DVec2, DVec3};
 
-use super::density::{density, texture_area};
 use super::feet::Room;
 use super::ground::Ground;
+use super::ground::{density, texture_area};
 use crate::ids::Corner;
 use crate::math::area_vector;
 use crate::view::View;

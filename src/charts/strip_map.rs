@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3};
 use super::feet::{End, Frame, Room, feet_at, flat_lay};
 use super::fit::{Facing, Lie, MOST_STRETCH, misfit, roomiest};
 use super::ground::Ground;
-use super::ways::{BANDS, BESIDE_BANDS, Way};
+use super::{BANDS, BESIDE_BANDS, Way};
 use super::{Given, TakenAt, channels_of, place_of};
 use crate::attributes::{Attributes, Taken};
 use crate::edges::HardEdge;

@@ -5,9 +5,7 @@
 
 mod guard;
 mod input;
-mod normals;
 mod output;
-mod overlap;
 mod scene;
 mod sized;
 mod status;
@@ -139,7 +137,7 @@ pub unsafe extern "C" fn chamfer_split_by_angle(
     out: *mut *mut chamfer_result,
     error: *mut chamfer_error,
 ) -> i32 {
-    let body = |mesh: Mesh| normals::with_normals(&mesh, angle_degrees);
+    let body = |mesh: Mesh| output::with_normals(&mesh, angle_degrees);
     // SAFETY: the caller's pointers are NULL or valid, as `chamfer.h` asks.
     unsafe { produce(mesh, out, error, body) }
 }
@@ -261,7 +259,7 @@ unsafe fn produce(
     make: impl FnOnce(Mesh) -> Result<Chamfered, Failure>,
 ) -> i32 {
     // SAFETY: as this function's.
-    let apart = caught(|| unsafe { overlap::check_apart(mesh, out, error) });
+    let apart = caught(|| unsafe { input::check_apart(mesh, out, error) });
     if let Err(failure) = apart.and_then(|apart| apart) {
         return failure.status;
     }

@@ -6,7 +6,6 @@ use std::ptr;
 
 use super::guard::{caught, guard};
 use super::input::{self, SceneArrays, check_array};
-use super::overlap;
 use super::status::Failure;
 use super::types::*;
 use super::{chamfer_result, reporting};
@@ -44,7 +43,7 @@ pub unsafe extern "C" fn chamfer_scene_run(
     let object_count = object_count as usize;
     let scene = SceneArrays { meshes, mesh_count: count, objects, object_count, options };
     // SAFETY: the caller's pointers are NULL or valid, as `chamfer.h` asks.
-    let apart = caught(|| unsafe { overlap::check_scene_apart(&scene, results, error) });
+    let apart = caught(|| unsafe { input::check_scene_apart(&scene, results, error) });
     if let Err(failure) = apart.and_then(|apart| apart) {
         return failure.status;
     }
@@ -73,7 +72,7 @@ pub unsafe extern "C" fn chamfer_scene_run(
 /// `#meshes`.
 ///
 /// # Safety
-/// As [`overlap::check_scene_apart`], and the arrays stay as they are during the call.
+/// As [`input::check_scene_apart`], and the arrays stay as they are during the call.
 unsafe fn chamfered(
     scene: &SceneArrays,
     progress: &mut dyn FnMut(f32) -> ControlFlow<()>,

@@ -6,8 +6,8 @@
 
 use glam::DVec3;
 
+use super::Given;
 use super::arc::{Arc, Place};
-use super::given::Given;
 use super::near::near;
 use crate::edges::HardEdge;
 use crate::ids::{Corner, Edge, Few, IdVec, Ring, Sector};

@@ -9,9 +9,9 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 
+use super::Given;
 use super::arc::{Arc, Place, sharpness};
 use super::ends::{End, Rows, ends_of, stored};
-use super::given::Given;
 use super::lay::{Added, Lay, Parents, joint};
 use crate::fills::names;
 use crate::ids::{Few, Ring};

@@ -1,8 +1,8 @@
 //! Lay: one rounded patch, its points and its triangles.
 
+use super::Given;
 use super::arc::Place;
 use super::ends::{End, EndPoint, Rows};
-use super::given::Given;
 use crate::ids::{Corner, Sector};
 use crate::math::unit;
 use crate::patches::{Middle, Parts};

@@ -7,7 +7,7 @@
 
 use glam::DVec3;
 
-use super::given::Given;
+use super::Given;
 use crate::ids::{Corner, Few, Sector, Vertex};
 use crate::report::Blend;
 

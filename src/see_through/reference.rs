@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::views::{Frame, View};
+use super::raster::{Frame, View};
 use super::{Eyes, LEAST_SAMPLES, REACH, SceneTriangle, wide};
 
 /// What [`super::leaks`] finds, without the depth: the places of each leak.
