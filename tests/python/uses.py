@@ -57,7 +57,8 @@ assert np.allclose(rebuilt, mesh.positions, atol=1e-6)
 assert np.allclose(result.carry(positions), mesh.positions, atol=1e-6)
 assert np.allclose(result.carry(positions[:, 1]), mesh.positions[:, 1], atol=1e-6)
 assert "8 vertices" in repr(roof()) and "hard_edges=1" in repr(result)
-assert len(mesh.triangles) == 6 and chamfer.library_version()
+assert len(mesh.triangles) == 6 and chamfer.library_version() == chamfer.__version__
+assert not hasattr(chamfer, "__path_of_nothing__")
 
 # The result can go in again, and a new submesh can take the chamfers.
 assert len(chamfer.chamfer(mesh, verify="fast").mesh.positions) >= count

@@ -36,3 +36,10 @@ __all__ = [
     "reason_name",
     "split_by_angle",
 ]
+
+
+def __getattr__(name: str) -> str:
+    # Asked for when it is: the library is loaded with the first call that needs it.
+    if name == "__version__":
+        return library_version()
+    raise AttributeError(f"module 'chamfer' has no attribute {name!r}")
