@@ -9,17 +9,26 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
+use glam::DVec3;
+
 use crate::given::Given;
-use crate::ids::{Corner, Sector};
+use crate::ids::{Corner, Edge, Sector};
 use crate::room::Room;
+use crate::tolerance::CREASE_COSINE;
 
 /// At an evenness of a half, how much wider a chamfer may get along its edge for each unit of the
-/// way: from nothing to the whole width in a hundred widths, which nobody takes for a taper.
-const SLOPE: f64 = 0.01;
+/// way: from nothing to the whole width in two hundred widths. With twice as much an edge of ten
+/// widths may be a tenth wider at one end, which shows.
+const SLOPE: f64 = 0.005;
 
 /// A side that has less than this share of its width is not pulled at all, as where broken triangles
 /// are in the way: it has no say in the other one, of which nothing would be left.
 const LEAST_SHARE: f64 = 0.01;
+
+/// So many sectors around a vertex are looked at for the edge that another one runs on into: where
+/// more meet, as at the tip of a cone, none does, and looking at all for each would take quadratic
+/// time.
+const MOST_AROUND: usize = 8;
 
 /// What of a sector is pulled from one of its two edges: the first or the last.
 type Front = (Sector, usize);
@@ -104,27 +113,69 @@ impl Leveling<'_> {
         sector.is_some() && self.given.offsets[sector].moves() && self.share(front) > most
     }
 
-    /// The fronts next to one, and the most that each may have: along its edge, across it, and that
-    /// which goes together with it.
-    fn linked(&mut self, (sector, which): Front, share: f64) -> [Option<(Front, f64)>; 3] {
-        let mut linked = [None; 3];
-        let given = self.given;
-        let (fan, sectors) = (&given.chamfers.sectors.fans[sector], given.chamfers.sectors);
-        let side = if which == 0 { fan.first } else { fan.last.prev() };
+    /// The half-edge that a front is pulled from, on the sector's own side.
+    #[inline]
+    fn side(&self, (sector, which): Front) -> Corner {
+        let fan = &self.given.chamfers.sectors.fans[sector];
+        if which == 0 { fan.first } else { fan.last.prev() }
+    }
+
+    #[inline]
+    fn edge(&self, front: Front) -> Edge {
+        self.given.chamfers.edges.chamfered_at[self.side(front)]
+    }
+
+    /// From a front's vertex along its edge.
+    fn way(&self, front: Front) -> DVec3 {
+        let side = self.side(front);
+        let [from, to] = [side, side.next()].map(|c| self.given.surface.view.position_at(c));
+        if front.1 == 0 { to - from } else { from - to }
+    }
+
+    /// The sector on the other side of a front's edge, at the same vertex.
+    #[inline]
+    fn across(&self, front: Front) -> Sector {
+        let twin = self.given.surface.topology.twin[self.side(front)];
+        let corner = if front.1 == 0 { twin.next() } else { twin };
+        self.given.chamfers.sectors.sector_of[corner]
+    }
+
+    /// The front of the edge that a front's edge runs straight on into, on the same side of both, where
+    /// other edges end there on that side; none where it has no more than a share anyway. (Where no
+    /// other edge ends there it is the same sector's, and the two go together.)
+    fn onward(&self, front: Front, share: f64) -> Option<Front> {
+        let sectors = self.given.chamfers.sectors;
+        let around = sectors.ring(sectors.fans[front.0].ring).len();
+        let mut other = (front.0, 1 - front.1);
+        // Of the edges around, two are those of the front's own sector.
+        for _ in 2..around.min(MOST_AROUND) {
+            if self.edge(other).is_none() {
+                return None;
+            }
+            other.0 = self.across(other);
+            if self.has_more(other, share) && runs_on(self.way(front), self.way(other)) {
+                return self.edge(other).is_some().then_some(other);
+            }
+        }
+        None
+    }
+
+    /// The fronts next to one, and the most that each may have: along its edge, on along the edge
+    /// that this one runs on into, across it, and that which goes together with it.
+    fn linked(&mut self, front: Front, share: f64) -> [Option<(Front, f64)>; 4] {
+        let mut linked = [None; 4];
+        let ((sector, which), given) = (front, self.given);
+        let (side, edge, sectors) = (self.side(front), self.edge(front), given.chamfers.sectors);
         let at = |corner: Corner| sectors.sector_of[corner];
-        let edge = given.chamfers.edges.chamfered_at[side];
         if edge.is_some() {
-            let twin = given.surface.topology.twin[side];
-            // The other end of the side, and the other side of the end.
-            let (along, across) = match which {
-                0 => ((at(side.next()), 1), (at(twin.next()), 1)),
-                _ => ((at(side), 0), (at(twin), 0)),
-            };
+            let (far, across) = (if which == 0 { side.next() } else { side }, self.across(front));
+            let along = (at(far), 1 - which);
             let [from, to] = [side, side.next()].map(|c| given.surface.view.position_at(c));
             let width = given.chamfers.edges.hard[edge].widest();
             linked[0] = Some((along, share + self.slope * from.distance(to) / width));
             if share >= LEAST_SHARE {
-                linked[1] = Some((across, share * self.lopsided));
+                linked[1] = Some(((across, 1 - which), share * self.lopsided));
+                linked[3] = self.onward(front, share).map(|onward| (onward, share));
             }
         }
         let other = (sector, 1 - which);
@@ -143,11 +194,16 @@ impl Leveling<'_> {
     }
 }
 
+/// Whether two edges that meet, each told by the way from there, run straight on into each other.
+fn runs_on(one: DVec3, other: DVec3) -> bool {
+    let (cosine, lengths) = (one.dot(other), one.length_squared() * other.length_squared());
+    cosine < 0.0 && cosine * cosine > CREASE_COSINE * CREASE_COSINE * lengths
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::given::tests::given_of;
-    use crate::ids::Edge;
     use crate::ids::Id;
     use crate::mesh::{Factors, Mesh, MeshBuffers};
     use crate::options::{Options, Width};
@@ -179,13 +235,13 @@ mod tests {
     }
 
     // b2------------a2      an edge of a cube of ten widths: a1 has little room, a2 may be twice as
-    // |              |      wide; a hundredth of the way more at the other end
+    // |              |      wide; half a hundredth of the way more at the other end
     // b1------------a1
     #[test]
     fn a_width_grows_along_its_edge_and_twice_across_it() {
         let cube = shapes::plain_cube(1.0);
         let stages = stages_of(&cube, 0.1);
-        assert_near(shares(&stages, Edge(0), 0.3, 0.5), [0.4, 0.3, 0.6, 0.7]);
+        assert_near(shares(&stages, Edge(0), 0.3, 0.5), [0.35, 0.3, 0.6, 0.65]);
         assert_near(shares(&stages, Edge(0), 0.3, 1.0), [0.3; 4]);
         assert_near(shares(&stages, Edge(0), 0.3, 0.0), [1.0, 0.3, 1.0, 1.0]);
     }
@@ -194,7 +250,7 @@ mod tests {
     fn a_side_that_is_not_pulled_at_all_has_no_say_in_the_other() {
         let cube = shapes::plain_cube(1.0);
         let stages = stages_of(&cube, 0.1);
-        assert_near(shares(&stages, Edge(0), 0.0, 0.5), [0.1, 0.0, 0.3, 0.2]);
+        assert_near(shares(&stages, Edge(0), 0.0, 0.5), [0.05, 0.0, 0.15, 0.1]);
     }
 
     // b------------a      at a corner of the cube edges are to be twice as wide: the slope is told by
@@ -211,7 +267,66 @@ mod tests {
         let stages = stages_of_mesh(Mesh { factors, ..cube.as_mesh() }, &options);
         let [one, other] = stages.edges.hard[Edge(0)].widths;
         assert!((one - 0.2).abs() < 1e-6 && (other - 0.1).abs() < 1e-6, "{one}, {other}");
-        assert_near(shares(&stages, Edge(0), 0.3, 0.5), [0.35, 0.3, 0.6, 0.65]);
+        assert_near(shares(&stages, Edge(0), 0.3, 0.5), [0.325, 0.3, 0.6, 0.625]);
+    }
+
+    /// A block whose front leans back on its right half, with the triangle between; its front edge on
+    /// top runs straight on over where the two halves meet.
+    fn leaning_block() -> MeshBuffers {
+        let top = [[-2.0, 1.0, 1.0], [0.0, 1.0, 1.0], [2.0, 1.0, 1.0], [2.0, 1.0, -2.0]];
+        let rest = [[-2.0, 1.0, -2.0], [-2.0, -1.0, 1.0], [0.0, -1.0, 1.0], [0.0, -1.0, 0.0]];
+        let bottom = [[2.0, -1.0, 0.0], [2.0, -1.0, -2.0], [-2.0, -1.0, -2.0]];
+        let points = [&top[..], &rest[..], &bottom[..]].concat();
+        let fans: [&[u32]; 8] = [
+            &[4, 0, 1, 2, 3],
+            &[5, 6, 1, 0],
+            &[1, 6, 7],
+            &[7, 8, 2, 1],
+            &[8, 9, 3, 2],
+            &[9, 10, 4, 3],
+            &[10, 5, 0, 4],
+            &[7, 6, 5, 10, 9, 8],
+        ];
+        let triangles = |fan: &[u32]| -> Vec<u32> {
+            fan[1..].windows(2).flat_map(|pair| [fan[0], pair[0], pair[1]]).collect()
+        };
+        let indices: Vec<u32> = fans.iter().flat_map(|fan| triangles(fan)).collect();
+        let smoothed = crate::split_by_angle(&points, &indices, 1.0).unwrap();
+        MeshBuffers {
+            positions: smoothed.source_of.iter().map(|&point| points[point as usize]).collect(),
+            normals: smoothed.normals,
+            submesh_index_counts: vec![indices.len() as u32],
+            indices: smoothed.indices,
+            ..MeshBuffers::default()
+        }
+    }
+
+    // 0------1------2     seen from the front: at 1 two edges go down. What narrows 1-0 on this side
+    // | left |\     |     narrows 1-2 here too, over the sector between, and not what goes down
+    // 5------6-7----8
+    #[test]
+    fn an_edge_runs_on_over_where_others_end_on_one_side() {
+        let block = leaning_block();
+        let stages = stages_of(&block, 0.05);
+        let given = given_of(&stages);
+        let side = |from: [f32; 3], to: [f32; 3]| {
+            let at =
+                |corner: Corner| stages.view.mesh.positions[stages.view.vertex_at(corner).index()];
+            stages
+                .topology
+                .twin
+                .ids()
+                .find(|&side| [at(side), at(side.next())] == [from, to])
+                .unwrap()
+        };
+        let left = stages.sectors.sector_of[side([0.0, 1.0, 1.0], [-2.0, 1.0, 1.0])];
+        let right = stages.sectors.sector_of[side([2.0, 1.0, 1.0], [0.0, 1.0, 1.0]).next()];
+        let mut room = room(&given);
+        assert_eq!([room.fronts[left], room.fronts[right]], [[1.0; 2]; 2]);
+        room.fronts[left] = [0.3, 1.0];
+        let room = evenness(&given, room, 0.5);
+        assert_eq!(room.fronts[right][1], 0.3);
+        assert!(room.fronts[right][0] > 0.9 && room.fronts[left][1] > 0.5, "{:?}", room.fronts);
     }
 
     #[test]
