@@ -11,6 +11,7 @@ mod flatness;
 mod ground;
 mod hardness;
 mod intersections;
+mod junctions;
 mod matching;
 mod nearest;
 mod origins;
@@ -168,7 +169,7 @@ fn check_geometry(
     values::check_normals(before, after, origins, findings);
     values::check_tangents(before, after, origins, findings);
     values::check_colors(before, after, findings);
-    surface::check_edges(source, result, findings);
+    borders::check_edges(source, result, findings);
     borders::check_borders(source, result, origins, findings);
     let facing = Facing::new(extras.scale);
     triangles::check_triangles([source, result], origins, &facing, findings);

@@ -74,6 +74,7 @@ mod ids;
 mod inside_out;
 mod intersect;
 mod limits;
+mod line;
 mod math;
 mod memory;
 mod mesh;

@@ -21,7 +21,10 @@ use crate::offsets::{Known, Offset, narrowed, offsets as find_offsets};
 use crate::options::{Options, Verify};
 use crate::output::{output, unchanged};
 use crate::patches::{Patches, patches};
-use crate::refine::{Origins, Refined, refine, restored, shape as finer_shape};
+use crate::refine::{
+    Left, Origins, Refined, Stitched, refine, restored, shape as finer_shape, stitch, stitched,
+    stitches,
+};
 use crate::report::{Chamfered, EdgeVerdict, Totals};
 use crate::rests::rests;
 use crate::room::room;
@@ -34,7 +37,7 @@ use crate::selection::selection;
 use crate::shape::Shape;
 use crate::threads::Threads;
 use crate::topology::topology;
-use crate::unpaired::{unpaired, with_verdicts};
+use crate::unpaired::{Unpaired, unpaired, with_verdicts};
 use crate::verdicts::verdicts;
 use crate::view::{View, measured, view};
 use crate::watch::{Caller, STEPS, Watch};
@@ -243,6 +246,23 @@ fn chamfer_welded(
     done: &mut Done,
 ) -> Result<Chamfered, Error> {
     done(Some(Stage::Weld))?;
+    let chamfered = in_space(&view, options, |space| {
+        if may_be_hard(space.measured, &weld) {
+            return chamfer_hard(space, weld, options, done);
+        }
+        memory::ask(memory::of_copy(&view.mesh))?;
+        Ok(unchanged(&view, options.chamfer_submesh))
+    })?;
+    done(Some(Stage::Output))?;
+    Ok(chamfered)
+}
+
+/// Does something with a mesh as it came, and as it is measured.
+fn in_space<T>(
+    view: &View,
+    options: &Options,
+    with: impl FnOnce(Space) -> Result<T, Error>,
+) -> Result<T, Error> {
     let scale = Scale::new(options)?;
     if scale.is_some() {
         memory::ask(memory::of_measured(&view.mesh))?;
@@ -250,15 +270,7 @@ fn chamfer_welded(
     let scaled = scale.map(|scale| scale.measured(&view.mesh));
     let scaled = scaled.as_ref().map(|scaled| measured(scaled.mesh(&view.mesh), options));
     let scaled = scaled.transpose()?;
-    let space = Space { source: &view, measured: scaled.as_ref().unwrap_or(&view), scale };
-    let chamfered = if may_be_hard(space.measured, &weld) {
-        chamfer_hard(space, weld, options, done)?
-    } else {
-        memory::ask(memory::of_copy(&view.mesh))?;
-        unchanged(&view, options.chamfer_submesh)
-    };
-    done(Some(Stage::Output))?;
-    Ok(chamfered)
+    with(Space { source: view, measured: scaled.as_ref().unwrap_or(view), scale })
 }
 
 /// The same where there may be hard edges. Where only a part of an edge can have a chamfer, the mesh gets
@@ -272,10 +284,60 @@ fn chamfer_hard(
     let view = space.measured;
     let threads = &Threads::new(options.threads, view.corner_count());
     let shape = shape(view, weld, options, threads, done)?;
+    let unpaired = unpaired(view, &shape);
+    let mut stitches = stitches(view, &shape, &unpaired);
+    for _ in 0..MOST_STITCHED {
+        let Some(finer) = stitch(&mut stitches, space, &shape)? else { break };
+        match chamfer_stitched((space, &shape), &finer, options, (threads, done))? {
+            Ok(chamfered) => return Ok(chamfered),
+            Err(idle) => stitches.leave(&idle),
+        }
+    }
+    chamfer_found(space, shape, &unpaired, options, (threads, done))
+}
+
+/// What brought no chamfer is left, and all done again without it: one time, or nearly always, is
+/// enough.
+const MOST_STITCHED: usize = 3;
+
+/// The stages from the weld on where an edge is one on one side and several on the other, on a mesh
+/// whose sides are alike; told in terms of the source. Or else the sides that got vertices for nothing.
+fn chamfer_stitched(
+    (space, coarse): (Space, &Shape),
+    finer: &Stitched,
+    options: &Options,
+    (threads, done): (&Threads, &mut Done),
+) -> Result<Result<Chamfered, Left>, Error> {
+    let source = &space.source.mesh;
+    let fine = &View { mesh: finer.as_mesh(source), ..*space.source };
+    in_space(fine, options, |space| {
+        let view = space.measured;
+        // These stages were told of.
+        let shape = shape(view, weld(&fine.mesh), options, threads, &mut |_| done(None))?;
+        let idle = finer.idle(coarse, &shape.edges);
+        if !idle.is_empty() {
+            return Ok(Err(idle));
+        }
+        let unpaired = unpaired(view, &shape);
+        let hard = shape.edges.hard.iter().map(|edge| edge.sides);
+        let sides: Vec<_> = hard.chain(unpaired.iter().map(|&(side, _)| [side; 2])).collect();
+        let chamfered = chamfer_found(space, shape, &unpaired, options, (threads, done))?;
+        Ok(Ok(stitched(source, finer, &sides, chamfered)))
+    })
+}
+
+/// The stages from the offsets on.
+fn chamfer_found(
+    space: Space,
+    shape: Shape,
+    unpaired: &[Unpaired],
+    options: &Options,
+    (threads, done): (&Threads, &mut Done),
+) -> Result<Chamfered, Error> {
+    let view = space.measured;
     memory::ask(memory::of_chamfers(&view.mesh, shape.chamfers().work()))?;
     let offsets = find_offsets(shape.surface(view), shape.chamfers(), None, threads);
     let refined = if space.is_plain(&shape.edges) { refine(view, &shape, &offsets)? } else { None };
-    let unpaired = unpaired(view, &shape);
     let chamfered = match refined {
         Some(refined) => chamfer_refined(space, (shape, offsets), &refined, options, done),
         None => {
@@ -283,7 +345,7 @@ fn chamfer_hard(
             chamfer_shape(space, (shape, offsets), options, (threads, done))
         }
     };
-    Ok(with_verdicts(chamfered?, unpaired))
+    Ok(with_verdicts(view, chamfered?, unpaired))
 }
 
 /// The stages that find out what a mesh is.

@@ -1,4 +1,5 @@
-//! Refine: more vertices on long edges of which only a part can have a chamfer.
+//! Refine: more vertices on long edges of which only a part can have a chamfer, and on sides on which
+//! those of others stand.
 //!
 //! A chamfer runs straight from one end of its edge to the other, so one end that cannot move
 //! narrows all of it, and something that rests on its middle holds all of it. A vertex more, near
@@ -13,8 +14,12 @@
 //! other, and [`restored`] tells the result in terms of the source.
 
 mod restored;
+mod retold;
 mod shape;
 mod splits;
+mod stitch;
+mod stitched;
+mod stitches;
 
 use std::collections::BTreeMap;
 
@@ -33,6 +38,9 @@ use crate::view::{View, wide};
 pub use restored::{Origins, restored};
 pub use shape::shape;
 use shape::{CutCorner, Point, pieces};
+pub use stitch::{Stitched, stitch};
+pub use stitched::stitched;
+pub use stitches::{Left, stitches};
 
 /// Where a hard edge gets vertices.
 #[derive(Clone, Debug, PartialEq)]
@@ -164,11 +172,16 @@ pub fn refine(
 /// A mesh with more vertices on its hard edges. Each edge is named once. Chamfers will go so deep
 /// (in mesh units) into the triangles beside.
 fn refined(mesh: &Mesh, splits: &[Split], deep: f64) -> Refined {
-    let is_cut = vec![false; mesh.indices.len() / 3];
-    let mut refined = Refined { mesh: mesh.to_buffers(), is_cut, ..Refined::default() };
+    let mut refined = Refined::whole(mesh);
     let points = add_points(mesh, splits, &mut refined);
+    cut_all(mesh, &points, deep, &mut refined);
+    refined
+}
+
+/// Cuts the triangles that have got points.
+fn cut_all(mesh: &Mesh, points: &PointsOf, deep: f64, refined: &mut Refined) {
     let mut rest: Vec<(Triangle, [CutCorner; 3])> = Vec::new();
-    for (&triangle, points) in &points {
+    for (&triangle, points) in points {
         let corners = triangle.corners().map(|corner| mesh.indices[corner.0 as usize]);
         let middle = middle(mesh, triangle, points, deep).map(|weights| {
             let site = refined.next_site();
@@ -187,10 +200,15 @@ fn refined(mesh: &Mesh, splits: &[Split], deep: f64) -> Refined {
     refined.sides.sort_unstable_by(|one, other| {
         one.source.cmp(&other.source).then(one.from.total_cmp(&other.from))
     });
-    refined
 }
 
 impl Refined {
+    /// A mesh that got no vertices yet.
+    fn whole(mesh: &Mesh) -> Refined {
+        let is_cut = vec![false; mesh.indices.len() / 3];
+        Refined { mesh: mesh.to_buffers(), is_cut, ..Refined::default() }
+    }
+
     /// The finer mesh, on which the same rests.
     pub fn as_mesh<'a>(&'a self, source: &Mesh<'a>) -> Mesh<'a> {
         Mesh { held: source.held, ..self.mesh.as_mesh() }

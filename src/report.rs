@@ -138,7 +138,8 @@ pub enum TriangleKind {
 }
 
 /// A triangle of the result that is a piece of a source triangle: a hard edge beside it got
-/// vertices, because only a part of it has room for its chamfer.
+/// vertices, because only a part of it has room for its chamfer, or because those of its other side
+/// stand there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Piece {
     /// The triangle of the result.

@@ -4,32 +4,33 @@
 //! or the edge of one face has a vertex of the other side in its middle (a *T-junction*). Both look
 //! like any hard edge, so each has a verdict that says why it stays.
 
-use glam::DVec3;
-
 use crate::contacts::Contacts;
 use crate::ids::Corner;
+use crate::line::Line;
 use crate::report::{Chamfered, EdgeVerdict, Outcome, Reason};
 use crate::shape::Shape;
 use crate::tolerance::LINE_HEIGHT;
 use crate::topology::Topology;
 use crate::view::View;
 
-/// The verdicts of all such edges, those of faces that run the same way first.
-pub fn unpaired(view: &View, shape: &Shape) -> Vec<EdgeVerdict> {
+/// A half-edge whose other side is no twin, and why.
+pub type Unpaired = (Corner, Reason);
+
+/// All such edges, those of faces that run the same way first.
+pub fn unpaired(view: &View, shape: &Shape) -> Vec<Unpaired> {
     let Shape { topology, contacts, .. } = shape;
     let turned = turned(view, topology).into_iter().map(|side| (side, Reason::Winding));
     let junctions = junctions(view, topology, contacts).into_iter();
-    let all = turned.chain(junctions.map(|side| (side, Reason::TJunction)));
-    all.map(|(side, reason)| left(view, side, reason)).collect()
+    turned.chain(junctions.map(|side| (side, Reason::TJunction))).collect()
 }
 
-/// A result with further verdicts.
-pub fn with_verdicts(mut chamfered: Chamfered, further: Vec<EdgeVerdict>) -> Chamfered {
+/// A result with the verdicts of these edges, too.
+pub fn with_verdicts(view: &View, mut chamfered: Chamfered, further: &[Unpaired]) -> Chamfered {
     chamfered.totals.hard_edges += further.len() as u32;
-    for verdict in &further {
-        chamfered.totals.skipped[verdict.reason] += 1;
+    for &(side, reason) in further {
+        chamfered.totals.skipped[reason] += 1;
+        chamfered.verdicts.push(left(view, side, reason));
     }
-    chamfered.verdicts.extend(further);
     chamfered
 }
 
@@ -77,19 +78,21 @@ fn junctions(view: &View, topology: &Topology, contacts: &Contacts) -> Vec<Corne
 /// long, one stands for both.
 fn meets_shorter(view: &View, topology: &Topology, line: &Line, other: Corner) -> bool {
     let shorter = Line::new(view, other);
-    if (shorter.length, other) >= (line.length, line.border)
-        || shorter.along.dot(line.along) >= 0.0
-        || is_same_edge(topology, line.border, other)
-    {
+    (shorter.length, other) < (line.length, line.border) && meets(view, topology, line, &shorter)
+}
+
+/// Whether another border runs back along a part of a line, and light breaks between them.
+pub fn meets(view: &View, topology: &Topology, line: &Line, other: &Line) -> bool {
+    if other.along.dot(line.along) >= 0.0 || is_same_edge(topology, line.border, other.border) {
         return false;
     }
     let reach = view.resolution * LINE_HEIGHT;
-    let [from, to] = shorter.ends();
+    let [from, to] = other.ends();
     let (start, end) = (line.place(to).max(0.0), line.place(from).min(line.length));
     let lies_on = [from, to].into_iter().all(|end| line.distance(end) <= reach);
     lies_on && end - start > reach && {
         let middle = line.from + line.along * ((start + end) / 2.0);
-        view.normals_differ([line.normal(view, middle), shorter.normal(view, middle)])
+        view.normals_differ([line.normal(view, middle), other.normal(view, middle)])
     }
 }
 
@@ -97,40 +100,4 @@ fn is_same_edge(topology: &Topology, one: Corner, other: Corner) -> bool {
     let clusters = |side: Corner| [side, side.next()].map(|corner| topology.cluster_at[corner]);
     let [from, to] = clusters(other);
     clusters(one) == [to, from]
-}
-
-/// A half-edge as a line.
-struct Line {
-    border: Corner,
-    from: DVec3,
-    /// Unit.
-    along: DVec3,
-    length: f64,
-}
-
-impl Line {
-    fn new(view: &View, border: Corner) -> Line {
-        let [from, to] = [border, border.next()].map(|corner| view.position_at(corner));
-        let length = from.distance(to);
-        Line { border, from, along: (to - from) / length, length }
-    }
-
-    fn ends(&self) -> [DVec3; 2] {
-        [self.from, self.from + self.along * self.length]
-    }
-
-    fn place(&self, point: DVec3) -> f64 {
-        (point - self.from).dot(self.along)
-    }
-
-    fn distance(&self, point: DVec3) -> f64 {
-        (point - self.from).cross(self.along).length()
-    }
-
-    /// The normal of its face there, between those of its ends.
-    fn normal(&self, view: &View, point: DVec3) -> DVec3 {
-        let share = (self.place(point) / self.length).clamp(0.0, 1.0);
-        let [one, other] = [self.border, self.border.next()].map(|end| view.normal_at(end));
-        one.lerp(other, share)
-    }
 }

@@ -16,7 +16,7 @@ fn cargo(arguments: &[&str]) -> String {
 fn the_published_crate_is_small() {
     let list = cargo(&["package", "--list", "--allow-dirty", "--package", "chamfer"]);
     let files: BTreeSet<&str> = list.lines().collect();
-    assert!(files.len() < 125, "{} files: leave out what users do not compile", files.len());
+    assert!(files.len() < 135, "{} files: leave out what users do not compile", files.len());
     for needed in ["README.md", "build.rs", "cbindgen.toml", "include/chamfer.h", "src/lib.rs"] {
         assert!(files.contains(needed), "{needed}");
     }

@@ -1,7 +1,11 @@
-//! Hard edges whose two sides share no edge, and faces that are inside out: none is silently missing.
+//! Hard edges whose two sides share no edge, and faces that are inside out: none is silently missing,
+//! and those that lie on each other are chamfered.
 
-use chamfer::check::check;
-use chamfer::{Chamfered, MeshBuffers, Options, Outcome, Reason, Verify, Width, chamfer, shapes};
+use chamfer::check::{Rule, check, compare};
+use chamfer::{
+    Chamfered, EdgeFactor, Factors, Held, Mesh, MeshBuffers, Options, Outcome, Reason, UvBuffer,
+    Verify, Width, chamfer, shapes,
+};
 
 type Point = [f32; 3];
 
@@ -67,28 +71,93 @@ fn roof_on_wall(columns: &[f32], roofs: &[[f32; 2]], front: Point) -> MeshBuffer
     quads(&roofs.chain(columns.windows(2).map(column)).collect::<Vec<_>>())
 }
 
+/// The ends of all hard edges along the roof's edge, left one first, with what became of each.
+fn told(mesh: &MeshBuffers, result: &Chamfered) -> Vec<([f32; 2], Outcome, [f32; 2])> {
+    let mut told: Vec<_> = (result.verdicts.iter())
+        .map(|verdict| {
+            let [from, to] = verdict.vertices.map(|vertex| mesh.positions[vertex as usize][0]);
+            let [one, other] = verdict.widths;
+            let is_onward = from < to;
+            let ends = if is_onward { [from, to] } else { [to, from] };
+            (ends, verdict.outcome, if is_onward { [one, other] } else { [other, one] })
+        })
+        .collect();
+    told.sort_by(|(one, ..), (other, ..)| one.partial_cmp(other).unwrap());
+    told
+}
+
+const FULL: (Outcome, [f32; 2]) = (Outcome::Full, [0.05; 2]);
+
 #[test]
-fn an_edge_that_is_one_above_and_several_below_says_so_once() {
+fn an_edge_that_is_one_above_and_several_below_is_chamfered_as_one() {
     for columns in [&[0.0, 1.0, 4.0][..], &[0.0, 1.0, 2.0, 3.0, 4.0]] {
         let mesh = roof_on_wall(columns, &[[0.0, 4.0]], FRONT);
         let result = chamfered(&mesh);
-        let junctions = left(&mesh, &result, Reason::TJunction);
-        assert_eq!(junctions, [[[0.0; 3], [4.0, 0.0, 0.0]]], "{columns:?}");
-        assert_eq!(result.mesh.positions, mesh.positions);
+        assert_eq!(told(&mesh, &result), [([0.0, 4.0], FULL.0, FULL.1)], "{columns:?}");
+        // The roof's edge went back all along, and the wall's down.
+        let moved = |from: Point, by: Point| [0, 1, 2].map(|k| from[k] + by[k]);
+        for x in columns.iter().map(|&x| [x, 0.0, 0.0]) {
+            let at = |by: Point| result.mesh.positions.contains(&moved(x, by));
+            assert!(at([0.0, 0.0, -0.05]) && at([0.0, -0.05, 0.0]), "{x:?}");
+        }
+        assert_eq!(result.pieces.len(), columns.len() - 1);
+        let alone = compare(&mesh.as_mesh(), &result.mesh.as_mesh(), Verify::Full);
+        assert!(alone.is_sound() && alone.unchecked.is_empty(), "{alone}");
     }
 }
 
 //  A-------.---B       of edges that overlap, each longer one
 //  .---.-------.
 #[test]
-fn edges_that_overlap_say_so() {
+fn edges_that_overlap_are_chamfered() {
     let mesh = roof_on_wall(&[0.0, 1.0, 4.0], &[[0.0, 3.0], [3.0, 4.0]], FRONT);
     let result = chamfered(&mesh);
-    let (from, to) = ([0.0; 3], [4.0, 0.0, 0.0]);
-    let junctions = left(&mesh, &result, Reason::TJunction);
-    assert!(junctions.contains(&[from, [3.0, 0.0, 0.0]]), "{junctions:?}");
-    assert!(junctions.contains(&[[1.0, 0.0, 0.0], to]), "{junctions:?}");
-    assert_eq!(junctions.len(), 2);
+    let all = [([0.0, 3.0], FULL.0, FULL.1), ([1.0, 4.0], FULL.0, FULL.1)];
+    assert_eq!(told(&mesh, &result), all);
+}
+
+/// The wall is shorter than the roof: what it leaves open stays a border.
+#[test]
+fn an_edge_with_a_second_side_on_a_part_of_it_is_chamfered_there() {
+    let mesh = roof_on_wall(&[0.0, 1.0, 3.0], &[[0.0, 4.0]], FRONT);
+    let result = chamfered(&mesh);
+    let [(ends, outcome, [at_start, at_end])] = told(&mesh, &result)[..] else { panic!() };
+    assert_eq!((ends, outcome, at_end), ([0.0, 4.0], Outcome::Narrowed, 0.0));
+    assert!((at_start - 0.05).abs() < 1e-6);
+}
+
+/// Ends that only rounding has set apart are put together: one end of the wall is a billionth too low.
+#[test]
+fn sides_that_nearly_meet_are_chamfered() {
+    for columns in [&[0.0, 4.0][..], &[0.0, 1.0, 4.0]] {
+        let mut mesh = roof_on_wall(columns, &[[0.0, 4.0]], FRONT);
+        mesh.positions[4..].iter_mut().for_each(|place| {
+            place[1] -= if *place == [4.0, 0.0, 0.0] { 1e-9 } else { 0.0 };
+        });
+        let result = chamfered(&mesh);
+        assert_eq!(result.totals.chamfered, result.totals.hard_edges, "{columns:?}");
+        assert_eq!(result.totals.chamfered, 1);
+    }
+}
+
+/// Two walls back to back, of which one is longer: there is nothing to cut off between them.
+#[test]
+fn walls_back_to_back_stay_and_say_so() {
+    let wall = |to: f32, normal: Point| {
+        let corners = [[0.0, 0.0, 0.0], [to, 0.0, 0.0], [to, 1.0, 0.0], [0.0, 1.0, 0.0]];
+        (
+            if normal[2] > 0.0 {
+                corners
+            } else {
+                [corners[0], corners[3], corners[2], corners[1]]
+            },
+            normal,
+        )
+    };
+    let mesh = quads(&[wall(4.0, FRONT), wall(3.0, [0.0, 0.0, -1.0])]);
+    let result = chamfered(&mesh);
+    assert!(!left(&mesh, &result, Reason::TJunction).is_empty());
+    assert_eq!(result.mesh.positions, mesh.positions);
 }
 
 #[test]
@@ -149,4 +218,174 @@ fn faces_against_their_normals_are_named() {
     let result = chamfered(&half);
     assert!(!left(&half, &result, Reason::Winding).is_empty());
     assert_eq!(result.totals.skipped[Reason::Folds], 0);
+}
+
+/// A wall that is there twice: nobody can tell which of the two belongs to the roof.
+#[test]
+fn where_more_than_two_sides_lie_nothing_is_brought_together() {
+    let mut mesh = roof_on_wall(&[0.0, 1.0, 4.0], &[[0.0, 4.0]], FRONT);
+    let wall: Vec<u32> = mesh.indices[6..].to_vec();
+    mesh.indices.extend(wall);
+    mesh.submesh_index_counts = vec![mesh.indices.len() as u32];
+    let result = chamfered(&mesh);
+    assert_eq!(left(&mesh, &result, Reason::TJunction), [[[0.0; 3], [4.0, 0.0, 0.0]]]);
+    assert_eq!(result.mesh.positions, mesh.positions);
+}
+
+//    .----------.
+//   /          /|     a box whose right side has two faces, which share no edge with
+//  .----------M |     the three faces that are one: all of its twelve edges are hard,
+//  |          |\|     of two the sides are unlike
+//  |          | M
+//  .----------./
+fn box_of_uneven_faces() -> MeshBuffers {
+    let [low, high] = [[0.0; 3], [2.0, 1.0, 1.0]];
+    let at = |x: u8, y: f32, z: u8| [[low, high][x as usize][0], y, f32::from(z)];
+    quads(&[
+        ([at(0, 0.0, 1), at(1, 0.0, 1), at(1, 1.0, 1), at(0, 1.0, 1)], FRONT),
+        ([at(1, 0.0, 0), at(0, 0.0, 0), at(0, 1.0, 0), at(1, 1.0, 0)], [0.0, 0.0, -1.0]),
+        ([at(0, 0.0, 0), at(0, 0.0, 1), at(0, 1.0, 1), at(0, 1.0, 0)], [-1.0, 0.0, 0.0]),
+        ([at(0, 1.0, 1), at(1, 1.0, 1), at(1, 1.0, 0), at(0, 1.0, 0)], UP),
+        ([at(0, 0.0, 0), at(1, 0.0, 0), at(1, 0.0, 1), at(0, 0.0, 1)], [0.0, -1.0, 0.0]),
+        ([at(1, 0.0, 1), at(1, 0.0, 0), at(1, 0.5, 0), at(1, 0.5, 1)], [1.0, 0.0, 0.0]),
+        ([at(1, 0.5, 1), at(1, 0.5, 0), at(1, 1.0, 0), at(1, 1.0, 1)], [1.0, 0.0, 0.0]),
+    ])
+}
+
+/// What was open along both is closed, too.
+#[test]
+fn a_box_of_uneven_faces_is_chamfered_as_a_box() {
+    let mesh = box_of_uneven_faces();
+    let result = chamfered(&mesh);
+    assert_eq!((result.totals.hard_edges, result.totals.chamfered), (12, 12));
+    let alone = compare(&mesh.as_mesh(), &result.mesh.as_mesh(), Verify::Full);
+    assert!(alone.is_sound(), "{alone}");
+    assert_eq!((alone.before.border_half_edges, alone.after.border_half_edges), (6, 0));
+    assert_eq!(alone.after.hard_edges, 0);
+    let on_long = result.mesh.positions.iter().filter(|place| place[1] == 0.5).count();
+    assert_eq!(on_long, 6, "of front, back, and each of two faces at both ends");
+}
+
+/// The checker measures both sides of such an edge.
+#[test]
+fn a_width_that_is_told_wrong_is_found() {
+    let mesh = roof_on_wall(&[0.0, 1.0, 4.0], &[[0.0, 4.0]], FRONT);
+    for end in [0, 1] {
+        for wrong in [0.99, 1.01] {
+            let mut result = chamfered(&mesh);
+            result.verdicts[0].widths[end] *= wrong;
+            let findings = check(&mesh.as_mesh(), &result, Verify::Fast);
+            assert_eq!(findings.count(Rule::Widths), 1, "{wrong} times at {end}");
+        }
+    }
+}
+
+/// So many that the mesh is done block by block.
+#[test]
+fn a_field_of_such_boxes_is_chamfered_as_one_is() {
+    let (one, count) = (box_of_uneven_faces(), 2400_u32);
+    let mut field = MeshBuffers::default();
+    for k in 0..count {
+        let by = [(k % 50) as f32 * 4.0, 0.0, (k / 50) as f32 * 4.0];
+        let moved = |place: &Point| [0, 1, 2].map(|axis| place[axis] + by[axis]);
+        let first = field.positions.len() as u32;
+        field.positions.extend(one.positions.iter().map(moved));
+        field.normals.extend(&one.normals);
+        field.indices.extend(one.indices.iter().map(|index| index + first));
+    }
+    field.submesh_index_counts = vec![field.indices.len() as u32];
+    let options = Options::default().with_width(Width::Units(0.05)).with_verify(Verify::Fast);
+    let result = chamfer(&field.as_mesh(), &options).unwrap();
+    let findings = check(&field.as_mesh(), &result, Verify::Fast);
+    assert!(findings.is_sound(), "{findings}");
+    assert_eq!((result.totals.hard_edges, result.totals.chamfered), (12 * count, 12 * count));
+    assert_eq!(findings.after.border_half_edges, 0);
+}
+
+/// A new vertex shows what the edge showed there.
+#[test]
+fn textures_and_colours_run_on_along_an_edge_that_gets_vertices() {
+    let mut mesh = roof_on_wall(&[0.0, 1.0, 2.5, 4.0], &[[0.0, 4.0]], FRONT);
+    let values = mesh.positions.iter().flat_map(|&[x, y, z]| [x / 4.0, (y + z) / 4.0]).collect();
+    mesh.uvs[0] = UvBuffer { components: 2, values };
+    mesh.colors = mesh.positions.iter().map(|&[x, _, z]| [x / 4.0, -z / 4.0, 0.5, 1.0]).collect();
+    let result = chamfered(&mesh);
+    assert_eq!(result.totals.chamfered, 1);
+    let roof = |vertex: &usize| result.mesh.normals[*vertex] == UP;
+    let all: Vec<usize> = (0..result.mesh.positions.len()).filter(roof).collect();
+    assert_eq!(all.len(), 6, "the corners of the roof, and two between");
+    for vertex in all {
+        let [x, _, z] = result.mesh.positions[vertex];
+        let [u, v] = [0, 1].map(|k| result.mesh.uvs[0].values[2 * vertex + k]);
+        let [red, green, ..] = result.mesh.colors[vertex];
+        let off = [u - x / 4.0, v - z / 4.0, red - x / 4.0, green + z / 4.0];
+        assert!(off.iter().all(|off| off.abs() < 1e-6), "{off:?} at {x}, {z}");
+        let source = result.vertex_sources.get(vertex).surface;
+        assert!(source.vertices.iter().all(|&v| v < 4), "the roof's own: {source:?}");
+    }
+}
+
+/// The width of the one chamfer of a roof, and of its mesh told as it is.
+fn widths_of(mesh: &MeshBuffers, factors: Factors) -> [f32; 2] {
+    let options = Options::default().with_width(Width::Units(0.05)).with_verify(Verify::Full);
+    let mesh = Mesh { factors, ..mesh.as_mesh() };
+    let result = chamfer(&mesh, &options).unwrap();
+    let findings = check(&mesh, &result, Verify::Full);
+    assert!(findings.is_sound(), "{findings}");
+    let [verdict] = result.verdicts[..] else { panic!("{:?}", result.verdicts) };
+    if verdict.outcome == Outcome::Skipped {
+        assert_eq!(result.mesh.positions, mesh.positions);
+    }
+    verdict.widths
+}
+
+/// By its submesh, by the mask of its vertices, or by name.
+#[test]
+fn factors_of_an_edge_go_for_all_that_lies_on_it() {
+    let mut mesh = roof_on_wall(&[0.0, 1.0, 4.0], &[[0.0, 4.0]], FRONT);
+    let is_near = |widths: [f32; 2], expected: [f32; 2]| {
+        let off = [0, 1].map(|end| (widths[end] - expected[end]).abs());
+        assert!(off.iter().all(|off| *off < 1e-6), "{widths:?} is not {expected:?}");
+    };
+    let named = |vertices: [u32; 2], factor| [EdgeFactor { vertices, factor }];
+    let edges = named([1, 0], 0.5);
+    is_near(widths_of(&mesh, Factors { edges: &edges, ..Factors::default() }), [0.025; 2]);
+    let edges = named([1, 2], 1.0);
+    is_near(widths_of(&mesh, Factors { edges: &edges, ..Factors::default() }), [0.0; 2]);
+    let vertices: Vec<f32> = mesh.positions.iter().map(|[x, ..]| 1.0 - x / 8.0).collect();
+    let tapered = widths_of(&mesh, Factors { vertices: &vertices, ..Factors::default() });
+    is_near(tapered, [0.05, 0.025]);
+    mesh.submesh_index_counts = vec![6, 12];
+    let factors = Factors { submeshes: &[1.0, 0.5], ..Factors::default() };
+    is_near(widths_of(&mesh, factors), [0.025; 2]);
+}
+
+/// The mesh is measured ten times as long: the chamfer is as wide there as anywhere.
+#[test]
+fn a_stretched_edge_is_brought_together_as_well() {
+    let mesh = roof_on_wall(&[0.0, 1.0, 4.0], &[[0.0, 4.0]], FRONT);
+    let options = Options::default().with_width(Width::Units(0.05)).with_scale([
+        [10.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [0.0, 0.0, 2.0],
+    ]);
+    let result = chamfer(&mesh.as_mesh(), &options).unwrap();
+    let findings = check(&mesh.as_mesh(), &result, Verify::Full);
+    assert!(findings.is_sound(), "{findings}");
+    assert_eq!((result.totals.hard_edges, result.totals.chamfered), (1, 1));
+    assert!(result.mesh.positions.contains(&[1.0, 0.0, -0.025]));
+}
+
+/// Something rests on the middle of a long edge: its chamfer ends beside that.
+#[test]
+fn what_rests_on_a_part_of_a_long_edge_stays_covered() {
+    let mesh = roof_on_wall(&[0.0, 1.0, 4.0], &[[0.0, 4.0]], FRONT);
+    let held = [Held { from: [2.0, -0.5, 0.0], to: [2.5, -0.5, 0.0], radius: 0.52 }];
+    let held_mesh = Mesh { held: &held, ..mesh.as_mesh() };
+    let options = Options::default().with_width(Width::Units(0.05)).with_verify(Verify::Full);
+    let result = chamfer(&held_mesh, &options).unwrap();
+    let findings = check(&held_mesh, &result, Verify::Full);
+    assert!(findings.is_sound(), "{findings}");
+    let [verdict] = result.verdicts[..] else { panic!("{:?}", result.verdicts) };
+    assert_eq!((verdict.outcome, verdict.reason), (Outcome::Narrowed, Reason::Contact));
 }

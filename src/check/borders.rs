@@ -1,8 +1,31 @@
 //! Does anything gape that was closed?
 
+use super::junctions::Borders;
 use super::origins::Origins;
 use super::rules::{Element, Findings, Rule};
 use super::surface::{HalfEdge, Surface};
+
+/// Balance and border loops, as in the source.
+pub(super) fn check_edges(before: &Surface, after: &Surface, findings: &mut Findings) {
+    let [source, result] = [findings.before, findings.after];
+    let element = |(a, b): (&[HalfEdge], &[HalfEdge])| {
+        let clusters = a.first().or(b.first()).map_or([0; 2], |half_edge| half_edge.clusters);
+        Element::Edge(clusters[0], clusters[1])
+    };
+    if source.border_half_edges == 0 {
+        for edge in after.edges().filter(|(a, b)| a.len() != b.len()) {
+            findings.note(Rule::Balance, element(edge));
+        }
+    }
+    // Elsewhere `Rule::Gapes` has to do: where borders lie on each other, a chamfer closes a part of
+    // what was open.
+    if before.has_clear_borders()
+        && source.border_loops != result.border_loops
+        && !Borders::new(before).meet_anywhere()
+    {
+        findings.note(Rule::BorderLoops, Element::Mesh);
+    }
+}
 
 /// Notes the edges that are open though they lie where the source was closed. An edge is open where
 /// it is not used equally often in both directions.

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::junctions::run_along;
 use super::origins::Origins;
 use super::rules::{Element, Findings, Rule};
 use super::stored::normal_with_area;
@@ -65,12 +66,19 @@ fn source_side(half_edge: &HalfEdge, origins: &Origins) -> Option<u32> {
 }
 
 /// Whether two half-edges of the source lay on each other with different normals, be it among
-/// others.
+/// others or in part.
 fn parted_before(before: &Surface, one: u32, other: u32) -> bool {
     let next = |corner: u32| if corner % 3 == 2 { corner - 2 } else { corner + 1 };
     let ends = [[one, next(other)], [next(one), other]];
-    ends.iter().all(|[a, b]| before.cluster(*a) == before.cluster(*b))
-        && ends.iter().any(|&pair| !before.share_normal(pair))
+    let is_parted = ends.iter().any(|&pair| !before.share_normal(pair));
+    let half_edge = |first: u32| HalfEdge {
+        clusters: [first, next(first)].map(|corner| before.cluster(corner)),
+        reversed: false,
+        corners: [first, next(first)],
+    };
+    is_parted && run_along(before, &half_edge(one), &half_edge(other))
+        || ends.iter().all(|[a, b]| before.cluster(*a) == before.cluster(*b))
+            && ends.iter().any(|&pair| !before.share_normal(pair))
 }
 
 /// `#corners`: whether the half-edge that starts there is a side of a hard edge.

@@ -42,7 +42,7 @@ pub enum Rule {
     /// No edge is open where the source was closed.
     Gapes,
     /// As many border loops as in the source. Where a border of the source touches a non-manifold
-    /// edge, loops are a matter of opinion, and [`Rule::Gapes`] alone tells.
+    /// edge or lies on another border, loops are a matter of opinion, and [`Rule::Gapes`] alone tells.
     BorderLoops,
     /// No edge has more sides in one solid than two, or than an edge of the source had where it comes
     /// from. Solids that merely touch are judged each by itself.

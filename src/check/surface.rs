@@ -1,6 +1,5 @@
 //! A mesh welded by position: its edges, borders and connected parts.
 
-use super::rules::{Element, Findings, Rule};
 use super::stored::vector;
 use crate::groups::Groups;
 use crate::mesh::Mesh;
@@ -145,7 +144,7 @@ impl<'a> Surface<'a> {
     }
 
     /// Whether no border touches a non-manifold edge.
-    fn has_clear_borders(&self) -> bool {
+    pub fn has_clear_borders(&self) -> bool {
         let mut on_border = vec![false; self.cluster_of.len()];
         for (a, b) in self.edges().filter(|(a, b)| a.len() != b.len()) {
             for cluster in a.iter().chain(b).flat_map(|half_edge| half_edge.clusters) {
@@ -175,22 +174,4 @@ fn weld(positions: &[[f32; 3]]) -> Vec<u32> {
         }
     }
     cluster_of
-}
-
-/// Balance and border loops, as in the source.
-pub(super) fn check_edges(before: &Surface, after: &Surface, findings: &mut Findings) {
-    let [source, result] = [findings.before, findings.after];
-    let element = |(a, b): (&[HalfEdge], &[HalfEdge])| {
-        let clusters = a.first().or(b.first()).map_or([0; 2], |half_edge| half_edge.clusters);
-        Element::Edge(clusters[0], clusters[1])
-    };
-    if source.border_half_edges == 0 {
-        for edge in after.edges().filter(|(a, b)| a.len() != b.len()) {
-            findings.note(Rule::Balance, element(edge));
-        }
-    }
-    // Elsewhere `Rule::Gapes` has to do.
-    if before.has_clear_borders() && source.border_loops != result.border_loops {
-        findings.note(Rule::BorderLoops, Element::Mesh);
-    }
 }

@@ -1,5 +1,8 @@
 //! Verdicts against the mesh that they are about.
 
+use std::cell::OnceCell;
+
+use super::junctions::{Borders, reach};
 use super::rules::{Element, Findings, MeasuredEdge, Rule};
 use super::surface::{HalfEdge, Surface};
 use super::widths::Ruler;
@@ -66,6 +69,8 @@ struct Sides<'a> {
     edges: Vec<(&'a [HalfEdge], &'a [HalfEdge])>,
     /// Sorted: the vertices of each half-edge, and its edge.
     edge_of: Vec<([u32; 2], u32)>,
+    /// Once they are asked for.
+    borders: OnceCell<Borders<'a>>,
 }
 
 impl<'a> Sides<'a> {
@@ -79,7 +84,7 @@ impl<'a> Sides<'a> {
         }
         edge_of.sort_unstable();
         edge_of.dedup();
-        Sides { surface, edges, edge_of }
+        Sides { surface, edges, edge_of, borders: OnceCell::new() }
     }
 
     /// Whether a verdict's widths are those of its edge. Where more than two triangles meet, those
@@ -92,8 +97,10 @@ impl<'a> Sides<'a> {
         };
         let (forward, backward) = self.edges[edge as usize];
         if forward.is_empty() || backward.is_empty() {
+            let sides = || forward.iter().chain(backward);
             // Nothing to measure between: its sides run the same way, or are of other lengths.
-            return verdict.outcome == Outcome::Skipped && verdict.widths == [0.0; 2];
+            return verdict.outcome == Outcome::Skipped && verdict.widths == [0.0; 2]
+                || sides().any(|side| self.agrees_in_parts(verdict, side, ruler, tolerance));
         }
         let pairs = forward.iter().flat_map(|one| backward.iter().map(move |other| [one, other]));
         let both_ways = pairs.flat_map(|[one, other]| [[one, other], [other, one]]);
@@ -101,6 +108,37 @@ impl<'a> Sides<'a> {
             .filter(|[one, _]| vertices(self.surface, one) == verdict.vertices)
             .filter_map(|[one, other]| ruler.measure(one, other))
             .any(|measured| agrees(verdict, &measured, tolerance))
+    }
+
+    /// Whether a verdict's widths are those of an edge of which several others are the second side:
+    /// at each end, those of itself and of one that ends there. In the middle of another one, whose
+    /// place is not told, what is told is at least what was measured on the first.
+    fn agrees_in_parts(
+        &self,
+        verdict: &EdgeVerdict,
+        side: &HalfEdge,
+        ruler: &Ruler,
+        tolerance: f64,
+    ) -> bool {
+        let borders = self.borders.get_or_init(|| Borders::new(self.surface));
+        let reach = reach(self.surface);
+        let tolerance = tolerance + reach;
+        let at = |corner: u32| self.surface.position(corner);
+        let agrees = |end: usize| {
+            let (told, corner) = (f64::from(verdict.widths[end]), side.corners[end]);
+            let Some(own) = ruler.pulled(side, corner) else { return false };
+            let others = borders.along(side).map(|other| other.corners[1 - end]);
+            let mut others = others.filter(|&o| at(o).distance(at(corner)) <= reach).peekable();
+            if others.peek().is_none() {
+                return told == 0.0 || 2.0 * told >= own - tolerance;
+            }
+            let mean = |other: u32| Some((own + ruler.pulled(side, other)?) / 2.0);
+            others.any(|other| mean(other).is_some_and(|mean| (told - mean).abs() <= tolerance))
+        };
+        verdict.outcome != Outcome::Skipped
+            && vertices(self.surface, side) == verdict.vertices
+            && agrees(0)
+            && agrees(1)
     }
 
     /// Every hard edge between exactly two triangles has a verdict.

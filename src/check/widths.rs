@@ -53,9 +53,7 @@ impl<'a> Ruler<'a> {
     /// Measures an edge between two opposite half-edges of the source; none where one's triangle
     /// was not found.
     pub fn measure(&self, one: &HalfEdge, other: &HalfEdge) -> Option<MeasuredEdge> {
-        let ends = one.corners.map(|corner| self.to * self.before.position(corner));
-        let along = (ends[1] - ends[0]).normalize_or_zero();
-        let distance = |point: DVec3| (point - ends[0]).cross(along).length() as f32;
+        let ends = self.ends(one);
         let mut measured = MeasuredEdge {
             vertices: one.corners.map(|corner| self.before.mesh.indices[corner as usize]),
             length: ends[0].distance(ends[1]) as f32,
@@ -66,9 +64,24 @@ impl<'a> Ruler<'a> {
             let corners = [one.corners[end], other.corners[1 - end]];
             let [a, b] = corners.map(|corner| self.corner_after[corner as usize]);
             let points = [a?, b?].map(|corner| self.to * self.after.position(corner));
-            measured.distances[end] = points.map(distance);
+            measured.distances[end] = points.map(|point| distance(ends, point) as f32);
             measured.is_open[end] = points[0] != points[1];
         }
         Some(measured)
     }
+
+    /// How far a source corner was pulled off an edge; none where its triangle was not found.
+    pub fn pulled(&self, edge: &HalfEdge, corner: u32) -> Option<f64> {
+        let after = self.corner_after[corner as usize]?;
+        Some(distance(self.ends(edge), self.to * self.after.position(after)))
+    }
+
+    fn ends(&self, edge: &HalfEdge) -> [DVec3; 2] {
+        edge.corners.map(|corner| self.to * self.before.position(corner))
+    }
+}
+
+/// From a line.
+fn distance([from, to]: [DVec3; 2], point: DVec3) -> f64 {
+    (point - from).cross((to - from).normalize_or_zero()).length()
 }

@@ -3,26 +3,21 @@
 use glam::DVec3;
 
 use super::Refined;
+use super::retold::{Elements, retold};
 use crate::edges::HardEdge;
-use crate::ids::{Corner, Edge, Few, IdVec, Triangle};
+use crate::ids::{Corner, Edge, Few, IdVec};
 use crate::math::unit;
 use crate::mesh::Mesh;
-use crate::report::{
-    Blend, Chamfered, EdgeVerdict, Outcome, Piece, Reason, Totals, TriangleKind, TriangleSource,
-};
-use crate::rounding::joined;
+use crate::report::{Chamfered, EdgeVerdict, Outcome, Reason, TriangleKind};
 use crate::view::wide;
 
 /// What the elements of a refined mesh are in the source.
 pub struct Origins<'a> {
-    source: &'a Mesh<'a>,
-    refined: &'a Refined,
+    elements: Elements<'a>,
     /// `#hard edges` of the source.
     coarse: &'a IdVec<Edge, HardEdge>,
     /// `#hard edges` of the refined mesh.
     fine: &'a IdVec<Edge, HardEdge>,
-    /// `#hard edges` of the refined mesh: the one of the source that each is a part of.
-    edge_of: Vec<Edge>,
     /// `#hard edges` of the source, and one more: where the parts of each begin.
     first: Vec<u32>,
 }
@@ -38,10 +33,15 @@ impl<'a> Origins<'a> {
     ) -> Origins<'a> {
         let (mut edge_of, mut first) = (Vec::with_capacity(fine.len()), vec![0]);
         for edge in coarse.ids() {
-            edge_of.extend(refined.parts_of_side(coarse[edge].sides[0]).map(|_| edge));
+            edge_of.extend(refined.parts_of_side(coarse[edge].sides[0]).map(|_| edge.0));
             first.push(edge_of.len() as u32);
         }
-        Origins { source, refined, coarse, fine, edge_of, first }
+        Origins {
+            elements: Elements { source, refined, edge_of, stands_at: &[] },
+            coarse,
+            fine,
+            first,
+        }
     }
 
     /// The parts of an edge of the source, in its direction.
@@ -49,139 +49,12 @@ impl<'a> Origins<'a> {
         let place = edge.0 as usize;
         (self.first[place]..self.first[place + 1]).map(Edge).collect()
     }
-
-    /// A blend of vertices that are blends themselves. All lie in one triangle of the source.
-    fn blend(&self, blend: Blend) -> Blend {
-        let first_added = self.source.positions.len() as u32;
-        if blend.vertices.iter().all(|&vertex| vertex < first_added) {
-            return blend;
-        }
-        let mut terms: Few<(u32, f64)> = Few::new();
-        for (vertex, weight) in blend.vertices.into_iter().zip(blend.weights.map(f64::from)) {
-            match vertex.checked_sub(first_added) {
-                None => self.add_term(&mut terms, vertex, weight),
-                Some(added) => {
-                    let Blend { vertices, weights } = self.refined.added[added as usize].blend;
-                    for k in 0..3 {
-                        self.add_term(&mut terms, vertices[k], weight * f64::from(weights[k]));
-                    }
-                }
-            }
-        }
-        if terms.len() > 3 {
-            // As on rounded patches: the two that weigh most, and the rest on the first.
-            return joined(|vertex| vertex, terms.into_iter().map(|(v, w)| (Blend::one(v), w)));
-        }
-        let first = terms[0].0;
-        terms.retain(|(vertex, weight)| *vertex == first || *weight != 0.0);
-        let term = |k: usize| terms.get(k).copied().unwrap_or((first, 0.0));
-        let [one, two, three] = [0, 1, 2].map(term);
-        Blend::new([one.0, two.0, three.0], [one.1, two.1, three.1])
-    }
-
-    /// Of vertices at one place, the first stands for all: a corner may be named by another vertex
-    /// there than the one that a cut began at.
-    fn add_term(&self, terms: &mut Few<(u32, f64)>, vertex: u32, weight: f64) {
-        let at = |vertex: u32| self.source.positions[vertex as usize];
-        match terms.iter_mut().find(|(known, _)| *known == vertex || at(*known) == at(vertex)) {
-            Some((_, sum)) => *sum += weight,
-            None => terms.push((vertex, weight)),
-        }
-    }
-
-    fn triangle(&self, TriangleSource { kind, index }: TriangleSource) -> TriangleSource {
-        let index = match kind {
-            TriangleKind::Source if index as usize * 3 < self.source.indices.len() => index,
-            TriangleKind::Source => {
-                let first = self.refined.pieces.len() + index as usize
-                    - self.refined.mesh.indices.len() / 3;
-                self.refined.pieces[first].source.0
-            }
-            TriangleKind::Edge => self.edge_of[index as usize].0,
-            TriangleKind::Corner => match index.checked_sub(self.source.positions.len() as u32) {
-                None => index,
-                Some(added) => nearer(&self.refined.added[added as usize].blend),
-            },
-        };
-        TriangleSource { kind, index }
-    }
-
-    /// The triangles of the result that are pieces.
-    fn pieces(&self, triangles: &[TriangleSource]) -> Vec<Piece> {
-        let kept = (0u32..).zip(triangles).filter(|(_, t)| t.kind == TriangleKind::Source);
-        let piece = |(triangle, source): (u32, &TriangleSource)| {
-            let piece = self.refined.piece(Triangle(source.index))?;
-            let corners = piece.corners.map(|weights| weights.map(|weight| weight as f32));
-            Some(Piece { triangle, corners })
-        };
-        kept.filter_map(piece).collect()
-    }
 }
 
 /// The result of a refined mesh as one of the source.
 pub fn restored(origins: &Origins, fine: Chamfered) -> Chamfered {
     let verdicts = Verdicts::new(origins, &fine).all();
-    let pieces = origins.pieces(&fine.triangle_sources);
-    let mut told = fine;
-    told.pieces = pieces;
-    told.totals = counted(&verdicts, told.totals);
-    told.verdicts = verdicts;
-    told.vertex_sources.replace(|blend| origins.blend(blend));
-    told.triangle_sources.iter_mut().for_each(|source| *source = origins.triangle(*source));
-    join_submeshes(origins, &mut told);
-    told
-}
-
-/// Puts the pieces behind the source triangles of their submesh, and behind them what is new.
-fn join_submeshes(origins: &Origins, told: &mut Chamfered) {
-    let counts = std::mem::take(&mut told.mesh.submesh_index_counts);
-    let refined = origins.refined;
-    let own = origins.source.submesh_index_counts.len();
-    let extra = own..own + refined.belong_to.len();
-    let mut starts = vec![0];
-    for count in &counts {
-        starts.push(starts[starts.len() - 1] + *count as usize / 3);
-    }
-    let kept = |k: usize| refined.mesh.submesh_index_counts.get(k).map_or(0, |count| count / 3);
-    let mut all = Vec::new();
-    for submesh in (0..counts.len()).filter(|submesh| !extra.contains(submesh)) {
-        let belongs = |k: &usize| refined.belong_to[k - own] as usize == submesh;
-        let parts = || std::iter::once(submesh).chain(extra.clone().filter(belongs));
-        let middle = |k: usize| starts[k] + kept(k) as usize;
-        all.extend(parts().map(|k| starts[k]..middle(k)));
-        all.extend(parts().map(|k| middle(k)..starts[k + 1]));
-        told.mesh.submesh_index_counts.push(parts().map(|k| counts[k]).sum());
-    }
-    let spans = || all.iter().cloned();
-    let sources = spans().flat_map(|span| told.triangle_sources[span].iter().copied()).collect();
-    let corners = |span: std::ops::Range<usize>| 3 * span.start..3 * span.end;
-    let indices = spans().flat_map(|span| told.mesh.indices[corners(span)].iter().copied());
-    let indices = indices.collect();
-    let mut place_of = vec![0; starts[starts.len() - 1]];
-    for (place, old) in (0u32..).zip(spans().flatten()) {
-        place_of[old] = place;
-    }
-    told.pieces.iter_mut().for_each(|p| p.triangle = place_of[p.triangle as usize]);
-    told.pieces.sort_unstable_by_key(|piece| piece.triangle);
-    (told.triangle_sources, told.mesh.indices) = (sources, indices);
-}
-
-/// The end that a vertex on an edge is nearer to.
-fn nearer(added: &Blend) -> u32 {
-    added.vertices[usize::from(added.weights[1] > added.weights[0])]
-}
-
-fn counted(verdicts: &[EdgeVerdict], Totals { mean_width, counted, .. }: Totals) -> Totals {
-    let hard_edges = verdicts.len() as u32;
-    let mut totals = Totals { hard_edges, mean_width, counted, ..Totals::default() };
-    for verdict in verdicts {
-        match verdict.outcome {
-            Outcome::Full => totals.chamfered += 1,
-            Outcome::Narrowed => totals.narrowed += 1,
-            Outcome::Skipped => totals.skipped[verdict.reason] += 1,
-        }
-    }
-    totals
+    retold(&origins.elements, fine, verdicts)
 }
 
 /// One verdict for all parts of an edge.
@@ -194,7 +67,7 @@ struct Verdicts<'a> {
 
 impl<'a> Verdicts<'a> {
     fn new(origins: &'a Origins<'a>, fine: &'a Chamfered) -> Verdicts<'a> {
-        let mut place_of = vec![0; origins.refined.mesh.indices.len() / 3];
+        let mut place_of = vec![0; origins.elements.refined.mesh.indices.len() / 3];
         for (place, triangle) in (0u32..).zip(&fine.triangle_sources) {
             if triangle.kind == TriangleKind::Source {
                 place_of[triangle.index as usize] = place;
@@ -220,7 +93,7 @@ impl<'a> Verdicts<'a> {
     /// The source vertices at the ends of an edge.
     fn ends(&self, edge: Edge) -> [u32; 2] {
         let side = self.origins.coarse[edge].sides[0];
-        [side, side.next()].map(|corner| self.origins.source.indices[corner.0 as usize])
+        [side, side.next()].map(|corner| self.origins.elements.source.indices[corner.0 as usize])
     }
 
     /// One verdict for an edge in several parts.
@@ -252,7 +125,7 @@ impl<'a> Verdicts<'a> {
 
     /// The mean distance of both sides from the old edge at one of its ends.
     fn width_at(&self, edge: Edge, end: usize, parts: &[Edge]) -> f32 {
-        let at = |vertex: u32| wide(self.origins.source.positions[vertex as usize]);
+        let at = |vertex: u32| wide(self.origins.elements.source.positions[vertex as usize]);
         let [from, to] = self.ends(edge).map(at);
         let along = unit(to - from);
         let part = if end == 0 { parts[0] } else { parts[parts.len() - 1] };

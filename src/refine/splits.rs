@@ -243,9 +243,14 @@ fn tilted(view: &View, shape: &Shape, refined: &Refined) -> Vec<Triangle> {
         let points = piece.triangle.corners().map(|corner| {
             wide(refined.mesh.positions[refined.mesh.indices[corner.0 as usize] as usize])
         });
-        let longest = (0..3).map(|k| points[k].distance(points[(k + 1) % 3])).fold(0.0, f64::max);
-        let height = area_vector(points).dot(shape.faces.normal[piece.source]) / longest;
-        height.is_nan() || height < LEAST_HEIGHT * view.resolution
+        is_tilted(view, points, shape.faces.normal[piece.source])
     };
     refined.pieces.iter().filter(is_bad).map(|piece| piece.source).collect()
+}
+
+/// Whether rounding its corners would turn a triangle over, or nearly.
+pub(super) fn is_tilted(view: &View, points: [DVec3; 3], normal: DVec3) -> bool {
+    let longest = (0..3).map(|k| points[k].distance(points[(k + 1) % 3])).fold(0.0, f64::max);
+    let height = area_vector(points).dot(normal) / longest;
+    height.is_nan() || height < LEAST_HEIGHT * view.resolution
 }

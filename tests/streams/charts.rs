@@ -38,6 +38,8 @@ pub struct Charts<'a> {
     on_edge: HashMap<[Key; 2], Vec<usize>>,
     /// The triangles at each point.
     at_point: HashMap<Key, Vec<usize>>,
+    /// Of the points that only rounding has set apart, the one that stands for each.
+    meant: HashMap<Key, Key>,
 }
 
 impl<'a> Charts<'a> {
@@ -51,6 +53,7 @@ impl<'a> Charts<'a> {
             footprints: HashMap::new(),
             on_edge: HashMap::new(),
             at_point: HashMap::new(),
+            meant: set_apart_by_rounding(mesh.positions),
         };
         charts.index();
         charts.join();
@@ -63,13 +66,18 @@ impl<'a> Charts<'a> {
         charts
     }
 
+    fn key(&self, position: [f32; 3]) -> Key {
+        let own = key(position);
+        self.meant.get(&own).copied().unwrap_or(own)
+    }
+
     fn corners(&self, triangle: usize) -> [usize; 3] {
         [0, 1, 2].map(|k| self.mesh.indices[3 * triangle + k] as usize)
     }
 
     fn index(&mut self) {
         for triangle in 0..self.chart_of.len() {
-            let keys = self.corners(triangle).map(|v| key(self.mesh.positions[v]));
+            let keys = self.corners(triangle).map(|v| self.key(self.mesh.positions[v]));
             for k in 0..3 {
                 self.at_point.entry(keys[k]).or_default().push(triangle);
                 let ends = [keys[k].min(keys[(k + 1) % 3]), keys[k].max(keys[(k + 1) % 3])];
@@ -97,7 +105,7 @@ impl<'a> Charts<'a> {
     fn agree(&self, one: usize, other: usize, at: Key) -> bool {
         let value = |triangle: usize| {
             let corners = self.corners(triangle);
-            let vertex = corners.into_iter().find(|&v| key(self.mesh.positions[v]) == at)?;
+            let vertex = corners.into_iter().find(|&v| self.key(self.mesh.positions[v]) == at)?;
             let components = self.uv.components as usize;
             Some(&self.uv.values[vertex * components..][..components])
         };
@@ -136,18 +144,68 @@ impl<'a> Charts<'a> {
     }
 
     pub fn on_edge(&self, one: [f32; 3], other: [f32; 3]) -> &[usize] {
-        let (a, b) = (key(one), key(other));
+        let (a, b) = (self.key(one), self.key(other));
         self.on_edge.get(&[a.min(b), a.max(b)]).map_or(&[], Vec::as_slice)
     }
 
+    /// The triangles with a side that lies along a segment, or a part of it: those of both sides of an
+    /// edge that is one on one side and several on the other.
+    pub fn along(&self, one: [f32; 3], other: [f32; 3]) -> Vec<usize> {
+        let lies_along = |&triangle: &usize| {
+            let at = self.corners(triangle).map(|v| wide(self.mesh.positions[v]));
+            (0..3).any(|k| overlaps([at[k], at[(k + 1) % 3]], [one, other].map(wide)))
+        };
+        (0..self.chart_of.len()).filter(lies_along).collect()
+    }
+
     pub fn at_point(&self, point: [f32; 3]) -> &[usize] {
-        self.at_point.get(&key(point)).map_or(&[], Vec::as_slice)
+        self.at_point.get(&self.key(point)).map_or(&[], Vec::as_slice)
     }
 }
 
 pub fn uv_at(uv: Uv, vertex: usize) -> Point {
     let first = vertex * uv.components as usize;
     [f64::from(uv.values[first]), f64::from(uv.values[first + 1])]
+}
+
+/// Positions that are nearer to each other than single precision tells at the largest of them, each
+/// with the first of its place: faces that were modelled to meet there do.
+fn set_apart_by_rounding(positions: &[[f32; 3]]) -> HashMap<Key, Key> {
+    let largest =
+        positions.as_flattened().iter().fold(0.0_f32, |most, along| most.max(along.abs()));
+    let near = f64::from(largest) * 2.0 * f64::from(f32::EPSILON);
+    let cell = |at: [f32; 3]| at.map(|along| (f64::from(along) / (4.0 * near)).round() as i64);
+    let mut cells: HashMap<[i64; 3], Vec<[f32; 3]>> = HashMap::new();
+    let mut meant = HashMap::new();
+    for &at in positions {
+        let around = (0..27).map(|k| [k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1]);
+        let own = cell(at);
+        let around = around.map(|by| [0, 1, 2].map(|k| own[k] + by[k]));
+        let mut known = around.filter_map(|cell| cells.get(&cell)).flatten();
+        match known.find(|other| wide(**other).distance(wide(at)) <= near) {
+            Some(&first) if key(first) != key(at) => {
+                meant.insert(key(at), key(first));
+            }
+            Some(_) => {}
+            None => cells.entry(own).or_default().push(at),
+        }
+    }
+    meant
+}
+
+fn wide(point: [f32; 3]) -> glam::DVec3 {
+    glam::DVec3::from(point.map(f64::from))
+}
+
+/// What is nearer to a segment, as a share of its length, lies on it.
+const ON_SEGMENT: f64 = 1e-4;
+
+/// Whether a side lies on a segment, or beyond its ends in line with it, and shares more than a point.
+fn overlaps(side: [glam::DVec3; 2], [from, to]: [glam::DVec3; 2]) -> bool {
+    let (along, near) = ((to - from).normalize_or_zero(), ON_SEGMENT * from.distance(to));
+    let [one, other] = side.map(|end| (end - from).dot(along));
+    let shared = one.max(other).min(from.distance(to)) - one.min(other).max(0.0);
+    shared > near && side.iter().all(|end| (*end - from).cross(along).length() <= near)
 }
 
 /// Area of a triangle in space.

@@ -93,7 +93,11 @@ fn neighbours(charts: &Charts, before: &Mesh, after: &Chamfered, triangle: usize
         TriangleKind::Edge => {
             let ends = after.verdicts[source.index as usize].vertices;
             let [one, other] = ends.map(|vertex| before.positions[vertex as usize]);
-            charts.on_edge(one, other).to_vec()
+            match charts.on_edge(one, other) {
+                // An edge that is several on its other side.
+                [_] | [] => charts.along(one, other),
+                both => both.to_vec(),
+            }
         }
         _ => charts.at_point(before.positions[source.index as usize]).to_vec(),
     }
