@@ -5,6 +5,8 @@
 //! of looking for the best halves, and finds nearly as few boxes. Equal places on the curve are told
 //! apart by number, so the tree is the same on every run.
 
+use glam::DVec3;
+
 /// How many boxes a leaf holds: testing so few one by one costs less than another node.
 const LEAF_SIZE: usize = 4;
 
@@ -18,6 +20,9 @@ pub(crate) struct Aabb {
 impl Aabb {
     /// Overlaps nothing.
     pub const EMPTY: Aabb = Aabb { low: [f32::INFINITY; 3], high: [f32::NEG_INFINITY; 3] };
+
+    /// Overlaps all but what is empty.
+    pub const ALL: Aabb = Aabb { low: [f32::NEG_INFINITY; 3], high: [f32::INFINITY; 3] };
 
     /// The box around some points.
     #[inline]
@@ -47,6 +52,13 @@ impl Aabb {
         along(0) & along(1) & along(2)
     }
 
+    /// Whether all of it is farther than this from the plane through the origin with a unit normal.
+    pub fn is_beside(&self, normal: DVec3, far: f64) -> bool {
+        let [low, high] = [self.low, self.high].map(|corner| DVec3::from(corner.map(f64::from)));
+        let (middle, half) = ((low + high) / 2.0, (high - low) / 2.0);
+        middle.dot(normal).abs() - half.dot(normal.abs()) > far
+    }
+
     /// Halved first, so that it cannot overflow.
     fn middle(&self, axis: usize) -> f32 {
         self.low[axis] / 2.0 + self.high[axis] / 2.0
@@ -72,6 +84,11 @@ impl Kin {
     /// The number of what it has in common with others; past all others for nothing.
     pub fn crowd(&self) -> u64 {
         self.around.unwrap_or(u64::MAX)
+    }
+
+    /// Around the directions in which it lies.
+    pub fn bounds(&self) -> &Aabb {
+        &self.bounds
     }
 
     /// Whether the two have nothing to do with each other, though their boxes overlap.
@@ -262,7 +279,20 @@ impl Tree {
 
     /// The numbers of the boxes that overlap one, in the order of the tree.
     pub fn overlapping(&self, target: Aabb) -> impl Iterator<Item = u32> {
-        self.leaves_near(0, move |node| !self.nodes[node].bounds.overlaps(&target))
+        self.overlapping_but(target, |_| false)
+    }
+
+    /// The same, but for some kin.
+    pub fn overlapping_but(
+        &self,
+        target: Aabb,
+        is_out: impl Fn(&Kin) -> bool,
+    ) -> impl Iterator<Item = u32> {
+        let is_apart = move |node: usize| {
+            !self.nodes[node].bounds.overlaps(&target)
+                || self.node_kin.get(node).is_some_and(&is_out)
+        };
+        self.leaves_near(0, is_apart)
             .flat_map(|leaf| self.places(leaf))
             .filter(move |&place| self.boxes[place].overlaps(&target))
             .map(|place| self.order[place])
