@@ -7,6 +7,9 @@
 
 use glam::DVec3;
 
+use crate::error::Error;
+use crate::watch::{STEPS, Unwatched, Watch};
+
 /// How many boxes a leaf holds: testing so few one by one costs less than another node.
 const LEAF_SIZE: usize = 4;
 
@@ -146,6 +149,14 @@ impl Tree {
     /// Over `#boxes`. Boxes of different crowds (`kin: #boxes`, or none) are kept apart, so that
     /// nodes have kin too.
     pub fn new(boxes: &[Aabb], kin: &[Kin]) -> Tree {
+        Tree::watched(boxes, kin, &Unwatched).unwrap_or_default()
+    }
+
+    /// The same, where that may be stopped.
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`] where the watch stops it.
+    pub fn watched(boxes: &[Aabb], kin: &[Kin], watch: &dyn Watch) -> Result<Tree, Error> {
         let curve = Curve::through(boxes);
         let crowd = |number: usize| kin.get(number).map_or(0, Kin::crowd);
         let mut places: Vec<(u64, u64, u32)> = boxes
@@ -153,7 +164,7 @@ impl Tree {
             .enumerate()
             .map(|(number, each)| (crowd(number), curve.place(each), number as u32))
             .collect();
-        places.sort_unstable();
+        sort(&mut places, watch)?;
         let order: Vec<u32> = places.iter().map(|&(.., number)| number).collect();
         let mut tree = Tree {
             nodes: Vec::with_capacity(boxes.len()),
@@ -164,9 +175,9 @@ impl Tree {
             order,
         };
         if !boxes.is_empty() {
-            tree.add(0, boxes.len());
+            tree.add(0, boxes.len(), watch)?;
         }
-        tree
+        Ok(tree)
     }
 
     /// The same, where what is seen apart from an eye is apart too (`views: #eyes by #boxes`).
@@ -194,7 +205,7 @@ impl Tree {
     }
 
     /// Appends the node over some places, and all below it.
-    fn add(&mut self, first: usize, count: usize) {
+    fn add(&mut self, first: usize, count: usize, watch: &dyn Watch) -> Result<(), Error> {
         let node = self.nodes.len();
         let (at, own) = (first as u32, first..first + count);
         let split = self.split(own.clone());
@@ -206,6 +217,7 @@ impl Tree {
         let all = |boxes: &[Aabb]| boxes.iter().fold(Aabb::EMPTY, |all, &each| all.union(each));
         let (bounds, kin) = match split {
             None => {
+                watch.worked(own.len())?;
                 let kin = self
                     .kin
                     .get(own.clone())
@@ -214,9 +226,9 @@ impl Tree {
             }
             Some(middle) => {
                 let low = self.nodes.len();
-                self.add(own.start, middle - own.start);
+                self.add(own.start, middle - own.start, watch)?;
                 let high = self.nodes.len();
-                self.add(middle, own.end - middle);
+                self.add(middle, own.end - middle, watch)?;
                 let kin = self.node_kin.get(low).map(|&kin| kin.union(self.node_kin[high]));
                 (self.nodes[low].bounds.union(self.nodes[high].bounds), kin)
             }
@@ -226,6 +238,7 @@ impl Tree {
         if let Some(kin) = kin {
             self.node_kin[node] = kin;
         }
+        Ok(())
     }
 
     /// Where some places are parted; none where they are a leaf. Several crowds are parted between
@@ -356,6 +369,18 @@ impl Tree {
     }
 }
 
+/// Sorts, and tells the watch again and again.
+fn sort<T: Ord>(items: &mut [T], watch: &dyn Watch) -> Result<(), Error> {
+    watch.worked(items.len())?;
+    if items.len() <= STEPS {
+        items.sort_unstable();
+        return Ok(());
+    }
+    let (low, _, high) = items.select_nth_unstable(items.len() / 2);
+    sort(low, watch)?;
+    sort(high, watch)
+}
+
 /// A curve through a box that visits each half of it, along one axis after the other, before the
 /// other half.
 struct Curve {
@@ -397,6 +422,7 @@ fn spread(bits: u64) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::cell::Cell;
 
     fn pairs(boxes: &[Aabb]) -> Vec<(u32, u32)> {
         let tree = Tree::new(boxes, &[]);
@@ -443,6 +469,45 @@ mod tests {
         let [a, b, c] =
             [0.0, 1.0, 2.5].map(|x| Aabb::around(&[[x, 0.0, 0.0], [x + 1.0, 1.0, 1.0]]));
         assert_eq!(pairs(&[a, b, c]), [(0, 1)]);
+    }
+
+    /// Counts how often it is told, and stops the work then.
+    struct Count {
+        told: Cell<usize>,
+        last: usize,
+    }
+
+    impl Watch for Count {
+        fn worked(&self, _: usize) -> Result<(), Error> {
+            self.told.set(self.told.get() + 1);
+            if self.told.get() < self.last { Ok(()) } else { Err(Error::Cancelled) }
+        }
+    }
+
+    #[test]
+    fn building_a_large_tree_can_be_stopped_at_any_time() {
+        let boxes = scattered(20.0).repeat(400);
+        let told = |last: usize| {
+            let count = Count { told: Cell::new(0), last };
+            let tree = Tree::watched(&boxes, &[], &count);
+            (tree.is_ok(), count.told.get())
+        };
+        let (is_done, all) = told(usize::MAX);
+        // Sorted in eight parts, and told at each leaf.
+        assert!(is_done && all > 15 + boxes.len() / LEAF_SIZE, "{all}");
+        for last in [1, 5, 15, 16, all / 2, all] {
+            assert_eq!(told(last), (false, last));
+        }
+    }
+
+    #[test]
+    fn what_is_sorted_in_parts_is_sorted() {
+        let mut numbers: Vec<u32> =
+            (0..100_000).map(|k: u32| k.wrapping_mul(2_654_435_761)).collect();
+        let mut expected = numbers.clone();
+        expected.sort_unstable();
+        sort(&mut numbers, &Unwatched).unwrap();
+        assert!(numbers == expected);
     }
 
     #[test]

@@ -87,7 +87,7 @@ pub(crate) fn cutting_pairs<Open: Fn(u32) -> bool, Pair: Fn(u32, u32) -> bool>(
 ) -> Result<Vec<(u32, u32)>, Error> {
     watch.worked(triangles.len())?;
     let boxes: Vec<Aabb> = triangles.iter().map(bounds).collect();
-    let tree = Tree::new(&boxes, kin);
+    let tree = Tree::watched(&boxes, kin, watch)?;
     let few = triangles.len().saturating_mul(CROWDED);
     let mut pairs = match cutting_within(&tree, triangles, asked, few, watch)? {
         Some(pairs) => pairs,
