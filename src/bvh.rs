@@ -5,6 +5,11 @@
 //! of looking for the best halves, and finds nearly as few boxes. Equal places on the curve are told
 //! apart by number, so the tree is the same on every run.
 
+use glam::DVec3;
+
+use crate::error::Error;
+use crate::watch::{STEPS, Unwatched, Watch};
+
 /// How many boxes a leaf holds: testing so few one by one costs less than another node.
 const LEAF_SIZE: usize = 4;
 
@@ -18,6 +23,9 @@ pub(crate) struct Aabb {
 impl Aabb {
     /// Overlaps nothing.
     pub const EMPTY: Aabb = Aabb { low: [f32::INFINITY; 3], high: [f32::NEG_INFINITY; 3] };
+
+    /// Overlaps all but what is empty.
+    pub const ALL: Aabb = Aabb { low: [f32::NEG_INFINITY; 3], high: [f32::INFINITY; 3] };
 
     /// The box around some points.
     #[inline]
@@ -47,6 +55,13 @@ impl Aabb {
         along(0) & along(1) & along(2)
     }
 
+    /// Whether all of it is farther than this from the plane through the origin with a unit normal.
+    pub fn is_beside(&self, normal: DVec3, far: f64) -> bool {
+        let [low, high] = [self.low, self.high].map(|corner| DVec3::from(corner.map(f64::from)));
+        let (middle, half) = ((low + high) / 2.0, (high - low) / 2.0);
+        middle.dot(normal).abs() - half.dot(normal.abs()) > far
+    }
+
     /// Halved first, so that it cannot overflow.
     fn middle(&self, axis: usize) -> f32 {
         self.low[axis] / 2.0 + self.high[axis] / 2.0
@@ -72,6 +87,11 @@ impl Kin {
     /// The number of what it has in common with others; past all others for nothing.
     pub fn crowd(&self) -> u64 {
         self.around.unwrap_or(u64::MAX)
+    }
+
+    /// Around the directions in which it lies.
+    pub fn bounds(&self) -> &Aabb {
+        &self.bounds
     }
 
     /// Whether the two have nothing to do with each other, though their boxes overlap.
@@ -129,6 +149,14 @@ impl Tree {
     /// Over `#boxes`. Boxes of different crowds (`kin: #boxes`, or none) are kept apart, so that
     /// nodes have kin too.
     pub fn new(boxes: &[Aabb], kin: &[Kin]) -> Tree {
+        Tree::watched(boxes, kin, &Unwatched).unwrap_or_default()
+    }
+
+    /// The same, where that may be stopped.
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`] where the watch stops it.
+    pub fn watched(boxes: &[Aabb], kin: &[Kin], watch: &dyn Watch) -> Result<Tree, Error> {
         let curve = Curve::through(boxes);
         let crowd = |number: usize| kin.get(number).map_or(0, Kin::crowd);
         let mut places: Vec<(u64, u64, u32)> = boxes
@@ -136,7 +164,7 @@ impl Tree {
             .enumerate()
             .map(|(number, each)| (crowd(number), curve.place(each), number as u32))
             .collect();
-        places.sort_unstable();
+        sort(&mut places, watch)?;
         let order: Vec<u32> = places.iter().map(|&(.., number)| number).collect();
         let mut tree = Tree {
             nodes: Vec::with_capacity(boxes.len()),
@@ -147,9 +175,9 @@ impl Tree {
             order,
         };
         if !boxes.is_empty() {
-            tree.add(0, boxes.len());
+            tree.add(0, boxes.len(), watch)?;
         }
-        tree
+        Ok(tree)
     }
 
     /// The same, where what is seen apart from an eye is apart too (`views: #eyes by #boxes`).
@@ -177,7 +205,7 @@ impl Tree {
     }
 
     /// Appends the node over some places, and all below it.
-    fn add(&mut self, first: usize, count: usize) {
+    fn add(&mut self, first: usize, count: usize, watch: &dyn Watch) -> Result<(), Error> {
         let node = self.nodes.len();
         let (at, own) = (first as u32, first..first + count);
         let split = self.split(own.clone());
@@ -189,6 +217,7 @@ impl Tree {
         let all = |boxes: &[Aabb]| boxes.iter().fold(Aabb::EMPTY, |all, &each| all.union(each));
         let (bounds, kin) = match split {
             None => {
+                watch.worked(own.len())?;
                 let kin = self
                     .kin
                     .get(own.clone())
@@ -197,9 +226,9 @@ impl Tree {
             }
             Some(middle) => {
                 let low = self.nodes.len();
-                self.add(own.start, middle - own.start);
+                self.add(own.start, middle - own.start, watch)?;
                 let high = self.nodes.len();
-                self.add(middle, own.end - middle);
+                self.add(middle, own.end - middle, watch)?;
                 let kin = self.node_kin.get(low).map(|&kin| kin.union(self.node_kin[high]));
                 (self.nodes[low].bounds.union(self.nodes[high].bounds), kin)
             }
@@ -209,6 +238,7 @@ impl Tree {
         if let Some(kin) = kin {
             self.node_kin[node] = kin;
         }
+        Ok(())
     }
 
     /// Where some places are parted; none where they are a leaf. Several crowds are parted between
@@ -262,7 +292,20 @@ impl Tree {
 
     /// The numbers of the boxes that overlap one, in the order of the tree.
     pub fn overlapping(&self, target: Aabb) -> impl Iterator<Item = u32> {
-        self.leaves_near(0, move |node| !self.nodes[node].bounds.overlaps(&target))
+        self.overlapping_but(target, |_| false)
+    }
+
+    /// The same, but for some kin.
+    pub fn overlapping_but(
+        &self,
+        target: Aabb,
+        is_out: impl Fn(&Kin) -> bool,
+    ) -> impl Iterator<Item = u32> {
+        let is_apart = move |node: usize| {
+            !self.nodes[node].bounds.overlaps(&target)
+                || self.node_kin.get(node).is_some_and(&is_out)
+        };
+        self.leaves_near(0, is_apart)
             .flat_map(|leaf| self.places(leaf))
             .filter(move |&place| self.boxes[place].overlaps(&target))
             .map(|place| self.order[place])
@@ -326,6 +369,18 @@ impl Tree {
     }
 }
 
+/// Sorts, and tells the watch again and again.
+fn sort<T: Ord>(items: &mut [T], watch: &dyn Watch) -> Result<(), Error> {
+    watch.worked(items.len())?;
+    if items.len() <= STEPS {
+        items.sort_unstable();
+        return Ok(());
+    }
+    let (low, _, high) = items.select_nth_unstable(items.len() / 2);
+    sort(low, watch)?;
+    sort(high, watch)
+}
+
 /// A curve through a box that visits each half of it, along one axis after the other, before the
 /// other half.
 struct Curve {
@@ -367,6 +422,7 @@ fn spread(bits: u64) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::cell::Cell;
 
     fn pairs(boxes: &[Aabb]) -> Vec<(u32, u32)> {
         let tree = Tree::new(boxes, &[]);
@@ -413,6 +469,45 @@ mod tests {
         let [a, b, c] =
             [0.0, 1.0, 2.5].map(|x| Aabb::around(&[[x, 0.0, 0.0], [x + 1.0, 1.0, 1.0]]));
         assert_eq!(pairs(&[a, b, c]), [(0, 1)]);
+    }
+
+    /// Counts how often it is told, and stops the work then.
+    struct Count {
+        told: Cell<usize>,
+        last: usize,
+    }
+
+    impl Watch for Count {
+        fn worked(&self, _: usize) -> Result<(), Error> {
+            self.told.set(self.told.get() + 1);
+            if self.told.get() < self.last { Ok(()) } else { Err(Error::Cancelled) }
+        }
+    }
+
+    #[test]
+    fn building_a_large_tree_can_be_stopped_at_any_time() {
+        let boxes = scattered(20.0).repeat(400);
+        let told = |last: usize| {
+            let count = Count { told: Cell::new(0), last };
+            let tree = Tree::watched(&boxes, &[], &count);
+            (tree.is_ok(), count.told.get())
+        };
+        let (is_done, all) = told(usize::MAX);
+        // Sorted in eight parts, and told at each leaf.
+        assert!(is_done && all > 15 + boxes.len() / LEAF_SIZE, "{all}");
+        for last in [1, 5, 15, 16, all / 2, all] {
+            assert_eq!(told(last), (false, last));
+        }
+    }
+
+    #[test]
+    fn what_is_sorted_in_parts_is_sorted() {
+        let mut numbers: Vec<u32> =
+            (0..100_000).map(|k: u32| k.wrapping_mul(2_654_435_761)).collect();
+        let mut expected = numbers.clone();
+        expected.sort_unstable();
+        sort(&mut numbers, &Unwatched).unwrap();
+        assert!(numbers == expected);
     }
 
     #[test]

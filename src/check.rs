@@ -176,8 +176,9 @@ fn check_geometry(
     flatness::check_flatness(source, result, origins, findings);
     hardness::check_hard_edges(source, result, origins, findings);
     let solids = Solids::new(source);
-    findings.edges = Ruler::new(surfaces, origins).measure_all(&solids);
-    check_carried([source, result], origins, extras, findings);
+    let ruler = Ruler::new(surfaces, origins);
+    findings.edges = ruler.measure_all(&solids);
+    check_carried([source, result], (origins, &ruler), extras, findings);
     let solids = [&solids, &solids.carried(result, origins)];
     findings.after.non_manifold_edges = solids[1].crowded_edges(result);
     solids::check_sides([source, result], solids, origins, findings);

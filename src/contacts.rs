@@ -5,6 +5,7 @@
 //! lies on another, the wedge may be all that hid what is behind. So a stretch of border that lies
 //! in the wedge of an edge keeps that wedge from being cut off.
 
+mod crowds;
 mod stretches;
 mod wedge;
 
@@ -12,7 +13,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use crate::bvh::{Aabb, Tree};
+use crate::bvh::{Aabb, Kin, Tree};
 use crate::error::Error;
 use crate::faces::{Faces, faces};
 use crate::ids::{Corner, Few};
@@ -20,11 +21,12 @@ use crate::memory;
 use crate::mesh::Mesh;
 use crate::options::{Options, Width};
 use crate::threads::Threads;
-use crate::tolerance::{BACK_TO_BACK_COSINE, TOUCHING, TOUCHING_STEPS};
+use crate::tolerance::{BACK_TO_BACK_COSINE, LINE_HEIGHT, TOUCHING, TOUCHING_STEPS};
 use crate::topology::{Topology, topology};
 use crate::view::{View, view, wide};
 use crate::weld::weld;
 
+use crowds::{Crowds, Search, crowds};
 pub use wedge::{Cut, Stretch, Wedge};
 
 /// What lies within so many tolerances of an edge, across it, rests on it.
@@ -59,6 +61,7 @@ pub struct Contacts {
     /// Where the rims of each place in the tree begin, and where the last end.
     starts: Arc<[u32]>,
     tree: Arc<Tree>,
+    crowds: Crowds,
     /// Within this distance, in mesh units, something touches.
     tolerance: f64,
 }
@@ -82,13 +85,15 @@ pub fn contacts(view: &View, topology: &Topology, faces: &Faces) -> Result<Conta
     });
     let (rims, starts) = side_by_side(topology, borders.chain(outside).collect());
     let tolerance = if rims.is_empty() { 0.0 } else { tolerance(view) };
-    let bounds = |&start: &u32| {
-        let Rim { ends, radius, .. } = rims[start as usize];
-        around(ends, radius.max(tolerance))
-    };
-    let boxes: Vec<Aabb> = starts[..starts.len() - 1].iter().map(bounds).collect();
-    let tree = Tree::new(&boxes, &[]).into();
-    Ok(Contacts { rims, starts: starts.into(), tree, tolerance })
+    let places = || starts[..starts.len() - 1].iter().map(|&start| &rims[start as usize]);
+    let boxes: Vec<Aabb> =
+        places().map(|rim| around(rim.ends, rim.radius.max(tolerance))).collect();
+    let crowds = crowds(topology, places());
+    let reach = view.resolution * LINE_HEIGHT;
+    let kin = |rim: &Rim| crowds.kin(rim, rim.is_of_sheet(topology), reach);
+    let kin: Vec<Kin> = if crowds.is_empty() { Vec::new() } else { places().map(kin).collect() };
+    let tree = Tree::new(&boxes, &kin).into();
+    Ok(Contacts { rims, starts: starts.into(), tree, crowds, tolerance })
 }
 
 /// Rims of the same ends, radius and kind next to each other, and where each such place begins, and
@@ -182,7 +187,7 @@ impl Contacts {
         let borders = rims.iter_mut().map(|rim| &mut rim.border).filter(|border| border.is_some());
         borders.for_each(|border| *border = name(*border));
         let (starts, tree) = (self.starts.clone(), self.tree.clone());
-        Contacts { rims, starts, tree, tolerance: self.tolerance }
+        Contacts { rims, starts, tree, crowds: self.crowds.clone(), tolerance: self.tolerance }
     }
 
     /// How many lines may rest on the mesh.
@@ -208,7 +213,7 @@ impl Contacts {
         (sides, width): ([Corner; 2], f64),
     ) -> Few<Stretch> {
         let ends = [sides[0], sides[0].next()].map(|corner| view.position_at(corner));
-        if self.near(ends, width + self.tolerance).next().is_none() {
+        if self.beside_edge(ends, width + self.tolerance).next().is_none() {
             return Few::new();
         }
         let wedge = Wedge::new(view, faces, sides);
@@ -222,13 +227,13 @@ impl Contacts {
             return false;
         }
         let ends = [side, side.next()].map(|corner| view.position_at(corner));
-        if self.near(ends, self.tolerance * 3.0).next().is_none() {
+        if self.beside_edge(ends, self.tolerance * 3.0).next().is_none() {
             return false;
         }
         let is_ball = |rim: &Rim| {
             rim.radius > self.tolerance && distance_between(rim.ends, ends) < rim.radius
         };
-        if self.places_near(ends, 0.0).any(|rims| is_ball(&rims[0])) {
+        if self.beside_edge(ends, 0.0).any(|rims| is_ball(&rims[0])) {
             return true;
         }
         let Some(wedge) = Wedge::new(view, faces, [side, topology.twin[side]]) else {
@@ -242,7 +247,7 @@ impl Contacts {
     /// Whether something other than the borders of a corner's own position runs through it.
     pub fn touch_corner(&self, view: &View, topology: &Topology, corner: Corner) -> bool {
         let (at, cluster) = ([view.position_at(corner); 2], topology.cluster_at[corner]);
-        self.places_near(at, 0.0).any(|rims| {
+        self.places(Search::Through(at[0])).any(|rims| {
             let rim = &rims[0];
             let is_own = rim.border.is_some()
                 && [rim.border, rim.border.next()]
@@ -257,21 +262,26 @@ impl Contacts {
         self.rims.iter().map(|rim| rim.border).filter(|border| border.is_some())
     }
 
-    /// Those of them that may lie on a segment.
-    pub fn borders_near(&self, segment: [DVec3; 2]) -> impl Iterator<Item = Corner> {
-        self.near(segment, 0.0).map(|rim| rim.border).filter(|border| border.is_some())
+    /// Those of them that may run along a border, all at one place together.
+    pub fn borders_along<'a>(
+        &'a self,
+        border: [DVec3; 2],
+    ) -> impl Iterator<Item = impl Iterator<Item = Corner> + 'a> {
+        let borders = |rims: &'a [Rim]| rims.iter().map(|rim| rim.border);
+        let all = self.places(Search::Along(border)).map(borders);
+        all.map(|borders| borders.filter(|border| border.is_some()))
     }
 
-    /// What may come within a distance of a segment.
-    fn near(&self, segment: [DVec3; 2], reach: f64) -> impl Iterator<Item = &Rim> {
-        self.places_near(segment, reach).flatten()
+    /// What may come within a distance of an edge, but for the sheets that are its own.
+    fn beside_edge(&self, ends: [DVec3; 2], reach: f64) -> impl Iterator<Item = &[Rim]> {
+        self.places(Search::Beside(ends, reach))
     }
 
-    /// The same, all rims at one place together: what does not depend on the fan that a rim ends is to
-    /// be asked of the first alone.
-    fn places_near(&self, segment: [DVec3; 2], reach: f64) -> impl Iterator<Item = &[Rim]> {
-        let near = self.tree.overlapping(around(segment, reach));
-        near.map(|place| {
+    /// What may be looked for. All rims at one place come together: what does not depend on the fan
+    /// that a rim ends is to be asked of the first alone.
+    fn places(&self, search: Search) -> impl Iterator<Item = &[Rim]> {
+        let is_apart = self.crowds.apart(search, self.tolerance);
+        self.tree.overlapping_but(search.bounds(), is_apart).map(|place| {
             let [from, to] = [0, 1].map(|k| self.starts[place as usize + k] as usize);
             &self.rims[from..to]
         })
@@ -287,7 +297,7 @@ impl Contacts {
         width: f64,
     ) -> Few<Stretch> {
         let is_own = |rim: &Rim| rim.border.is_some() && is_own_border(topology, side, rim.border);
-        self.places_near(wedge.ends(), width + self.tolerance)
+        self.beside_edge(wedge.ends(), width + self.tolerance)
             .filter_map(|rims| {
                 let stretch = wedge.clip(rims[0].ends, width, self.tolerance)?;
                 // Sheets at one place are all its own or none. Of the others a few are at most, so

@@ -31,7 +31,7 @@ pub(crate) type Triangle = [[f32; 3]; 3];
 
 /// With more boxes that overlap for each triangle, directions are asked too. Of a common mesh it is a
 /// dozen.
-const CROWDED: usize = 24;
+const CROWDED: usize = 15;
 
 /// So many are told at a time.
 const MOST_STEPS: usize = 1024;
@@ -86,13 +86,13 @@ pub(crate) fn cutting_pairs<Open: Fn(u32) -> bool, Pair: Fn(u32, u32) -> bool>(
 ) -> Result<Vec<(u32, u32)>, Error> {
     watch.worked(triangles.len())?;
     let boxes: Vec<Aabb> = triangles.iter().map(bounds).collect();
-    let tree = Tree::new(&boxes, kin);
+    let tree = Tree::watched(&boxes, kin, watch)?;
     let few = triangles.len().saturating_mul(CROWDED);
     let mut pairs = match cutting_within(&tree, triangles, asked, few, watch)? {
         Some(pairs) => pairs,
         None => {
             let eyes = Eyes::of(&[&source(), triangles].concat());
-            let tree = tree.with_views(&eyes.views(triangles));
+            let tree = tree.with_views(&eyes.views(triangles, watch)?);
             watch.worked(triangles.len())?;
             cutting_within(&tree, triangles, asked, usize::MAX, watch)?.unwrap_or_default()
         }
@@ -462,7 +462,7 @@ mod tests {
         let few = triangles.len() * CROWDED;
         let tree = Tree::new(&boxes, &[]);
         assert!(within(&tree, &triangles, few).is_none(), "boxes do not tell");
-        let tree = tree.with_views(&Eyes::of(&triangles).views(&triangles));
+        let tree = tree.with_views(&Eyes::of(&triangles).views(&triangles, &Unwatched).unwrap());
         assert!(within(&tree, &triangles, few).is_some(), "eyes do");
     }
 
@@ -482,7 +482,8 @@ mod tests {
             .collect();
         assert!(expected.len() > 20, "{}", expected.len());
         let boxes: Vec<Aabb> = triangles.iter().map(bounds).collect();
-        let tree = Tree::new(&boxes, &[]).with_views(&Eyes::of(&triangles).views(&triangles));
+        let tree = Tree::new(&boxes, &[])
+            .with_views(&Eyes::of(&triangles).views(&triangles, &Unwatched).unwrap());
         let mut found = within(&tree, &triangles, usize::MAX).unwrap();
         found.sort_unstable();
         assert_eq!(found, expected);

@@ -176,10 +176,8 @@ impl Threads {
     ) -> Result<Vec<T>, Error> {
         #[cfg(feature = "parallel")]
         if let Some(pool) = &self.pool {
-            use rayon::prelude::*;
             let flag = Flag::default();
-            let each = |item| value(&flag, item);
-            let all = || items.par_iter().with_max_len(1).map(each).collect::<Vec<_>>();
+            let all = || self.map_large(items, || (), |(), item| value(&flag, item));
             return waited_for(pool, (watch, &flag), all)?.into_iter().collect();
         }
         items.iter().map(|item| value(watch, item)).collect()

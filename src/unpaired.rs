@@ -64,26 +64,40 @@ fn junctions(view: &View, topology: &Topology, contacts: &Contacts) -> Vec<Corne
         .filter(|&border| topology.twin[border].is_none())
         .filter(|&border| {
             let line = Line::new(view, border);
-            let beside = contacts.borders_near(line.ends());
-            beside
-                .filter(|&other| topology.twin[other].is_none())
-                .any(|other| meets_shorter(view, topology, &line, other))
+            let ends = [border, border.next()].map(|corner| view.position_at(corner));
+            contacts.borders_along(ends).any(|place| {
+                // At one place all are the same line, and only one's number and normals differ.
+                let mut place = place.filter(|&other| topology.twin[other].is_none()).peekable();
+                let first = place.peek().copied();
+                first.is_some_and(|first| is_along(view, topology, &line, first))
+                    && place.any(|other| meets_shorter(view, topology, &line, other))
+            })
         })
         .collect();
     junctions.sort_unstable();
     junctions
 }
 
-/// Whether another border runs back along a part of a line, and is shorter. Of two that are as
-/// long, one stands for both.
+/// Whether another border runs back beside a line, and is no longer.
+fn is_along(view: &View, topology: &Topology, line: &Line, other: Corner) -> bool {
+    let shorter = Line::new(view, other);
+    shorter.length <= line.length && runs_back(topology, line, &shorter)
+}
+
+/// Whether such a border lies on the line, and meets it at a hard edge. Of two that are as long, one
+/// stands for both.
 fn meets_shorter(view: &View, topology: &Topology, line: &Line, other: Corner) -> bool {
     let shorter = Line::new(view, other);
     (shorter.length, other) < (line.length, line.border) && meets(view, topology, line, &shorter)
 }
 
+fn runs_back(topology: &Topology, line: &Line, other: &Line) -> bool {
+    other.along.dot(line.along) < 0.0 && !is_same_edge(topology, line.border, other.border)
+}
+
 /// Whether another border runs back along a part of a line, and light breaks between them.
 pub fn meets(view: &View, topology: &Topology, line: &Line, other: &Line) -> bool {
-    if other.along.dot(line.along) >= 0.0 || is_same_edge(topology, line.border, other.border) {
+    if !runs_back(topology, line, other) {
         return false;
     }
     let reach = view.resolution * LINE_HEIGHT;

@@ -4,7 +4,9 @@
 mod shaded;
 
 use chamfer::check::{Rule, assert_sound, check};
-use chamfer::{Chamfered, MeshBuffers, Options, Verify, Width, chamfer, shapes};
+use chamfer::{
+    Chamfered, EdgeVerdict, MeshBuffers, Options, Outcome, Verify, Width, chamfer, shapes,
+};
 use glam::{DQuat, DVec3};
 
 fn chamfered(mesh: &MeshBuffers, width: Width) -> Chamfered {
@@ -129,4 +131,67 @@ fn a_triangle_that_folds_onto_itself_is_what_it_was() {
         ..MeshBuffers::default()
     };
     assert_sound("folded", &mesh.as_mesh(), &chamfered(&mesh, Width::Units(0.1)));
+}
+
+/// Past a triangle whose values are nearly as large as numbers go there are none.
+#[test]
+fn texture_coordinates_read_past_a_triangle_stay_finite() {
+    let mut cube = shapes::cube(1.0);
+    for (vertex, uv) in cube.uvs[0].values.chunks_exact_mut(2).enumerate() {
+        let sign = if vertex % 2 == 0 { 1.0 } else { -1.0 };
+        uv.copy_from_slice(&[3e38 * sign, 1e38 * sign]);
+    }
+    let result = chamfered(&cube, Width::Units(0.3));
+    assert!(result.mesh.uvs[0].values.iter().all(|value| value.is_finite()));
+    assert_eq!(check(&cube.as_mesh(), &result, Verify::Fast).count(Rule::Finite), 0);
+}
+
+/// Five triangles on a grid, three of them on one edge, whose chamfers are a few roundings wide.
+#[test]
+fn a_few_triangles_on_a_grid_stay_as_manifold_as_they_are() {
+    let points = [
+        [3.0, 1.0, -3.0],
+        [0.0, -1.0, -2.0],
+        [-1.0, -3.0, -1.0],
+        [3.0, 3.0, -2.0],
+        [3.0, 1.0, -2.0],
+        [-3.0, 2.0, -1.0],
+    ];
+    let mesh =
+        shaded::shaded(&points, &[0, 1, 2, 3, 4, 0, 1, 5, 0, 1, 0, 3, 0, 5, 1], shaded::FLAT);
+    for percent in [0.000_116_8, 0.5] {
+        let result = chamfered(&mesh, Width::PercentOfExtent(percent));
+        let findings = check(&mesh.as_mesh(), &result, Verify::Full);
+        assert!(findings.is_sound(), "{percent} %: {findings}");
+        let [before, after] = [findings.before, findings.after].map(|f| f.non_manifold_edges);
+        assert!(after <= before, "{percent} %: {before} -> {after}");
+    }
+}
+
+/// Edges that nearly meet in one line would go far along each other: what holds them back is told.
+#[test]
+fn what_is_far_wider_than_asked_is_not_full() {
+    let vertices = [
+        ([-2.311, -4.185, -13.959], [-0.529, -0.479, -0.701]),
+        ([-2.311, -4.185, -13.959], [-0.528, -0.48, -0.7]),
+        ([-2.475, 10.437, -26.48], [-0.941, 0.317, -0.114]),
+        ([-1.685, 11.288, -25.012], [-0.772, 0.634, 0.047]),
+        ([-1.685, 11.288, -25.012], [-0.548, -0.458, -0.7]),
+        ([-1.685, 11.288, -25.012], [-0.544, -0.473, -0.693]),
+        ([-21.886, 71.577, -51.294], [-0.522, -0.482, -0.704]),
+        ([8.577, 10.418, -32.024], [-0.472, -0.482, -0.738]),
+        ([8.577, 10.418, -32.024], [0.513, 0.268, -0.815]),
+    ];
+    let mesh = MeshBuffers {
+        positions: vertices.iter().map(|(position, _)| *position).collect(),
+        normals: vertices.iter().map(|(_, normal)| *normal).collect(),
+        indices: vec![2, 0, 4, 2, 3, 8, 6, 5, 1, 6, 7, 5],
+        submesh_index_counts: vec![12],
+        ..MeshBuffers::default()
+    };
+    let result = chamfered(&mesh, Width::PercentOfExtent(0.5));
+    let widest = |verdict: &EdgeVerdict| verdict.widths[0].max(verdict.widths[1]) / result.width;
+    let wide: Vec<&EdgeVerdict> = result.verdicts.iter().filter(|v| widest(v) > 1.1).collect();
+    assert!(!wide.is_empty(), "{:?}", result.verdicts);
+    assert!(wide.iter().all(|v| v.outcome == Outcome::Narrowed), "{wide:?}");
 }

@@ -14,6 +14,7 @@ use super::rules::{Element, Findings, Rule};
 use super::stored::normal_with_area;
 use super::streams::{ExtraStream, Slack, Stream};
 use super::surface::{HalfEdge, Surface};
+use super::widths::{Ruler, distance_from_line};
 
 /// The cosine of the angle (a quarter of a degree) by which a triangle may lean that lies flat on
 /// another one: a chamfer leans by half of what the faces beside it do.
@@ -61,7 +62,7 @@ impl<'a> Extras<'a> {
 /// Notes whatever is elsewhere, otherwise, or gone.
 pub(super) fn check_carried(
     [before, after]: [&Surface; 2],
-    origins: &Origins,
+    (origins, ruler): (&Origins, &Ruler),
     extras: &Extras,
     findings: &mut Findings,
 ) {
@@ -79,7 +80,7 @@ pub(super) fn check_carried(
         origins,
         streams: Stream::all([before.mesh, after.mesh], extras.streams),
         tolerance: source.tolerance,
-        reach: REACH * largest_pull([before, after], origins),
+        reach: REACH * largest_pull([before, after], origins, ruler),
         source,
     };
     let is_kept = carried.kept();
@@ -90,23 +91,16 @@ pub(super) fn check_carried(
 
 /// How far anything was pulled from its edge at most: a side of one, or what a cut has added there, as
 /// an edge may be open there alone.
-fn largest_pull(surfaces: [&Surface; 2], origins: &Origins) -> f64 {
-    pull_of_sides(surfaces, origins).max(pull_of_cuts(surfaces, origins))
+fn largest_pull(surfaces: [&Surface; 2], origins: &Origins, ruler: &Ruler) -> f64 {
+    pull_of_sides(surfaces[0], ruler).max(pull_of_cuts(surfaces, origins))
 }
 
 /// Of each side, whichever other one it is chamfered with: at an edge of many, who can tell?
-fn pull_of_sides([before, after]: [&Surface; 2], origins: &Origins) -> f64 {
-    let now = origins.corners_after(before.mesh.indices.len());
-    let pull = |side: &HalfEdge| {
-        let [from, to] = side.corners.map(|corner| before.position(corner));
-        let moved = side.corners.into_iter().filter_map(|corner| now[corner as usize]);
-        let pull = |corner| distance_from_line([from, to], after.position(corner));
-        moved.map(pull).fold(0.0, f64::max)
-    };
+fn pull_of_sides(before: &Surface, ruler: &Ruler) -> f64 {
     let may_open =
         |edge: &(&[HalfEdge], &[HalfEdge])| edge.0.len() + edge.1.len() > 2 || before.is_hard(edge);
     let sides = before.edges().filter(may_open).flat_map(|(a, b)| a.iter().chain(b));
-    sides.map(pull).fold(0.0, f64::max)
+    sides.map(|side| ruler.pull(side)).fold(0.0, f64::max)
 }
 
 fn pull_of_cuts([before, after]: [&Surface; 2], origins: &Origins) -> f64 {
@@ -130,10 +124,6 @@ fn pull_of_cuts([before, after]: [&Surface; 2], origins: &Origins) -> f64 {
 fn distance_from_sides(corners: [DVec3; 3], point: DVec3) -> f64 {
     let distance = |k: usize| distance_from_line([corners[k], corners[(k + 1) % 3]], point);
     distance(0).min(distance(1)).min(distance(2))
-}
-
-fn distance_from_line([from, to]: [DVec3; 2], point: DVec3) -> f64 {
-    (point - from).cross((to - from).normalize_or_zero()).length()
 }
 
 struct Carried<'a> {
@@ -212,10 +202,7 @@ impl Carried<'_> {
         let first = own.into_iter().map(|[first, ..]| first / 3);
         let exact = first.chain(around.iter().copied());
         let exact = exact.filter_map(|triangle| on_plane(triangle, self.tolerance));
-        let near = self.source.near(point, self.tolerance).filter(|foot| {
-            let was = normal_with_area(self.source.surface.triangle(foot.triangle));
-            was.zip(facing).is_none_or(|(was, is)| was.dot(is) > 0.0)
-        });
+        let near = self.source.near_along(facing, point, self.tolerance);
         // Where the texture breaks on the way, the values go on beyond the side that is the corner's.
         let beyond = around.iter().filter_map(|&triangle| on_plane(triangle, self.reach));
         self.judge(corner, exact.chain(near), beyond, |foot| {

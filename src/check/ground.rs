@@ -50,6 +50,19 @@ impl<'a> Ground<'a> {
         })
     }
 
+    /// The same of triangles that do not face against a way; one without area never does.
+    pub fn near_along(
+        &self,
+        way: Option<DVec3>,
+        point: DVec3,
+        reach: f64,
+    ) -> impl Iterator<Item = Foot> {
+        self.near(point, reach).filter(move |foot| {
+            let facing = normal_with_area(self.surface.triangle(foot.triangle));
+            facing.zip(way).is_none_or(|(facing, way)| facing.dot(way) > 0.0)
+        })
+    }
+
     /// The place on the plane of a triangle, be it past its sides, if that is at most so far away;
     /// none without area.
     pub fn on_plane(&self, triangle: u32, point: DVec3, reach: f64) -> Option<Foot> {
@@ -124,5 +137,7 @@ mod tests {
         assert_eq!(ground.near(DVec3::Z, 1e-6).count(), 2);
         assert_eq!(ground.near(DVec3::Z * 1.1, 1e-6).count(), 0);
         assert_eq!(ground.near(DVec3::Z * 1.1, 0.2).count(), 2);
+        let along = |way| ground.near_along(way, DVec3::Z, 1e-6).count();
+        assert_eq!([Some(DVec3::Z), Some(-DVec3::Z), None].map(along), [2, 0, 2]);
     }
 }

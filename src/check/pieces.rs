@@ -139,14 +139,9 @@ impl Patches<'_> {
         let [before, after] = self.surfaces;
         let ground = self.ground.get_or_init(|| Ground::new(before));
         let facing = normal_with_area(after.triangle(piece));
-        let faces_along = |triangle: u32| {
-            let was = normal_with_area(before.triangle(triangle));
-            was.zip(facing).is_none_or(|(was, is)| was.dot(is) > 0.0)
-        };
         let is_on = |point| {
-            let mut near = ground.near(point, ground.tolerance);
             ground.on_plane(source, point, ground.tolerance).is_some()
-                || near.any(|foot| faces_along(foot.triangle))
+                || ground.near_along(facing, point, ground.tolerance).next().is_some()
         };
         after.triangle(piece).into_iter().all(is_on)
     }

@@ -329,6 +329,9 @@ pub struct MeasuredEdge {
     pub distances: [[f32; 2]; 2],
     /// `#ends`: whether the two sides are at different positions there.
     pub is_open: [bool; 2],
+    /// Whether one of them has come apart from another side at an edge of more than two: which two
+    /// belong together is a matter of opinion there.
+    pub is_parted: bool,
 }
 
 impl MeasuredEdge {

@@ -24,7 +24,7 @@ impl Contacts {
     ) -> Few<[f64; 2]> {
         let ends = [side, side.next()].map(|corner| view.position_at(corner));
         let slack = self.tolerance * HOLD_SLACK;
-        let first = self.places_near(ends, 0.0).map(|rims| &rims[0]);
+        let first = self.beside_edge(ends, 0.0).map(|rims| &rims[0]);
         let balls = first.filter(|rim| rim.radius > self.tolerance);
         let mut all: Few<[f64; 2]> =
             balls.filter_map(|rim| within(ends, rim.ends, rim.radius, slack)).collect();

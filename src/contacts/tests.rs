@@ -158,7 +158,45 @@ fn lines_that_are_alike_are_one_place_in_the_order_of_the_first() {
     let faces = faces(&view, &topology, &Threads::default());
     let contacts = contacts(&view, &topology, &faces).unwrap();
     assert_eq!(contacts.starts[..], [0, 3, 4, 5]);
-    let near: Vec<_> = contacts.places_near(EDGE.map(wide), 0.0).map(<[Rim]>::len).collect();
+    let near: Vec<_> = contacts.beside_edge(EDGE.map(wide), 0.0).map(<[Rim]>::len).collect();
     assert_eq!(near, [3, 1, 1]);
-    assert_eq!(contacts.near(EDGE.map(wide), 0.0).count(), 5);
+}
+
+/// The cube with triangles without thickness beside it, all around one point far left of [`EDGE`]: the
+/// side of one runs along that edge, or so far above it.
+fn cube_and_petals(above: f32) -> MeshBuffers {
+    let mut mesh = cube();
+    let tip = [-4.0, 1.0 + above, 1.0];
+    let mut petal = |far: [[f32; 3]; 2]| {
+        let first = mesh.positions.len() as u32;
+        mesh.positions.extend([tip, far[0], far[1]]);
+        mesh.normals.extend([[0.0, 0.0, 1.0]; 3]);
+        mesh.indices.extend([first, first + 1, first + 2]);
+    };
+    petal([[3.0, tip[1], 1.0], [3.0, tip[1] + 1.0, 1.0]]);
+    for turn in 0..40 {
+        let at = |turns: f32| {
+            let (sin, cos) = (turns / 80.0 * std::f32::consts::TAU).sin_cos();
+            [tip[0] - sin, tip[1] - cos, 1.0]
+        };
+        petal([turn as f32 + 0.5, turn as f32].map(at));
+    }
+    mesh.submesh_index_counts = vec![mesh.indices.len() as u32];
+    mesh
+}
+
+//  \ | /  _______
+//  - * ====================     many triangles at one point: one of them rests on the edge
+//  / | \  |       |
+#[test]
+fn one_of_a_crowd_of_sheets_rests_on_an_edge() {
+    for above in [0.0, 1e-5] {
+        let mesh = cube_and_petals(above);
+        let result = chamfered(&mesh, &[]);
+        assert_eq!(verdict(&mesh, &result, EDGE).reason, Reason::Contact);
+        let others = result.verdicts.iter().filter(|v| v.outcome != Outcome::Skipped);
+        assert_eq!(others.count(), 11);
+    }
+    let mesh = cube_and_petals(0.01);
+    assert_eq!(verdict(&mesh, &chamfered(&mesh, &[]), EDGE).outcome, Outcome::Full);
 }

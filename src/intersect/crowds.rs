@@ -93,10 +93,10 @@ pub(super) fn side(triangle: &Triangle, k: usize) -> Name {
 
 /// How often each of some keys comes, by hash: a key may be taken for more crowded than it is, which
 /// costs time but no pair.
-struct Counts(Vec<u8>);
+pub(super) struct Counts(Vec<u8>);
 
 impl Counts {
-    fn new<K: Hash>(most: usize, keys: impl Iterator<Item = K>) -> Counts {
+    pub fn new<K: Hash>(most: usize, keys: impl Iterator<Item = K>) -> Counts {
         let mut counts = Counts(vec![0; most.next_power_of_two()]);
         for key in keys {
             let slot = counts.slot(&key);
@@ -110,7 +110,7 @@ impl Counts {
         (hash >> 32) as usize & (self.0.len() - 1)
     }
 
-    fn are_many<K: Hash>(&self, key: &K) -> bool {
+    pub fn are_many<K: Hash>(&self, key: &K) -> bool {
         self.0[self.slot(key)] >= CROWD
     }
 

@@ -261,15 +261,14 @@ impl Part<'_> {
         rounded: Option<&Lay>,
         watch: &dyn Watch,
     ) -> Result<Vec<Element>, Error> {
-        watch.worked(self.elements.len())?;
-        let laid = self.lay_out(placement, open, rounded);
+        let laid = self.lay_out(placement, open, rounded, watch)?;
         let triangles: Vec<Triangle> = laid.iter().map(|each| each.corners).collect();
         let open = |number: u32| laid[number as usize].is_open;
         let pair = |a: u32, b: u32| {
             let [a, b] = [a, b].map(|number| &laid[number as usize]);
             (a.is_open | b.is_open) & (a.is_changed | b.is_changed)
         };
-        let (kin, source) = (self.kin(placement, &laid), || self.source_triangles());
+        let (kin, source) = (self.kin(placement, &laid, watch)?, || self.source_triangles());
         let pairs = cutting_pairs(&triangles, &kin, source, &Asked { open, pair }, watch)?;
         if pairs.is_empty() || self.was_cut(watch)? {
             return Ok(Vec::new());
@@ -302,16 +301,21 @@ impl Part<'_> {
     }
 
     /// `#triangles`: where each lies as seen from where its crowd meets; none without any crowd.
-    fn kin(&self, placement: &Placement, laid: &[Laid]) -> Vec<Kin> {
+    fn kin(
+        &self,
+        placement: &Placement,
+        laid: &[Laid],
+        watch: &dyn Watch,
+    ) -> Result<Vec<Kin>, Error> {
         if self.crowds.is_empty() {
-            return Vec::new();
+            return Ok(Vec::new());
         }
-        let kin = |each: &Laid| match self.crowds[each.element as usize] {
-            Some(crowd) => {
+        let kin = |each: &Laid| {
+            watch.worked(1)?;
+            Ok(self.crowds[each.element as usize].map_or(Kin::NONE, |crowd| {
                 let around = crowd.around(self.given, placement);
                 Kin::new(crowd.name(), around.seen(&each.corners))
-            }
-            None => Kin::NONE,
+            }))
         };
         laid.iter().map(kin).collect()
     }
@@ -321,10 +325,17 @@ impl Part<'_> {
     }
 
     /// All triangles of the part where the sectors stand now.
-    fn lay_out(&self, placement: &Placement, open: &[Element], rounded: Option<&Lay>) -> Vec<Laid> {
+    fn lay_out(
+        &self,
+        placement: &Placement,
+        open: &[Element],
+        rounded: Option<&Lay>,
+        watch: &dyn Watch,
+    ) -> Result<Vec<Laid>, Error> {
         let mut laid = Vec::with_capacity(2 * self.elements.len());
         let mut open = open.iter().peekable();
         for (place, &element) in (0..).zip(&self.elements) {
+            watch.worked(1)?;
             while open.next_if(|next| next.key() < element.key()).is_some() {}
             let is_open = open.peek() == Some(&&element);
             let is_changed = self.is_changed(placement, element);
@@ -337,7 +348,7 @@ impl Part<'_> {
                 None => self.each_triangle(placement, element, &mut add),
             }
         }
-        laid
+        Ok(laid)
     }
 
     fn is_changed(&self, placement: &Placement, element: Element) -> bool {
@@ -476,7 +487,7 @@ mod tests {
 
     /// The same by comparing each with each.
     fn each_with_each(part: &Part, placement: &Placement) -> Vec<Element> {
-        let laid = part.lay_out(placement, &part.elements, None);
+        let laid = part.lay_out(placement, &part.elements, None, &Unwatched).unwrap();
         let cuts = |one: &Laid, other: &Laid| {
             (one.is_changed || other.is_changed) && cut_each_other(&one.corners, &other.corners)
         };

@@ -53,7 +53,8 @@ pub fn stitches(view: &View, shape: &Shape, unpaired: &[Unpaired]) -> Stitches {
     let (mut at, mut near, mut pairs) = (BTreeMap::new(), Vec::new(), 0);
     for &(side, _) in unpaired.iter().filter(|(_, reason)| *reason == Reason::TJunction) {
         let line = Line::new(view, side);
-        let others = contacts.borders_near(line.ends());
+        let ends = [side, side.next()].map(|end| view.position_at(end));
+        let others = contacts.borders_along(ends).flatten();
         for other in others.filter(|&other| topology.twin[other].is_none()) {
             let other = Line::new(view, other);
             if may_pair(shape, [side, other.border]) && meets(view, topology, &line, &other) {

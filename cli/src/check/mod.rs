@@ -1,5 +1,6 @@
 //! `chamfer check`: is a chamfered file sound? The whole-mesh checker of the core, file by file.
 
+mod expected;
 mod extras;
 mod light;
 mod materials;
@@ -13,22 +14,21 @@ use std::process::ExitCode;
 
 use anyhow::{Result, anyhow, ensure};
 use chamfer::check::{Extras, Findings, MeasuredEdge, Rule, compare_with};
-use chamfer::{Chamfered, EdgeVerdict, MeshBuffers, Outcome, Reason, Verify};
+use chamfer::{Chamfered, EdgeVerdict, MeshBuffers, Outcome, Reason};
 use chamfer_formats as formats;
 use chamfer_formats::paths::identity;
 use chamfer_formats::{Document, Instance, NormalsRead, Place, ReadOptions};
 
 use crate::args::{CheckArgs, CheckDepth};
 use crate::batch::{USAGE, name_of};
-use crate::chamfering::chamfer_document;
 use crate::choices::Choices;
 use crate::console::{say, warn, with_causes};
-use crate::fit::Wish;
 use crate::preset;
 use crate::scene::largest_length;
 use crate::stretch::stretches;
 use crate::write;
 
+use expected::expected;
 use extras::Streams;
 use pairs::Pairs;
 use report::{CheckReport, MeshCheck, SeeThrough, Verdict};
@@ -53,7 +53,7 @@ fn check(args: &CheckArgs) -> Result<Verdict> {
     let after = read(&args.after, &args.read_options())?;
     part(&mut *before, &*after);
     let pairs = Pairs::new(before.meshes(), after.meshes());
-    let expected = expected(&*before, args, choices.as_ref())?;
+    let expected = expected(&*before, &*after, args, choices.as_ref())?;
     let is_own = args.per_mesh || choices.as_ref().is_some_and(|choices| choices.wish(1).per_mesh);
     let stretches = if is_own { Vec::new() } else { stretches(&*before) };
     let checks = pairs.both.iter().map(|&[source, result]| {
@@ -176,21 +176,6 @@ impl Side<'_> {
     }
 }
 
-/// `#meshes`: what chamfering the file would give, where the width asked for is known.
-fn expected(
-    before: &dyn Document,
-    args: &CheckArgs,
-    choices: Option<&Choices>,
-) -> Result<Vec<Chamfered>> {
-    let width = args.width().or(choices.map(Choices::length));
-    let Some(width) = width else { return Ok(Vec::new()) };
-    let wish = choices.map_or_else(Wish::default, |choices| choices.wish(1));
-    let verify = if args.no_see_through { args.verify.into() } else { Verify::Seen };
-    let per_mesh = args.per_mesh || wish.per_mesh;
-    let wish = Wish { core: wish.core.with_verify(verify), width, per_mesh, ..wish };
-    Ok(chamfer_document(before, &wish, &|_| ())?.meshes)
-}
-
 /// Gives objects of one mesh copies of it where the result has several for them, as it has where they
 /// stand with different scales.
 fn part(before: &mut dyn Document, after: &dyn Document) {
@@ -290,7 +275,8 @@ fn left_without_need(findings: &Findings, expected: &Chamfered) -> Vec<[u32; 2]>
     findings
         .edges
         .iter()
-        .filter(|edge| !edge.is_chamfered() && chamfered.binary_search(&edge.vertices).is_ok())
+        .filter(|edge| !edge.is_chamfered() && !edge.is_parted)
+        .filter(|edge| chamfered.binary_search(&edge.vertices).is_ok())
         .map(|edge| edge.vertices)
         .collect()
 }
