@@ -6,7 +6,6 @@
 //! in the wedge of an edge keeps that wedge from being cut off.
 
 mod crowds;
-mod stretches;
 mod wedge;
 
 use std::sync::Arc;

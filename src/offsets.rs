@@ -8,7 +8,6 @@
 //! Where that would bend a surface, the vertex slides along the bend instead: along the border at
 //! the end of a sector, or along the sharpest crease inside of it.
 
-mod follow;
 mod fronts;
 
 use glam::DVec3;
@@ -28,8 +27,7 @@ use crate::tolerance::{CREASE_COSINE, FLAT_COSINE, LEAST_SLIDE_SINE, LEVEL_COSIN
 use crate::topology::Topology;
 use crate::view::View;
 
-use follow::follow;
-
+use fronts::follow;
 pub use fronts::{narrowed, parts};
 
 /// No vertex moves farther than this many widths: between edges that meet at less than 39 degrees

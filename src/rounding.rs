@@ -9,7 +9,6 @@ mod arc;
 mod ends;
 mod fill;
 mod lay;
-mod near;
 
 use glam::DVec3;
 
@@ -23,13 +22,11 @@ use crate::report::Blend;
 use crate::threads::Threads;
 use crate::view::View;
 
-pub use ends::Rows;
-use ends::{End, ends_of};
+use ends::{End, ends_of, near};
+pub use ends::{Rows, joined};
 use fill::{lay_fill, loose_ends};
 pub use lay::Parents;
 use lay::{Lay, lay_strip};
-pub use near::joined;
-use near::near;
 
 /// All rounded patches, by the number of that with one segment.
 #[derive(Default)]
