@@ -57,8 +57,11 @@ impl<'a> StripMap<'a> {
             Way::Flat | Way::Roomiest => self.flat(self.room(channel, (way, side))),
             _ => self.feet_along(way, side),
         };
-        for place in (0..4).filter(|&place| !self.is_used(place)) {
-            feet[place] = None;
+        // Two triangles have all four corners.
+        if self.triangles.len() < 2 {
+            for place in (0..4).filter(|&place| !self.is_used(place)) {
+                feet[place] = None;
+            }
         }
         feet
     }
