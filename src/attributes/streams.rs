@@ -8,6 +8,7 @@ use glam::{DVec2, DVec3};
 use smallvec::SmallVec;
 
 use super::Index;
+use crate::breaks::uv_at;
 use crate::ids::{Cluster, Id, Vertex};
 use crate::math::unit;
 use crate::mesh::{MeshBuffers, Uv, UvBuffer};
@@ -105,14 +106,21 @@ impl Row {
         std::array::from_fn(|k| self.0[start + k])
     }
 
+    fn of_mut(&mut self, column: &Column) -> &mut [f32] {
+        &mut self.0[column.start..column.start + column.width]
+    }
+
     fn set(&mut self, column: &Column, values: &[f32]) {
-        self.0[column.start..column.start + column.width].copy_from_slice(values);
+        self.of_mut(column).copy_from_slice(values);
     }
 }
 
 /// Where positions and normals stand in a row: every mesh has them.
 const POSITION: usize = 0;
 const NORMAL: usize = 3;
+
+/// Past the columns of these two.
+const FIRST_RARER: usize = 2;
 
 /// Vertex streams that grow, with the provenance of each vertex.
 pub struct Streams {
@@ -278,7 +286,10 @@ impl Streams {
 
     fn has(&self, vertex: u32, row: &Row) -> bool {
         let own = |column: &Column| &column.values(&self.vertices)[column.range(vertex)];
-        self.columns.iter().all(|column| own(column) == row.of(column))
+        // Most that are not the same stand elsewhere, or face elsewhere.
+        self.vertices.positions[vertex as usize] == row.at(POSITION)
+            && self.vertices.normals[vertex as usize] == row.at(NORMAL)
+            && self.columns[FIRST_RARER..].iter().all(|column| own(column) == row.of(column))
     }
 
     fn row(&self, vertex: u32) -> Row {
@@ -309,8 +320,10 @@ impl Streams {
                     row.set(column, &tangent(view, place, wide(row.at(NORMAL))));
                 }
                 Stream::Uv(channel) if channels >> channel & 1 == 1 => {
-                    for k in 0..column.width {
-                        row.0[column.start + k] = blended_uv(view, place, channel, k);
+                    let uv = &view.mesh.uvs[channel];
+                    let [a, b, c] = place.vertices.map(|vertex| uv_at(uv, vertex as usize));
+                    for (k, value) in row.of_mut(column).iter_mut().enumerate() {
+                        *value = blend_value(place, [a[k], b[k], c[k]]);
                     }
                 }
                 _ => {}
@@ -354,14 +367,8 @@ fn copied<T: Copy>(values: &[T], room: usize) -> Vec<T> {
     copy
 }
 
-/// One component of a UV channel at a place.
-fn blended_uv(view: &View, chart: &Blend, channel: usize, component: usize) -> f32 {
-    let uv = &view.mesh.uvs[channel];
-    let at = |vertex: u32| uv.values[vertex as usize * uv.components as usize + component];
-    blend_value(chart, chart.vertices.map(at))
-}
-
 /// Equal values stay equal to the bit, whatever the weights.
+#[inline]
 fn blend_value(blend: &Blend, values: [f32; 3]) -> f32 {
     if values[0] == values[1] && values[0] == values[2] {
         return values[0];
