@@ -109,12 +109,10 @@ impl Result<'_> {
         let (space, joints) = (self.space, parts.joints);
         self.vertices.clear();
         self.vertices.extend(joints.iter().map(|&joint| self.attributes.vertex_at[joint]));
-        for point in (chart.begin..joints.len()).chain(0..chart.begin) {
-            if let Some(taken) = chart.taken_at(point) {
-                let (cluster, own) = (self.cluster_at(joints[point]), self.vertices[point]);
-                let streams = &mut self.attributes.streams;
-                self.vertices[point] = streams.add_copy(space.source, cluster, own, taken);
-            }
+        for (point, taken) in chart.taking(joints.len()) {
+            let (cluster, own) = (self.cluster_at(joints[point]), self.vertices[point]);
+            let streams = &mut self.attributes.streams;
+            self.vertices[point] = streams.add_copy(space.source, cluster, own, taken);
         }
         if let Some(rounded) = rounded {
             self.find_rounded(rounded, (parts, chart));
