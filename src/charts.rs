@@ -109,7 +109,12 @@ pub fn charts(
         }
         charts.laid.push(Laid { face, begin: begin as u32, end: charts.taken.len() as u32 });
     };
-    let mut charts = Charts::default();
+    let seamed = chamfers.edges.hard.iter().filter(|edge| edge.seams != 0).count();
+    let mut charts = Charts {
+        laid: Vec::with_capacity(patches.len()),
+        // At a seam both far vertices of a strip, and of fills about as many.
+        taken: Vec::with_capacity(4 * seamed),
+    };
     threads.blocks_then(patches.len(), &mut charts, lay, Charts::append);
     charts
 }

@@ -114,10 +114,6 @@ impl Row {
     fn set(&mut self, column: &Column, values: &[f32]) {
         self.of_mut(column).copy_from_slice(values);
     }
-
-    fn stands_as(&self, position: [f32; 3], normal: [f32; 3]) -> bool {
-        self.at(POSITION) == position && self.at(NORMAL) == normal
-    }
 }
 
 /// Where positions and normals stand in a row: every mesh has them.
@@ -174,7 +170,7 @@ impl Streams {
 
     /// Whether two rows are equal in every stream.
     pub fn are_equal(&self, one: &Row, other: &Row) -> bool {
-        one.stands_as(other.at(POSITION), other.at(NORMAL))
+        one.0[..FIRST_RARER] == other.0[..FIRST_RARER]
             && self.columns.iter().all(|column| one.of(column) == other.of(column))
     }
 
@@ -247,7 +243,7 @@ impl Streams {
             row.set(column, &mean_tangent(tangents, weights, wide(row.at(NORMAL))));
         }
         let list = self.index.list_at(cluster, row.at(POSITION));
-        let known = is_shared.then(|| self.index.find(list, |listed| self.has(listed, &row)));
+        let known = is_shared.then(|| self.find(list, &row));
         known.flatten().unwrap_or_else(|| {
             let source = self.source_between(near, parents, weights);
             self.push(&row);
@@ -283,8 +279,7 @@ impl Streams {
         add_source: impl FnOnce(&mut VertexSources),
     ) -> u32 {
         let list = self.index.list_at(cluster, row.at(POSITION));
-        let known = self.index.find(list, |listed| self.has(listed, row));
-        known.unwrap_or_else(|| {
+        self.find(list, row).unwrap_or_else(|| {
             self.push(row);
             add_source(&mut self.sources);
             self.index.add(list)
@@ -297,11 +292,18 @@ impl Streams {
         self.columns.iter().for_each(|column| column.push(&mut self.vertices, row));
     }
 
+    /// The vertex of a list that has a row.
+    fn find(&self, list: usize, row: &Row) -> Option<u32> {
+        let position = row.at(POSITION);
+        // Most that came from one cluster stand elsewhere.
+        let stands_there = |vertex: u32| self.vertices.positions[vertex as usize] == position;
+        self.index.find(list, |listed| stands_there(listed) && self.has(listed, row))
+    }
+
+    /// Whether a vertex that stands at a row's position has the row.
     fn has(&self, vertex: u32, row: &Row) -> bool {
         let own = |column: &Column| &column.values(&self.vertices)[column.range(vertex)];
-        let MeshBuffers { positions, normals, .. } = &self.vertices;
-        // Most that are not the same stand elsewhere, or face elsewhere.
-        row.stands_as(positions[vertex as usize], normals[vertex as usize])
+        self.vertices.normals[vertex as usize] == row.at(NORMAL)
             && self.columns.iter().all(|column| own(column) == row.of(column))
     }
 
