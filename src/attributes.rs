@@ -57,9 +57,11 @@ pub fn attributes(
         streams: Streams::of_source(space.source, chamfers.sectors.fans.len(), copies),
         vertex_at: IdVec::from_vec(vertex_at),
     };
-    let (mut taken, mut parted) = (staying(surface, chamfers.sectors, placement), Vec::new());
-    let moved = || chamfers.sectors.fans.ids().filter(|&sector| placement.has_moved(sector));
-    for sector in moved() {
+    let sectors = chamfers.sectors.fans.ids();
+    let has_moved: Vec<bool> = sectors.map(|sector| placement.has_moved(sector)).collect();
+    let has_moved = IdVec::from_vec(has_moved);
+    let (mut taken, mut parted) = (staying(surface, chamfers.sectors, &has_moved), Vec::new());
+    for sector in has_moved.ids().filter(|&sector| has_moved[sector]) {
         move_sector(
             (space, surface),
             chamfers.sectors,
@@ -71,19 +73,23 @@ pub fn attributes(
     }
     attributes.streams.look_up(weld);
     add_parted((space, surface), placement, &parted, &mut attributes);
-    if moved().next().is_some() {
+    if has_moved.iter().any(|&has_moved| has_moved) {
         close_collapsed(surface.view, surface.topology, &mut attributes.vertex_at);
     }
     attributes
 }
 
 /// `#vertices`: whether some corner stays where it was, and so needs the source vertex.
-fn staying(surface: Surface, sectors: &Sectors, placement: &Placement) -> IdVec<Vertex, bool> {
+fn staying(
+    surface: Surface,
+    sectors: &Sectors,
+    has_moved: &IdVec<Sector, bool>,
+) -> IdVec<Vertex, bool> {
     let mut taken = IdVec::filled(false, surface.view.mesh.positions.len());
     for corner in sectors.sector_of.ids() {
         let sector = sectors.sector_of[corner];
         // Corners of collapsed triangles follow whatever else uses their vertex.
-        let stays = sector.is_none() || !placement.has_moved(sector);
+        let stays = sector.is_none() || !has_moved[sector];
         if stays && !surface.topology.is_collapsed(corner.triangle()) {
             taken[surface.view.vertex_at(corner)] = true;
         }

@@ -16,9 +16,9 @@ pub fn is_hard(view: &View, side: Corner, other: Corner) -> bool {
 
 /// Whether two corners at one position differ in a UV channel.
 pub fn seam_between(view: &View, channel: usize, one: Corner, other: Corner) -> bool {
-    let uv = &view.mesh.uvs[channel];
-    let [one, other] = [one, other].map(|corner| uv_at(uv, view.vertex_at(corner).index()));
-    one.iter().zip(other).any(|(&a, &b)| (a - b).abs() > EQUAL_UV * a.abs().max(1.0))
+    let (uv, one, other) = (&view.mesh.uvs[channel], view.vertex_at(one), view.vertex_at(other));
+    let mut values = uv_at(uv, one.index()).iter().zip(uv_at(uv, other.index()));
+    one != other && values.any(|(&a, &b)| (a - b).abs() > EQUAL_UV * a.abs().max(1.0))
 }
 
 /// Whether two vertices at one position belong to one chart: equal in all that a chart carries.

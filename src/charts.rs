@@ -23,7 +23,7 @@ use glam::DVec2;
 
 use crate::attributes::{Attributes, Taken};
 use crate::chamfers::Chamfers;
-use crate::ids::{Id, Patch, Triangle};
+use crate::ids::{Few, Id, Patch, Triangle};
 use crate::mesh::UV_CHANNELS;
 use crate::patches::Patches;
 use crate::placement::Placement;
@@ -73,6 +73,13 @@ impl Chart<'_> {
     pub fn taken_at(&self, point: usize) -> Option<&Taken> {
         self.taken.iter().find(|(at, _)| *at as usize == point).map(|(_, taken)| taken)
     }
+
+    /// The joints, of so many, that take something from another chart, in turn.
+    pub fn taking(&self, joints: usize) -> impl Iterator<Item = (usize, &Taken)> {
+        let first = self.taken.partition_point(|(at, _)| (*at as usize) < self.begin);
+        let in_turn = self.taken[first..].iter().chain(&self.taken[..first]);
+        in_turn.map(|(at, taken)| (*at as usize, taken)).filter(move |(at, _)| *at < joints)
+    }
 }
 
 /// Lays each patch into the chart of its owner, where its own is another, or folds or ends under
@@ -85,7 +92,8 @@ pub fn charts(
     attributes: &Attributes,
     threads: &Threads,
 ) -> Charts {
-    let given = Given { surface, chamfers, placement, attributes };
+    let channels: Few<usize> = channels_of(surface.view).collect();
+    let given = Given { surface, chamfers, placement, attributes, channels: &channels };
     let owners = owners(&given, patches, threads);
     let lay = |_: &Charts, patch: Patch, charts: &mut Charts| {
         let parts = patches.parts(patch);
@@ -101,7 +109,12 @@ pub fn charts(
         }
         charts.laid.push(Laid { face, begin: begin as u32, end: charts.taken.len() as u32 });
     };
-    let mut charts = Charts::default();
+    let seamed = chamfers.edges.hard.iter().filter(|edge| edge.seams != 0).count();
+    let mut charts = Charts {
+        laid: Vec::with_capacity(patches.len()),
+        // At a seam both far vertices of a strip, and of fills about as many.
+        taken: Vec::with_capacity(4 * seamed),
+    };
     threads.blocks_then(patches.len(), &mut charts, lay, Charts::append);
     charts
 }
@@ -112,6 +125,8 @@ struct Given<'a> {
     chamfers: Chamfers<'a>,
     placement: &'a Placement<'a>,
     attributes: &'a Attributes,
+    /// The UV channels that the mesh has.
+    channels: &'a [usize],
 }
 
 impl Charts {

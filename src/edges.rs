@@ -144,8 +144,8 @@ fn spanned(
     let length =
         |side: Corner| view.position_at(side).distance_squared(view.position_at(side.next()));
     let is_long = |side: &Corner| {
-        let shorter = [side.next(), side.prev()].map(length);
-        faces.is_line(side.triangle()) && shorter.iter().all(|other| *other < length(*side))
+        let mut others = [side.next(), side.prev()].into_iter();
+        faces.is_line(side.triangle()) && others.all(|other| length(other) < length(*side))
     };
     let ends = topology.twin.ids().filter(|&side| chamfered_at[side].is_some());
     let mut spanned: Vec<Corner> = ends.filter(is_long).map(Corner::prev).collect();

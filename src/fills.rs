@@ -75,6 +75,11 @@ pub fn can_fill(points: [DVec3; 3], normals: [DVec3; 3], resolution: f64) -> boo
     !are_distinct(&points) || faces_out(points, normals, resolution)
 }
 
+/// Whether such a hole can be filled and there is one.
+pub fn has_fill(points: [DVec3; 3], normals: [DVec3; 3], resolution: f64) -> bool {
+    are_distinct(&points) && faces_out(points, normals, resolution)
+}
+
 /// The mean of some points of a ring: where its middle vertex stands.
 pub fn middle(points: &[DVec3], places: &[usize]) -> DVec3 {
     places.iter().map(|&place| points[place]).sum::<DVec3>() / places.len() as f64

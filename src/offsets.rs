@@ -380,6 +380,10 @@ impl Crease<'_> {
 
 /// The hard edge that is not chamfered, if there is one, or else the sharpest bend.
 fn crease<'a>(view: &View, faces: &Faces, spread: &'a [Blade]) -> Crease<'a> {
+    // A single triangle does not bend.
+    if spread.len() == 1 {
+        return Crease::None;
+    }
     let mut sharpest = (CREASE_COSINE, Crease::None);
     let mut kept = Crease::None;
     let mut before = DVec3::ZERO;

@@ -55,8 +55,13 @@ pub fn output(
     let submeshes = Submeshes::of_source(space.source, target, &attributes, room);
     let mut result = Result { space, weld, attributes, submeshes, rounding, vertices: Vec::new() };
     for patch in (0..patches.len()).map(Patch::new) {
-        if !patches.parts(patch).triangles.is_empty() {
-            result.add(patches, charts, patch);
+        let parts = patches.parts(patch);
+        if !parts.triangles.is_empty() {
+            let (kind, index) = match patches.edge_or_ring(patch) {
+                Ok(edge) => (TriangleKind::Edge, edge.0),
+                Err(_) => (TriangleKind::Corner, space.source.vertex_at(parts.joints[0]).0),
+            };
+            result.add((patch, parts), charts.of(patch), TriangleSource { kind, index });
         }
     }
     flaps.iter().for_each(|flap| result.add_flap(flap));
@@ -75,18 +80,12 @@ struct Result<'a> {
 }
 
 impl Result<'_> {
-    fn add(&mut self, patches: &Patches, charts: &Charts, patch: Patch) {
-        self.find_vertices(patches, charts, patch);
-        let parts = patches.parts(patch);
-        let (kind, index) = match patches.edge_or_ring(patch) {
-            Ok(edge) => (TriangleKind::Edge, edge.0),
-            Err(_) => (TriangleKind::Corner, self.space.source.vertex_at(parts.joints[0]).0),
-        };
-        let face = charts.of(patch).face;
+    fn add(&mut self, (patch, parts): (Patch, Parts), chart: Chart, source: TriangleSource) {
         let rounded = self.rounding.and_then(|rounding| rounding.of(patch));
+        self.find_vertices(rounded, parts, chart);
         for triangle in rounded.map_or(parts.triangles, |rounded| rounded.triangles) {
             let vertices = triangle.map(|place| self.vertices[place as usize]);
-            self.submeshes.add(face, vertices, TriangleSource { kind, index });
+            self.submeshes.add(chart.face, vertices, source);
         }
     }
 
@@ -106,19 +105,16 @@ impl Result<'_> {
 
     /// Each joint has the vertex of its corner, or a copy of it that takes something from another
     /// chart; middles have vertices of their own.
-    fn find_vertices(&mut self, patches: &Patches, charts: &Charts, patch: Patch) {
-        let (parts, chart) = (patches.parts(patch), charts.of(patch));
+    fn find_vertices(&mut self, rounded: Option<Rounded>, parts: Parts, chart: Chart) {
         let (space, joints) = (self.space, parts.joints);
         self.vertices.clear();
         self.vertices.extend(joints.iter().map(|&joint| self.attributes.vertex_at[joint]));
-        for point in (chart.begin..joints.len()).chain(0..chart.begin) {
-            if let Some(taken) = chart.taken_at(point) {
-                let (cluster, own) = (self.cluster_at(joints[point]), self.vertices[point]);
-                let streams = &mut self.attributes.streams;
-                self.vertices[point] = streams.add_copy(space.source, cluster, own, taken);
-            }
+        for (point, taken) in chart.taking(joints.len()) {
+            let (cluster, own) = (self.cluster_at(joints[point]), self.vertices[point]);
+            let streams = &mut self.attributes.streams;
+            self.vertices[point] = streams.add_copy(space.source, cluster, own, taken);
         }
-        if let Some(rounded) = self.rounding.and_then(|rounding| rounding.of(patch)) {
+        if let Some(rounded) = rounded {
             self.find_rounded(rounded, (parts, chart));
             return;
         }

@@ -6,11 +6,12 @@
 use glam::DVec3;
 
 use crate::chamfers::Chamfers;
-use crate::fills::{middle, ring_fill};
+use crate::fills::{has_fill, middle, ring_fill};
 use crate::ids::{Corner, Edge, Few, Id, Patch, Ring, Sector, Vertex};
 use crate::math::unit;
 use crate::placement::Placement;
 use crate::report::Blend;
+use crate::sectors::Sectors;
 use crate::strips::{self, cut, quad};
 use crate::threads::Threads;
 use crate::tolerance::EQUALLY_NEAR;
@@ -54,7 +55,7 @@ pub fn patches(
     threads: &Threads,
 ) -> Patches {
     let Chamfers { edges, sectors } = chamfers;
-    let mut patches = Patches { strips: edges.hard.len(), ..Patches::default() };
+    let mut patches = Patches::with_room(edges.hard.len(), sectors);
     let add_strip = |_: &Patches, edge: Edge, strips: &mut Patches| {
         let edge = &edges.hard[edge];
         if edge.skipped.is_none() {
@@ -76,6 +77,18 @@ pub fn patches(
 }
 
 impl Patches {
+    /// None yet, and room for so many strips and all fills.
+    fn with_room(strips: usize, sectors: &Sectors) -> Patches {
+        let (rings, members) = (sectors.rings.len(), sectors.members.len());
+        Patches {
+            ends: Vec::with_capacity(strips + rings),
+            joints: Vec::with_capacity(4 * strips + members),
+            middles: Vec::new(),
+            triangles: Vec::with_capacity(2 * strips + members),
+            strips,
+        }
+    }
+
     pub fn len(&self) -> usize {
         self.ends.len()
     }
@@ -125,6 +138,15 @@ impl Patches {
         sectors: &[Sector],
         first: impl Fn(Sector) -> Corner,
     ) {
+        if let [a, b, c] = *sectors {
+            let points = [a, b, c].map(|sector| placement.point[sector]);
+            let normals = [a, b, c].map(|sector| placement.normals[sector][0]);
+            if has_fill(points, normals, view.resolution) {
+                self.joints.extend([a, b, c].map(first));
+                self.triangles.push([0, 1, 2]);
+            }
+            return;
+        }
         // Limits end with fills that are valid, or with rings that did not move.
         let Some(fill) = ring_fill(placement, sectors, view.resolution) else { return };
         if fill.triangles.is_empty() {

@@ -25,6 +25,10 @@ pub fn surface_foot(surface: Surface, sectors: &Sectors, offset: &Offset, corner
             >= surface.view.hard_cosine * (one.length_squared() * other.length_squared()).sqrt()
     };
     let usual = foot(surface, sectors, offset, corner, agree).unwrap_or(offset.foot);
+    // Most fans are one part, and most ways lie on a face: there is nothing to walk around for.
+    if !sectors.fans[sectors.sector_of[corner]].holds_hard && !leaves(surface, offset, corner) {
+        return usual;
+    }
     let normal = surface.view.normal_at(corner);
     let mut corners = usual.corner.triangle().corners().into_iter();
     if corners.all(|corner| surface.view.normal_at(corner) == normal) {
@@ -94,13 +98,7 @@ fn nearest(
 /// so that they keep it. Where the offset leads a hair out of that face's plane, the place below counts:
 /// a face that is shaded flat stays so.
 fn own_foot(surface: Surface, sectors: &Sectors, offset: &Offset, corner: Corner) -> Option<Foot> {
-    let sector = sectors.sector_of[corner];
-    let leaves = || [corner, offset.within].iter().any(|at| !has_plane(surface, at.triangle()));
-    // Most fans are one part, and most ways lie on a face: there is nothing to walk around for.
-    if !sectors.fans[sector].holds_hard && !leaves() {
-        return None;
-    }
-    let fan: Few<Corner> = sectors.corners(surface.topology, sector).collect();
+    let fan: Few<Corner> = sectors.corners(surface.topology, sectors.sector_of[corner]).collect();
     let parts = || fan.chunk_by(|&one, &other| !is_hard(surface.view, other, one.prev()));
     let vertex = surface.view.vertex_at(corner);
     let has_vertex = |part: &&[Corner]| part.iter().any(|at| surface.view.vertex_at(*at) == vertex);
@@ -111,13 +109,18 @@ fn own_foot(surface: Surface, sectors: &Sectors, offset: &Offset, corner: Corner
     let part = parts().find(is_first).or_else(|| parts().find(|part| part.contains(&corner)))?;
     let own = if !part.contains(&offset.within) {
         nearest(surface, &fan, offset, |own| part.contains(&own))
-    } else if leaves() && is_even(surface, part, corner) {
+    } else if leaves(surface, offset, corner) && is_even(surface, part, corner) {
         let normal = surface.view.normal_at(corner);
         nearest(surface, &fan, offset, |own| surface.view.normal_at(own) == normal)
     } else {
         None
     }?;
     locate(surface.view, own, surface.view.position_at(own), offset.vector)
+}
+
+/// Whether a way begins or lies on a triangle that is but a line.
+fn leaves(surface: Surface, offset: &Offset, corner: Corner) -> bool {
+    [corner, offset.within].iter().any(|at| !has_plane(surface, at.triangle()))
 }
 
 /// Whether a triangle is more than a line.

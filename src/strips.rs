@@ -60,10 +60,11 @@ impl Cut {
 
 /// The strip of an edge where the sectors stand now.
 pub fn quad(placement: &Placement, edge: &HardEdge) -> Quad {
-    let corners = corners(edge);
+    let [b1, a1, a2, b2] = corners(edge);
+    let (point, normal) = (|at| placement.position_at(at), |at| placement.normal_at(at));
     Quad {
-        points: corners.map(|corner| placement.position_at(corner)),
-        normals: corners.map(|corner| placement.normal_at(corner)),
+        points: [point(b1), point(a1), point(a2), point(b2)],
+        normals: [normal(b1), normal(a1), normal(a2), normal(b2)],
     }
 }
 

@@ -20,13 +20,11 @@ pub fn verdicts(
     (patches, rounding): (&Patches, Option<&Rounding>),
 ) -> (Vec<EdgeVerdict>, Totals) {
     let Chamfers { edges, sectors } = chamfers;
-    let is_open = |edge| !patches.strip(edge).triangles.is_empty();
     let of_edge = |edge| {
-        let verdict = verdict(view, sectors, limits, (&edges.hard[edge], is_open(edge)));
-        EdgeVerdict {
-            segments: if is_open(edge) { segments(rounding, edge) } else { 0 },
-            ..verdict
-        }
+        let is_open = !patches.strip(edge).triangles.is_empty();
+        let segments = if is_open { segments(rounding, edge) } else { 0 };
+        let verdict = verdict(view, sectors, limits, (&edges.hard[edge], is_open));
+        EdgeVerdict { segments, ..verdict }
     };
     let verdicts: Vec<EdgeVerdict> = edges.hard.ids().map(of_edge).collect();
     let totals = totals(view, chamfers, limits, &verdicts);

@@ -8,6 +8,7 @@ use glam::{DVec2, DVec3};
 use smallvec::SmallVec;
 
 use super::Index;
+use crate::breaks::uv_at;
 use crate::ids::{Cluster, Id, Vertex};
 use crate::math::unit;
 use crate::mesh::{MeshBuffers, Uv, UvBuffer};
@@ -29,11 +30,9 @@ pub struct Taken {
     pub place: Blend,
 }
 
-/// What a stream holds, and so how it is blended.
+/// What a stream holds that not every mesh has, and so how it is blended.
 #[derive(Clone, Copy, PartialEq)]
 enum Stream {
-    Position,
-    Normal,
     /// A direction and a handedness.
     Tangent,
     Color,
@@ -54,8 +53,6 @@ impl Column {
     /// All values of the stream, vertex by vertex.
     fn values<'a>(&self, vertices: &'a MeshBuffers) -> &'a [f32] {
         match self.stream {
-            Stream::Position => vertices.positions.as_flattened(),
-            Stream::Normal => vertices.normals.as_flattened(),
             Stream::Tangent => vertices.tangents.as_flattened(),
             Stream::Color => vertices.colors.as_flattened(),
             Stream::Uv(channel) => &vertices.uvs[channel].values,
@@ -64,8 +61,6 @@ impl Column {
 
     fn values_mut<'a>(&self, vertices: &'a mut MeshBuffers) -> &'a mut [f32] {
         match self.stream {
-            Stream::Position => vertices.positions.as_flattened_mut(),
-            Stream::Normal => vertices.normals.as_flattened_mut(),
             Stream::Tangent => vertices.tangents.as_flattened_mut(),
             Stream::Color => vertices.colors.as_flattened_mut(),
             Stream::Uv(channel) => &mut vertices.uvs[channel].values,
@@ -74,8 +69,6 @@ impl Column {
 
     fn push(&self, vertices: &mut MeshBuffers, row: &Row) {
         match self.stream {
-            Stream::Position => vertices.positions.push(row.at(self.start)),
-            Stream::Normal => vertices.normals.push(row.at(self.start)),
             Stream::Tangent => vertices.tangents.push(row.at(self.start)),
             Stream::Color => vertices.colors.push(row.at(self.start)),
             Stream::Uv(channel) => vertices.uvs[channel].values.extend_from_slice(row.of(self)),
@@ -97,6 +90,15 @@ const MOST_VALUES: usize = 3 + 3 + 4 + 4 + 8 * 4;
 pub struct Row([f32; MOST_VALUES]);
 
 impl Row {
+    /// Nothing but a position and a normal yet.
+    #[inline]
+    fn new(position: [f32; 3], normal: [f32; 3]) -> Row {
+        let mut row = Row([0.0; MOST_VALUES]);
+        row.0[POSITION..NORMAL].copy_from_slice(&position);
+        row.0[NORMAL..FIRST_RARER].copy_from_slice(&normal);
+        row
+    }
+
     fn of(&self, column: &Column) -> &[f32] {
         &self.0[column.start..column.start + column.width]
     }
@@ -105,8 +107,12 @@ impl Row {
         std::array::from_fn(|k| self.0[start + k])
     }
 
+    fn of_mut(&mut self, column: &Column) -> &mut [f32] {
+        &mut self.0[column.start..column.start + column.width]
+    }
+
     fn set(&mut self, column: &Column, values: &[f32]) {
-        self.0[column.start..column.start + column.width].copy_from_slice(values);
+        self.of_mut(column).copy_from_slice(values);
     }
 }
 
@@ -114,12 +120,16 @@ impl Row {
 const POSITION: usize = 0;
 const NORMAL: usize = 3;
 
+/// Where the rest begins.
+const FIRST_RARER: usize = 6;
+
 /// Vertex streams that grow, with the provenance of each vertex.
 pub struct Streams {
     /// The streams; the indices of the buffers stay empty.
     pub vertices: MeshBuffers,
     /// `#vertices`.
     pub sources: VertexSources,
+    /// But for positions and normals.
     columns: SmallVec<[Column; 12]>,
     /// Per colour component, the least and the greatest value that a blend may have.
     color_range: [[f32; 2]; 4],
@@ -160,11 +170,14 @@ impl Streams {
 
     /// Whether two rows are equal in every stream.
     pub fn are_equal(&self, one: &Row, other: &Row) -> bool {
-        self.columns.iter().all(|column| one.of(column) == other.of(column))
+        one.0[..FIRST_RARER] == other.0[..FIRST_RARER]
+            && self.columns.iter().all(|column| one.of(column) == other.of(column))
     }
 
     /// Moves a source vertex.
     pub fn set(&mut self, vertex: Vertex, row: &Row, [surface, chart]: [Blend; 2]) {
+        self.vertices.positions[vertex.index()] = row.at(POSITION);
+        self.vertices.normals[vertex.index()] = row.at(NORMAL);
         for column in &self.columns {
             let values = &mut column.values_mut(&mut self.vertices)[column.range(vertex.0)];
             values.copy_from_slice(row.of(column));
@@ -219,23 +232,21 @@ impl Streams {
         (near, parents, weights, is_shared): (Blend, [u32; 3], [f64; 3], bool),
     ) -> u32 {
         let rows = parents.map(|parent| self.row(parent));
-        let mut row = Row([0.0; MOST_VALUES]);
+        let mut row = Row::new(position.as_vec3().to_array(), normal.as_vec3().to_array());
         for column in &self.columns {
             for k in column.start..column.start + column.width {
                 row.0[k] = mean(rows.each_ref().map(|row| row.0[k]), weights);
             }
         }
-        row.0[POSITION..NORMAL].copy_from_slice(&position.as_vec3().to_array());
-        row.0[NORMAL..NORMAL + 3].copy_from_slice(&normal.as_vec3().to_array());
         if let Some(column) = self.columns.iter().find(|column| column.stream == Stream::Tangent) {
             let tangents = rows.map(|row| row.at(column.start));
             row.set(column, &mean_tangent(tangents, weights, wide(row.at(NORMAL))));
         }
         let list = self.index.list_at(cluster, row.at(POSITION));
-        let known = is_shared.then(|| self.index.find(list, |listed| self.has(listed, &row)));
+        let known = is_shared.then(|| self.find(list, &row));
         known.flatten().unwrap_or_else(|| {
             let source = self.source_between(near, parents, weights);
-            self.columns.iter().for_each(|column| column.push(&mut self.vertices, &row));
+            self.push(&row);
             self.sources.push(source);
             if is_shared { self.index.add(list) } else { self.index.skip() }
         })
@@ -268,21 +279,37 @@ impl Streams {
         add_source: impl FnOnce(&mut VertexSources),
     ) -> u32 {
         let list = self.index.list_at(cluster, row.at(POSITION));
-        let known = self.index.find(list, |listed| self.has(listed, row));
-        known.unwrap_or_else(|| {
-            self.columns.iter().for_each(|column| column.push(&mut self.vertices, row));
+        self.find(list, row).unwrap_or_else(|| {
+            self.push(row);
             add_source(&mut self.sources);
             self.index.add(list)
         })
     }
 
+    fn push(&mut self, row: &Row) {
+        self.vertices.positions.push(row.at(POSITION));
+        self.vertices.normals.push(row.at(NORMAL));
+        self.columns.iter().for_each(|column| column.push(&mut self.vertices, row));
+    }
+
+    /// The vertex of a list that has a row.
+    fn find(&self, list: usize, row: &Row) -> Option<u32> {
+        let position = row.at(POSITION);
+        // Most that came from one cluster stand elsewhere.
+        let stands_there = |vertex: u32| self.vertices.positions[vertex as usize] == position;
+        self.index.find(list, |listed| stands_there(listed) && self.has(listed, row))
+    }
+
+    /// Whether a vertex that stands at a row's position has the row.
     fn has(&self, vertex: u32, row: &Row) -> bool {
         let own = |column: &Column| &column.values(&self.vertices)[column.range(vertex)];
-        self.columns.iter().all(|column| own(column) == row.of(column))
+        self.vertices.normals[vertex as usize] == row.at(NORMAL)
+            && self.columns.iter().all(|column| own(column) == row.of(column))
     }
 
     fn row(&self, vertex: u32) -> Row {
-        let mut row = Row([0.0; MOST_VALUES]);
+        let MeshBuffers { positions, normals, .. } = &self.vertices;
+        let mut row = Row::new(positions[vertex as usize], normals[vertex as usize]);
         for column in &self.columns {
             row.set(column, &column.values(&self.vertices)[column.range(vertex)]);
         }
@@ -291,9 +318,7 @@ impl Streams {
 
     /// A row at a position, with a normal, and all else blended in a chart.
     pub fn blended(&self, view: &View, (position, normal): (DVec3, DVec3), chart: &Blend) -> Row {
-        let mut row = Row([0.0; MOST_VALUES]);
-        row.0[POSITION..NORMAL].copy_from_slice(&position.as_vec3().to_array());
-        row.0[NORMAL..NORMAL + 3].copy_from_slice(&normal.as_vec3().to_array());
+        let mut row = Row::new(position.as_vec3().to_array(), normal.as_vec3().to_array());
         if let Some(column) = self.columns.iter().find(|column| column.stream == Stream::Color) {
             row.set(column, &self.color(view, chart));
         }
@@ -309,8 +334,11 @@ impl Streams {
                     row.set(column, &tangent(view, place, wide(row.at(NORMAL))));
                 }
                 Stream::Uv(channel) if channels >> channel & 1 == 1 => {
-                    for k in 0..column.width {
-                        row.0[column.start + k] = blended_uv(view, place, channel, k);
+                    let uv = &view.mesh.uvs[channel];
+                    let [a, b, c] = place.vertices.map(|vertex| uv_at(uv, vertex as usize));
+                    let values = a.iter().zip(b).zip(c);
+                    for (value, ((a, b), c)) in row.of_mut(column).iter_mut().zip(values) {
+                        *value = blend_value(place, [*a, *b, *c]);
                     }
                 }
                 _ => {}
@@ -327,17 +355,15 @@ impl Streams {
     }
 }
 
-/// The streams of a mesh, side by side.
+/// The streams of a mesh, side by side, but for positions and normals.
 fn columns(view: &View) -> SmallVec<[Column; 12]> {
     let mesh = &view.mesh;
     let fours = [(Stream::Tangent, mesh.tangents), (Stream::Color, mesh.colors)];
     let fours = fours.into_iter().filter(|(_, values)| !values.is_empty());
     let uvs = mesh.uvs.iter().enumerate().filter(|(_, uv)| uv.components > 0);
-    let all = [(Stream::Position, 3), (Stream::Normal, 3)]
-        .into_iter()
-        .chain(fours.map(|(stream, _)| (stream, 4)))
-        .chain(uvs.map(|(channel, uv)| (Stream::Uv(channel), uv.components as usize)));
-    let mut end = 0;
+    let uvs = uvs.map(|(channel, uv)| (Stream::Uv(channel), uv.components as usize));
+    let all = fours.map(|(stream, _)| (stream, 4)).chain(uvs);
+    let mut end = FIRST_RARER;
     all.map(|(stream, width)| {
         let start = end;
         end += width;
@@ -354,14 +380,8 @@ fn copied<T: Copy>(values: &[T], room: usize) -> Vec<T> {
     copy
 }
 
-/// One component of a UV channel at a place.
-fn blended_uv(view: &View, chart: &Blend, channel: usize, component: usize) -> f32 {
-    let uv = &view.mesh.uvs[channel];
-    let at = |vertex: u32| uv.values[vertex as usize * uv.components as usize + component];
-    blend_value(chart, chart.vertices.map(at))
-}
-
 /// Equal values stay equal to the bit, whatever the weights.
+#[inline]
 fn blend_value(blend: &Blend, values: [f32; 3]) -> f32 {
     if values[0] == values[1] && values[0] == values[2] {
         return values[0];
@@ -425,6 +445,8 @@ fn color_range(colors: &[[f32; 4]]) -> [[f32; 2]; 4] {
 
 /// Unit, orthogonal to the normal, with the handedness of the chart. Where the chart goes on over
 /// an edge, its tangent is turned along from its own normal.
+// By itself, so that meshes without tangents prepare nothing for them.
+#[inline(never)]
 fn tangent(view: &View, chart: &Blend, normal: DVec3) -> [f32; 4] {
     let tangents = view.mesh.tangents;
     let own = tangents[chart.vertices[0] as usize];

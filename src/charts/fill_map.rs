@@ -9,7 +9,7 @@ use super::feet::{Frame, Lay, Room, flat_lay, is_broken, kite};
 use super::fit::{Facing, Lie, MOST_STRETCH, misfit};
 use super::ground::{Ground, density};
 use super::owners::Owners;
-use super::{FILL_WAYS, Given, TakenAt, Way, channels_of, place_of};
+use super::{FILL_WAYS, Given, TakenAt, Way, place_of};
 use crate::attributes::Taken;
 use crate::ids::{Corner, Edge, Few, Ring, Sector, Triangle};
 use crate::math::{area_vector, unit};
@@ -56,8 +56,8 @@ impl FillMap<'_> {
     /// The first way, and the first owner in rank, that fits in all channels that cannot run on; or
     /// else those that fit best.
     fn lay_into_chart(&self, taken: &mut Vec<TakenAt>) -> (Triangle, usize) {
-        let broken = |channel: &usize| !self.fits_as_it_is(*channel);
-        let all = channels_of(self.given.surface.view);
+        let broken = |channel: &&usize| !self.fits_as_it_is(**channel);
+        let all = self.given.channels.iter();
         let channels = all.filter(broken).fold(0, |channels, k| channels | 1 << k);
         if channels == 0 {
             return (self.first(self.first_owner()).triangle(), 0);
@@ -120,9 +120,8 @@ impl FillMap<'_> {
     /// Lays the fill in one way, and tells how badly it lies on the worst of some channels.
     fn lay(&self, channels: u8, way: Way, owner: usize, lay: &mut Lay) -> f64 {
         self.find_feet(way, owner, lay);
-        let mapped =
-            channels_of(self.given.surface.view).filter(|channel| channels >> channel & 1 == 1);
-        mapped.map(|channel| self.misfit(channel, owner, lay)).fold(0.0, f64::max)
+        let mapped = self.given.channels.iter().filter(|channel| channels >> **channel & 1 == 1);
+        mapped.map(|&channel| self.misfit(channel, owner, lay)).fold(0.0, f64::max)
     }
 
     fn find_feet(&self, way: Way, owner: usize, lay: &mut Lay) {

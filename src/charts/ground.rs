@@ -33,20 +33,42 @@ const MOST_FACES: usize = 64;
 #[derive(Clone, Copy)]
 struct Face {
     points: [DVec2; 3],
+    /// From each point to the next.
+    sides: [DVec2; 3],
+    has_area: bool,
     /// Its least and its greatest coordinates.
     bounds: [DVec2; 2],
 }
 
 impl Face {
     fn new(points: [DVec2; 3]) -> Face {
-        Face { points, bounds: bounds(points) }
+        let [a, b, c] = points;
+        let has_area = (b - a).perp_dot(c - a) != 0.0;
+        Face { points, sides: [b - a, c - b, a - c], has_area, bounds: bounds(points) }
     }
 
     /// Whether a point is on it, or as near to it.
     fn is_below(&self, point: DVec2, near: f64) -> bool {
         let [low, high] = self.bounds;
         let outside = (low - point).max(point - high).max_element();
-        outside <= near && is_on(self.points, point, near)
+        outside <= near && self.is_at(point, near)
+    }
+
+    /// The same without a look at its bounds.
+    fn is_at(&self, point: DVec2, near: f64) -> bool {
+        let turns = [0, 1, 2].map(|k| self.sides[k].perp_dot(point - self.points[k]));
+        if self.has_area && (turns.iter().all(|t| *t >= 0.0) || turns.iter().all(|t| *t <= 0.0)) {
+            return true;
+        }
+        (0..3).any(|k| {
+            let ([from, to], way) = ([self.points[k], self.points[(k + 1) % 3]], self.sides[k]);
+            let (along, square) = ((point - from).dot(way), near * near);
+            match way.length_squared() {
+                _ if along <= 0.0 => point.distance_squared(from) <= square,
+                length if along >= length => point.distance_squared(to) <= square,
+                length => turns[k] * turns[k] <= square * length,
+            }
+        })
     }
 }
 
@@ -71,14 +93,11 @@ impl<'a> Ground<'a> {
         let near =
             longest_square(triangle).sqrt() * TEXTURE_MARGIN + size(triangle) * TEXTURE_ROUNDING;
         let all_below = |face: &Face| triangle.iter().all(|&point| face.is_below(point, near));
-        // Most chamfers lie on the triangle that they are cut off from.
-        if all_below(&Face::new(self.points(self.corners[0].triangle()))) {
+        // Most chamfers lie on one triangle, and that is the one that they are cut off from.
+        if self.any_corner(|corner| all_below(&self.face(corner.triangle()))) {
             return true;
         }
         let around = self.around.get_or_init(|| self.faces_around());
-        if around.iter().any(all_below) {
-            return true;
-        }
         let samples = SAMPLES.map(|weights| (0..3).map(|k| triangle[k] * weights[k]).sum());
         let all_on = |faces: &[Face]| {
             samples.iter().all(|&point| faces.iter().any(|face| face.is_below(point, near)))
@@ -87,14 +106,14 @@ impl<'a> Ground<'a> {
             return true;
         }
         let below = self.below(triangle, near).into_iter();
-        all_on(&below.map(|face| Face::new(self.points(face))).collect::<Few<Face>>())
+        all_on(&below.map(|face| self.face(face)).collect::<Few<Face>>())
     }
 
     /// The triangles around the corners.
     fn faces_around(&self) -> Few<Face> {
         let mut faces = Few::new();
         self.any_corner(|corner| {
-            faces.push(Face::new(self.points(corner.triangle())));
+            faces.push(self.face(corner.triangle()));
             false
         });
         faces
@@ -188,6 +207,10 @@ impl<'a> Ground<'a> {
         twin.is_some() && meet(side, twin.next()) && meet(side.next(), twin)
     }
 
+    fn face(&self, face: Triangle) -> Face {
+        Face::new(self.points(face))
+    }
+
     fn points(&self, face: Triangle) -> [DVec2; 3] {
         let uv = &self.surface.view.mesh.uvs[self.channel];
         face.corners().map(|corner| uv_point(uv, self.surface.view.vertex_at(corner).0))
@@ -197,26 +220,6 @@ impl<'a> Ground<'a> {
 /// The least and the greatest coordinates.
 fn bounds([a, b, c]: [DVec2; 3]) -> [DVec2; 2] {
     [a.min(b).min(c), a.max(b).max(c)]
-}
-
-/// Whether a point is on a triangle, or as near to it.
-fn is_on(triangle: [DVec2; 3], point: DVec2, near: f64) -> bool {
-    let [a, b, c] = triangle;
-    let sides = [[a, b], [b, c], [c, a]];
-    let turns = sides.map(|[from, to]| (to - from).perp_dot(point - from));
-    let has_area = (b - a).perp_dot(c - a) != 0.0;
-    if has_area && (turns.iter().all(|t| *t >= 0.0) || turns.iter().all(|t| *t <= 0.0)) {
-        return true;
-    }
-    sides.into_iter().zip(turns).any(|([from, to], turn)| {
-        let (way, square) = (to - from, near * near);
-        let along = (point - from).dot(way);
-        match way.length_squared() {
-            _ if along <= 0.0 => point.distance_squared(from) <= square,
-            length if along >= length => point.distance_squared(to) <= square,
-            length => turn * turn <= square * length,
-        }
-    })
 }
 
 /// Two components of a vertex in a UV channel: what lies on the texture.
@@ -267,10 +270,10 @@ mod tests {
     fn a_point_is_as_far_from_a_triangle_as_from_its_nearest_side() {
         let triangle = [DVec2::ZERO, DVec2::X * 2.0, DVec2::Y * 2.0];
         let is_as_far = |triangle, point: [f64; 2], distance: f64| {
-            let within = |near| is_on(triangle, point.into(), near);
+            let within = |near| Face::new(triangle).is_at(point.into(), near);
             within(distance * 1.01) && !within(distance * 0.99)
         };
-        assert!(is_on(triangle, DVec2::new(0.5, 0.5), 0.0));
+        assert!(Face::new(triangle).is_at(DVec2::new(0.5, 0.5), 0.0));
         assert!(is_as_far(triangle, [1.0, -3.0], 3.0), "from a side");
         assert!(is_as_far(triangle, [5.0, -4.0], 5.0), "from a corner");
         assert!(is_as_far([DVec2::X * 2.0; 3], [5.0, 4.0], 5.0), "from a point");

@@ -32,7 +32,7 @@ const UNDECIDED: u8 = u8::MAX;
 /// zigzag: the region whose band fits more of the strips, or else the one that comes first in the
 /// mesh. Where its band does not fit at all but the other side's does, an edge has the other.
 pub fn owners(given: &Given, patches: &Patches, threads: &Threads) -> Owners {
-    let Given { surface, chamfers, placement, attributes } = *given;
+    let Given { surface, chamfers, placement, attributes, .. } = *given;
     let band = |edge: Edge, side: u8| {
         let hard = &chamfers.edges.hard[edge];
         let map =

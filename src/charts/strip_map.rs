@@ -6,7 +6,7 @@ use super::feet::{End, Frame, Room, feet_at, flat_lay};
 use super::fit::{Facing, Lie, MOST_STRETCH, misfit, roomiest};
 use super::ground::Ground;
 use super::{BANDS, BESIDE_BANDS, Way};
-use super::{Given, TakenAt, channels_of, place_of};
+use super::{Given, TakenAt, place_of};
 use crate::attributes::{Attributes, Taken};
 use crate::edges::HardEdge;
 use crate::ids::{Corner, Edge, Few, Triangle};
@@ -57,20 +57,25 @@ impl<'a> StripMap<'a> {
             Way::Flat | Way::Roomiest => self.flat(self.room(channel, (way, side))),
             _ => self.feet_along(way, side),
         };
-        for place in (0..4).filter(|&place| !self.is_used(place)) {
-            feet[place] = None;
+        // Two triangles have all four corners.
+        if self.triangles.len() < 2 {
+            for place in (0..4).filter(|&place| !self.is_used(place)) {
+                feet[place] = None;
+            }
         }
         feet
     }
 
     fn feet_along(&self, way: Way, side: usize) -> Feet {
-        let mut feet = [None; 4];
-        for (end, places) in self.strip_ends(side).into_iter().zip(places(side)) {
-            for (place, foot) in places.into_iter().zip(feet_at(self.surface, &end, way)) {
-                feet[place] = foot;
-            }
+        let [start, stop] = self.strip_ends(side);
+        let [start_near, start_far] = feet_at(self.surface, &start, way);
+        let [stop_near, stop_far] = feet_at(self.surface, &stop, way);
+        // In the order that `places` tells.
+        if side == 0 {
+            [stop_near, start_near, start_far, stop_far]
+        } else {
+            [start_far, stop_far, stop_near, start_near]
         }
-        feet
     }
 
     /// The strip at the start and at the end of the owner's half-edge.
@@ -78,7 +83,7 @@ impl<'a> StripMap<'a> {
         let half_edge = self.edge.sides[owner];
         let edge =
             [half_edge, half_edge.next()].map(|corner| self.surface.view.position_at(corner));
-        let end = |(place, [near, far]): (f64, [usize; 2])| End {
+        let end = |place: f64, [near, far]: [usize; 2]| End {
             half_edge,
             edge,
             place,
@@ -86,7 +91,7 @@ impl<'a> StripMap<'a> {
             far: self.points[far],
         };
         let [start, stop] = places(owner);
-        [(0.0, start), (1.0, stop)].map(end)
+        [end(0.0, start), end(1.0, stop)]
     }
 
     /// Whether some triangle has the corner.
@@ -219,9 +224,9 @@ pub fn lay_strip(
     let hard = &given.chamfers.edges.hard[edge];
     let map = StripMap::new(surface, placement, attributes, hard, strip.triangles);
     let (mut taken, mut channels): (Feet, [u8; 4]) = ([None; 4], [0; 4]);
-    for channel in channels_of(surface.view) {
+    for &channel in given.channels {
         // What the owner was chosen by need not be looked for again.
-        let known = band.filter(|_| map.first_seam() == channel && taken == [None; 4]);
+        let known = band.filter(|_| map.first_seam() == channel && channels == [0; 4]);
         let feet = match known {
             Some(band) => map.feet(channel, Some((BANDS[usize::from(band)], owner))),
             None => map.lay(channel, owner, &taken),
@@ -231,11 +236,8 @@ pub fn lay_strip(
             channels[place] |= 1 << channel;
         }
     }
-    let points = taken.into_iter().zip(channels).zip(0..);
-    taken_at.extend(
-        points.filter_map(|((place, channels), point)| {
-            Some((point, Taken { channels, place: place? }))
-        }),
-    );
+    for (point, (place, channels)) in (0..).zip(taken.into_iter().zip(channels)) {
+        taken_at.extend(place.map(|place| (point, Taken { channels, place })));
+    }
     hard.sides[owner].triangle()
 }
