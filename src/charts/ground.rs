@@ -93,11 +93,14 @@ impl<'a> Ground<'a> {
         let near =
             longest_square(triangle).sqrt() * TEXTURE_MARGIN + size(triangle) * TEXTURE_ROUNDING;
         let all_below = |face: &Face| triangle.iter().all(|&point| face.is_below(point, near));
-        // Most chamfers lie on one triangle, and that is the one that they are cut off from.
-        if self.any_corner(|corner| all_below(&self.face(corner.triangle()))) {
+        // Most chamfers lie on the triangle that they are cut off from.
+        if all_below(&self.face(self.corners[0].triangle())) {
             return true;
         }
         let around = self.around.get_or_init(|| self.faces_around());
+        if around.iter().any(all_below) {
+            return true;
+        }
         let samples = SAMPLES.map(|weights| (0..3).map(|k| triangle[k] * weights[k]).sum());
         let all_on = |faces: &[Face]| {
             samples.iter().all(|&point| faces.iter().any(|face| face.is_below(point, near)))
