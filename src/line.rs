@@ -38,6 +38,15 @@ impl Line {
         place > reach && place < self.length - reach && self.distance(point) <= reach
     }
 
+    /// Where on it another line begins and ends that runs along a part of it; none where they are apart,
+    /// or have no more than a reach in common.
+    pub fn shared(&self, ends: [DVec3; 2], reach: f64) -> Option<[f64; 2]> {
+        let [one, other] = ends.map(|end| self.place(end));
+        let (start, end) = (one.min(other).max(0.0), one.max(other).min(self.length));
+        let lies_on = ends.into_iter().all(|end| self.distance(end) <= reach);
+        (lies_on && end - start > reach).then_some([start, end])
+    }
+
     /// The normal of its face there, between those of its ends.
     pub fn normal(&self, view: &View, point: DVec3) -> DVec3 {
         let share = (self.place(point) / self.length).clamp(0.0, 1.0);

@@ -97,17 +97,12 @@ fn runs_back(topology: &Topology, line: &Line, other: &Line) -> bool {
 
 /// Whether another border runs back along a part of a line, and light breaks between them.
 pub fn meets(view: &View, topology: &Topology, line: &Line, other: &Line) -> bool {
-    if !runs_back(topology, line, other) {
-        return false;
-    }
-    let reach = view.resolution * LINE_HEIGHT;
-    let [from, to] = other.ends();
-    let (start, end) = (line.place(to).max(0.0), line.place(from).min(line.length));
-    let lies_on = [from, to].into_iter().all(|end| line.distance(end) <= reach);
-    lies_on && end - start > reach && {
-        let middle = line.from + line.along * ((start + end) / 2.0);
-        view.normals_differ([line.normal(view, middle), other.normal(view, middle)])
-    }
+    let shared = || line.shared(other.ends(), view.resolution * LINE_HEIGHT);
+    runs_back(topology, line, other)
+        && shared().is_some_and(|[start, end]| {
+            let middle = line.from + line.along * ((start + end) / 2.0);
+            view.normals_differ([line.normal(view, middle), other.normal(view, middle)])
+        })
 }
 
 fn is_same_edge(topology: &Topology, one: Corner, other: Corner) -> bool {

@@ -116,6 +116,35 @@ fn edges_that_overlap_are_chamfered() {
     assert_eq!(told(&mesh, &result), all);
 }
 
+//  A-------.-------B   the wall's end at B is too low to be put together with the roof's: of its edge
+//  .---.-----------.   a part is told with the roof's first one, and the rest has no second side
+#[test]
+fn what_is_told_with_another_edge_is_not_told_twice() {
+    let mut mesh = roof_on_wall(&[0.0, 1.0, 4.0], &[[0.0, 2.0], [2.0, 4.0]], FRONT);
+    mesh.positions[8..]
+        .iter_mut()
+        .filter(|at| **at == [4.0, 0.0, 0.0])
+        .for_each(|at| at[1] = -1e-5);
+    let result = chamfered(&mesh);
+    assert_eq!(result.totals.chamfered + result.totals.narrowed, 1);
+    assert_eq!(left(&mesh, &result, Reason::TJunction), [[[1.0, 0.0, 0.0], [4.0, -1e-5, 0.0]]]);
+}
+
+//  A---------------B   a roof over a wall of two columns, and half as long a roof over a wall in the same
+//  A-------.           place: these have both their sides, and more than two would lie there
+#[test]
+fn beside_an_edge_with_both_sides_nothing_is_brought_together() {
+    let one = roof_on_wall(&[0.0, 2.0], &[[0.0, 2.0]], FRONT);
+    let mut mesh = roof_on_wall(&[0.0, 1.0, 4.0], &[[0.0, 4.0]], FRONT);
+    let first = mesh.positions.len() as u32;
+    mesh.positions.extend(&one.positions);
+    mesh.normals.extend(&one.normals);
+    mesh.indices.extend(one.indices.iter().map(|index| index + first));
+    mesh.submesh_index_counts = vec![mesh.indices.len() as u32];
+    let result = chamfered(&mesh);
+    assert_eq!(left(&mesh, &result, Reason::TJunction), [[[0.0; 3], [4.0, 0.0, 0.0]]]);
+}
+
 /// The wall is shorter than the roof: what it leaves open stays a border.
 #[test]
 fn an_edge_with_a_second_side_on_a_part_of_it_is_chamfered_there() {

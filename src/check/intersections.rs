@@ -1,9 +1,11 @@
 //! Solids that cut through themselves.
 
+use super::junctions::Borders;
 use super::origins::Origins;
 use super::rules::{Element, Findings, Rule};
 use super::solids::Solids;
-use super::surface::Surface;
+use super::surface::{HalfEdge, Surface};
+use crate::groups::Groups;
 use crate::intersect::{Triangle, self_intersections};
 
 /// No solid cuts through itself in what is joined by edges, and did not cut through itself in the
@@ -15,7 +17,7 @@ pub(super) fn check_intersections(
     findings: &mut Findings,
 ) {
     let [parts_before, parts_after] = [&source.of, &result.of];
-    let joined = before.components();
+    let joined = joined(before);
     let [own_before, own_after] = [before, after].map(triangles_of);
     let stood = |(number, source): (usize, &Option<[u32; 3]>)| match source {
         Some([corner, ..]) => own_before[*corner as usize / 3],
@@ -51,6 +53,20 @@ pub(super) fn check_intersections(
             findings.note(Rule::SelfIntersection, Element::Triangles(a, b));
         }
     }
+}
+
+/// `#triangles`: what is joined by edges, or by borders that lie on each other, which chamfers bring
+/// together.
+fn joined(surface: &Surface) -> Vec<u32> {
+    let (borders, mut parts) = (Borders::new(surface), surface.components());
+    let mut groups = Groups::singles(parts.len());
+    for [one, other] in borders.pairs() {
+        let part = |side: &HalfEdge| parts[side.corners[0] as usize / 3];
+        groups.join(part(one), part(other));
+    }
+    let labels = groups.labels();
+    parts.iter_mut().for_each(|part| *part = labels[*part as usize]);
+    parts
 }
 
 fn triangles_of(surface: &Surface) -> Vec<Triangle> {

@@ -33,9 +33,14 @@ impl<'a> Borders<'a> {
         near.filter(move |other| run_along(self.surface, side, other))
     }
 
-    /// Whether there is one along any other.
-    pub fn meet_anywhere(&self) -> bool {
-        self.all.iter().any(|side| self.along(side).next().is_some())
+    /// Each two that run back along a part of each other.
+    pub fn pairs(&'a self) -> impl Iterator<Item = [&'a HalfEdge; 2]> {
+        self.all.iter().flat_map(|&side| self.along(side).map(move |other| [side, other]))
+    }
+
+    /// Whether there are any.
+    pub fn meet_anywhere(&'a self) -> bool {
+        self.pairs().next().is_some()
     }
 }
 

@@ -2,6 +2,8 @@
 
 use std::cell::OnceCell;
 
+use glam::DVec3;
+
 use super::junctions::{Borders, reach};
 use super::rules::{Element, Findings, MeasuredEdge, Rule};
 use super::surface::{HalfEdge, Surface};
@@ -127,13 +129,22 @@ impl<'a> Sides<'a> {
         let agrees = |end: usize| {
             let (told, corner) = (f64::from(verdict.widths[end]), side.corners[end]);
             let Some(own) = ruler.pulled(side, corner) else { return false };
-            let others = borders.along(side).map(|other| other.corners[1 - end]);
-            let mut others = others.filter(|&o| at(o).distance(at(corner)) <= reach).peekable();
-            if others.peek().is_none() {
+            let others = || borders.along(side).map(|other| other.corners.map(at));
+            let runs_past = |[from, to]: [DVec3; 2]| {
+                let [from, to] = [from, to].map(|end| end - at(corner));
+                from.dot(to) < 0.0 && from.length().min(to.length()) > reach
+            };
+            let ends = borders.along(side).map(|other| other.corners[1 - end]);
+            let mut ends = ends.filter(|&o| at(o).distance(at(corner)) <= reach).peekable();
+            if ends.peek().is_none() || others().any(runs_past) {
                 return told == 0.0 || 2.0 * told >= own - tolerance;
             }
-            let mean = |other: u32| Some((own + ruler.pulled(side, other)?) / 2.0);
-            others.any(|other| mean(other).is_some_and(|mean| (told - mean).abs() <= tolerance))
+            // Where the part there stays, one side of it may go along with what is beside.
+            let is_told = |other: f64| {
+                let is_left = told == 0.0 && own.min(other) <= tolerance;
+                is_left || (told - (own + other) / 2.0).abs() <= tolerance
+            };
+            ends.any(|other| ruler.pulled(side, other).is_some_and(is_told))
         };
         verdict.outcome != Outcome::Skipped
             && vertices(self.surface, side) == verdict.vertices

@@ -18,11 +18,14 @@ pub fn stitched(
     fine: Chamfered,
 ) -> Chamfered {
     let (edges, edge_of) = edges(&finer.refined, sides);
-    let verdict = |edge: &Edge| match edge {
+    let verdict = |(number, edge): (u32, &Edge)| match edge {
         Edge::Whole(verdict) => fine.verdicts[*verdict],
-        Edge::Long(side, parts) => merged(source, (*side, parts), &fine.verdicts),
+        Edge::Long(side, parts) => {
+            let is_own = |part: &Part| edge_of[part.verdict] == number;
+            merged(source, (*side, parts), &fine.verdicts, &is_own)
+        }
     };
-    let verdicts = edges.iter().map(verdict).collect();
+    let verdicts = (0u32..).zip(&edges).map(verdict).collect();
     let elements =
         Elements { source, refined: &finer.refined, edge_of, stands_at: &finer.stands_at };
     retold(&elements, fine, verdicts)
@@ -72,16 +75,21 @@ fn edges(refined: &Refined, sides: &[[Corner; 2]]) -> (Vec<Edge>, Vec<u32>) {
     (edges, edge_of)
 }
 
-/// One verdict for all parts of a long side.
+/// One verdict for all parts of a long side. It is skipped where its own are, whatever became of those
+/// that another long side has.
 fn merged(
     source: &Mesh,
     (side, parts): (Corner, &[Option<Part>]),
     fine: &[EdgeVerdict],
+    is_own: &dyn Fn(&Part) -> bool,
 ) -> EdgeVerdict {
-    let found = || parts.iter().flatten().map(|part| &fine[part.verdict]);
-    let all = |outcome: Outcome| found().all(|verdict| verdict.outcome == outcome);
+    let told = |part: &Part| fine[part.verdict];
+    let own = parts.iter().flatten().filter(|part| is_own(part));
+    let is_skipped = own.clone().all(|part| told(part).outcome == Outcome::Skipped);
+    let found = || parts.iter().flatten().filter(|part| !is_skipped || is_own(part)).map(told);
     let is_paired = parts.iter().all(Option::is_some);
-    let outcome = match (all(Outcome::Skipped), is_paired && all(Outcome::Full)) {
+    let is_full = is_paired && found().all(|verdict| verdict.outcome == Outcome::Full);
+    let outcome = match (is_skipped, is_full) {
         (true, _) => Outcome::Skipped,
         (_, true) => Outcome::Full,
         _ => Outcome::Narrowed,

@@ -16,12 +16,14 @@ use std::collections::{BTreeMap, BTreeSet};
 use glam::DVec3;
 
 use super::splits::is_even;
+use crate::bvh::{Aabb, Tree};
 use crate::groups::Groups;
 use crate::ids::{Cluster, Corner, Few, Vertex};
 use crate::line::Line;
 use crate::report::Reason;
 use crate::shape::Shape;
 use crate::tolerance::{BACK_TO_BACK_COSINE, LINE_HEIGHT};
+use crate::topology::Topology;
 use crate::unpaired::{Unpaired, meets};
 use crate::view::View;
 
@@ -69,6 +71,8 @@ pub fn stitches(view: &View, shape: &Shape, unpaired: &[Unpaired]) -> Stitches {
         }
     }
     at.retain(|&side, _| is_plain(view, side));
+    let crowded = crowded(view, &shape.topology, at.keys().copied());
+    at.retain(|side, _| !crowded.contains(side));
     let cluster = |vertex: u32| shape.weld.cluster_of[Vertex(vertex)];
     for (&side, all) in &mut at {
         put_in_order(view, side, all);
@@ -76,6 +80,34 @@ pub fn stitches(view: &View, shape: &Shape, unpaired: &[Unpaired]) -> Stitches {
         near.extend(pairs.map(|pair| [cluster(pair[0]), cluster(pair[1])]));
     }
     Stitches { at, joins: joins(view, shape, near) }
+}
+
+/// Those of the sides along which an edge runs that has two sides already: with a second side of their
+/// own, more than two would lie there.
+fn crowded(
+    view: &View,
+    topology: &Topology,
+    sides: impl Iterator<Item = Corner>,
+) -> BTreeSet<Corner> {
+    let lines: Vec<Line> = sides.map(|side| Line::new(view, side)).collect();
+    let around = |[from, to]: [DVec3; 2]| {
+        let ends = [from.min(to) - reach(view), from.max(to) + reach(view)];
+        Aabb::around(&ends.map(|end| end.as_vec3().to_array()))
+    };
+    let boxes: Vec<Aabb> = lines.iter().map(|line| around(line.ends())).collect();
+    let tree = Tree::new(&boxes, &[]);
+    let mut crowded = BTreeSet::new();
+    if lines.is_empty() {
+        return crowded;
+    }
+    let is_pair = |&side: &Corner| topology.twin[side].is_some() && side < topology.twin[side];
+    for side in topology.twin.ids().filter(is_pair) {
+        let ends = [side, side.next()].map(|end| view.position_at(end));
+        let near = tree.overlapping(around(ends)).map(|number| &lines[number as usize]);
+        let along = near.filter(|line| line.shared(ends, reach(view)).is_some());
+        crowded.extend(along.map(|line| line.border));
+    }
+    crowded
 }
 
 /// Puts the ends of one side on another one, within which they stand.

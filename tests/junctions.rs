@@ -1,0 +1,222 @@
+//! T-junctions: boxes whose faces are cut into cells that do not match those of the faces beside, some
+//! faces missing, some there twice, some off by a few units in the last place.
+//!
+//! The same cases on every run. For more: `PROPTEST_CASES=2000 cargo test --release --test
+//! junctions`.
+
+#[path = "support/grids.rs"]
+mod grids;
+
+use std::ops::RangeInclusive;
+
+use chamfer::check::{assert_sound, check};
+use chamfer::{
+    Convexity, EdgeFactor, Factors, Held, Mesh, MeshBuffers, Options, Reason, Verify, Width,
+    chamfer,
+};
+use glam::{DMat3, DVec3};
+use proptest::collection::vec;
+use proptest::prelude::*;
+use proptest::test_runner::{Config, RngSeed};
+
+use grids::{Cells, Grid, Layout, grids};
+
+/// As many as are checked in two seconds.
+const CASES: u32 = 60;
+
+fn config() -> Config {
+    let asked = Config::default();
+    Config {
+        cases: if std::env::var_os("PROPTEST_CASES").is_some() { asked.cases } else { CASES },
+        rng_seed: match asked.rng_seed {
+            RngSeed::Random => RngSeed::Fixed(1),
+            fixed => fixed,
+        },
+        failure_persistence: None,
+        ..asked
+    }
+}
+
+/// Segments, and how much is verified.
+const WAYS: [(u32, Verify); 4] =
+    [(1, Verify::Fast), (1, Verify::Full), (2, Verify::Fast), (2, Verify::Full)];
+
+/// Mostly few cuts, sometimes all.
+fn bits() -> impl Strategy<Value = u8> {
+    let one = || (1..8u32).prop_map(|step| 1u8 << step);
+    let two = (one(), one()).prop_map(|(one, other)| one | other);
+    prop_oneof![3 => Just(0u8), 3 => one(), 3 => two, 1 => Just(0b0001_0100u8), 1 => any::<u8>()]
+}
+
+fn cells(copies: RangeInclusive<u8>) -> impl Strategy<Value = Cells> {
+    let copies = prop_oneof![12 => Just(1u8), 2 => copies];
+    (bits(), vec(bits(), 1..3), any::<u16>(), copies)
+        .prop_map(|(across, along, diagonals, copies)| Cells { across, along, diagonals, copies })
+}
+
+/// Boxes and plates, whose faces are there so often.
+fn grid(copies: RangeInclusive<u8>) -> impl Strategy<Value = Grid> {
+    let size = || prop_oneof![3 => (1..4i32).prop_map(f64::from), 1 => Just(0.1)];
+    let place = ([0..3i32, 0..3i32, 0..3i32], [size(), size(), size()]);
+    (place, vec(cells(copies), 6)).prop_map(|((low, size), faces)| {
+        let low = low.map(f64::from);
+        Grid { low, high: [0, 1, 2].map(|k| low[k] + size[k]), faces }
+    })
+}
+
+/// Side by side with room between them: what touches is tried with other boxes.
+fn apart(mut boxes: Vec<Grid>) -> Vec<Grid> {
+    for (number, grid) in (0u8..).zip(&mut boxes) {
+        let by = 8.0 * f64::from(number);
+        (grid.low[0], grid.high[0]) = (grid.low[0] + by, grid.high[0] + by);
+    }
+    boxes
+}
+
+fn layout() -> impl Strategy<Value = Layout> {
+    let angle = prop_oneof![2 => Just(0.0), 1 => 0.0..3.0f64];
+    let lean = prop_oneof![3 => Just(0.0), 1 => -1.0..1.0f64];
+    let scale =
+        prop_oneof![2 => Just(1.0), 1 => (-6.0..6.0f64).prop_map(|power| 10f64.powf(power))];
+    let off = prop_oneof![3 => Just(0.0), 1 => -20.0..20.0f64];
+    let steps = prop_oneof![2 => Just(0u8), 3 => 1..4u8];
+    (angle, lean, scale, off, steps, any::<u32>(), any::<bool>()).prop_map(
+        |(angle, lean, scale, off, most_steps, seed, is_merged)| {
+            let turn = DMat3::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), angle);
+            let lean = DMat3::from_cols(DVec3::X, DVec3::new(lean, 1.0, 0.0), DVec3::Z);
+            let offset = DVec3::new(off, -off / 3.0, 0.0) * scale;
+            Layout { turn: turn * lean * scale, offset, most_steps, seed, is_merged }
+        },
+    )
+}
+
+/// What else is asked.
+#[derive(Clone, Debug)]
+enum Asked {
+    All,
+    /// Edges of faces that meet at these angles.
+    Angles(f32, f32),
+    Convexity(Convexity),
+    Submeshes(Vec<f32>),
+    /// A mask of the vertices, that many times over.
+    Mask(Vec<f32>),
+    /// The sides of every so many triangles.
+    Edges(usize, f32),
+    /// From one vertex to another, and a radius in terms of the extent.
+    Held(usize, usize, f32),
+    /// In a space with other units along each axis.
+    Scale([f32; 3]),
+}
+
+fn asked() -> impl Strategy<Value = Asked> {
+    let factor = || prop_oneof![Just(0.0f32), Just(1.0), 0.0..3.0f32];
+    let radius = prop_oneof![Just(0.0f32), 0.0..0.2f32];
+    prop_oneof![
+        4 => Just(Asked::All),
+        1 => (0.0..100.0f32, 0.0..80.0f32).prop_map(|(low, more)| Asked::Angles(low, low + more)),
+        1 => Just(Asked::Convexity(Convexity::Convex)),
+        1 => Just(Asked::Convexity(Convexity::Concave)),
+        1 => vec(factor(), 1..4).prop_map(Asked::Submeshes),
+        1 => vec(factor(), 1..9).prop_map(Asked::Mask),
+        1 => (1..5usize, factor()).prop_map(|(every, factor)| Asked::Edges(every, factor)),
+        2 => (any::<usize>(), any::<usize>(), radius).prop_map(|(a, b, r)| Asked::Held(a, b, r)),
+        // Rounding moves nothing there: else it decides which cells of one face overlap.
+        1 => [-3..4i32, -3..4, -3..4].prop_map(|to| Asked::Scale(to.map(|k| 2f32.powi(k)))),
+    ]
+}
+
+/// What the mesh is chamfered with, as long as a mesh borrows it.
+#[derive(Default)]
+struct Extras {
+    held: Vec<Held>,
+    submeshes: Vec<f32>,
+    vertices: Vec<f32>,
+    edges: Vec<EdgeFactor>,
+}
+
+impl Extras {
+    fn new(mesh: &MeshBuffers, asked: &Asked) -> Extras {
+        let mut extras = Extras::default();
+        match asked {
+            Asked::Submeshes(all) => {
+                let count = mesh.submesh_index_counts.len();
+                extras.submeshes = all.iter().copied().cycle().take(count).collect();
+            }
+            Asked::Mask(all) => {
+                extras.vertices = all.iter().copied().cycle().take(mesh.positions.len()).collect();
+            }
+            Asked::Edges(every, factor) => {
+                let sides = mesh.indices.chunks_exact(3).step_by(*every);
+                let sides = sides.flat_map(|t| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]]);
+                extras.edges =
+                    sides.map(|vertices| EdgeFactor { vertices, factor: *factor }).collect();
+            }
+            &Asked::Held(from, to, radius) if !mesh.positions.is_empty() => {
+                let at = |vertex: usize| mesh.positions[vertex % mesh.positions.len()];
+                let [from, to] = [from, to].map(at);
+                let largest = [from, to].as_flattened().iter().fold(0.0f32, |a, b| a.max(b.abs()));
+                extras.held.push(Held { from, to, radius: radius * largest });
+            }
+            _ => {}
+        }
+        extras
+    }
+
+    fn on<'a>(&'a self, mesh: &'a MeshBuffers) -> Mesh<'a> {
+        let Extras { submeshes, vertices, edges, held } = self;
+        Mesh { factors: Factors { submeshes, vertices, edges }, held, ..mesh.as_mesh() }
+    }
+}
+
+fn options(asked: &Asked, percent: f32) -> Options {
+    let options = Options::default().with_width(Width::PercentOfExtent(percent));
+    match *asked {
+        Asked::Angles(low, high) => options.with_angles(low, high),
+        Asked::Convexity(convexity) => options.with_convexity(convexity),
+        Asked::Scale([x, y, z]) => {
+            options.with_scale([[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]])
+        }
+        _ => options,
+    }
+}
+
+fn percent() -> impl Strategy<Value = f32> {
+    prop_oneof![Just(1.0f32), 0.1..4.0f32, 4.0..20.0f32]
+}
+
+proptest! {
+    #![proptest_config(config())]
+
+    #[test]
+    fn boxes_of_cells_that_do_not_match_are_sound(
+        boxes in vec(grid(0..=2), 1..4),
+        layout in layout(),
+        asked in asked(),
+        percent in percent(),
+    ) {
+        let mesh = grids(&apart(boxes), &layout);
+        let extras = Extras::new(&mesh, &asked);
+        let mesh = extras.on(&mesh);
+        for (segments, verify) in WAYS {
+            let options = options(&asked, percent).with_segments(segments).with_verify(verify);
+            let result = chamfer(&mesh, &options).unwrap();
+            let findings = check(&mesh, &result, verify);
+            prop_assert!(findings.is_sound(), "{segments} segments, {verify:?}: {findings}");
+        }
+    }
+
+    /// All that stands on a side of a closed box does so once: nothing keeps it from being brought
+    /// together.
+    #[test]
+    fn of_one_box_no_junction_is_left(
+        grid in grid(1..=1),
+        layout in layout(),
+        percent in 0.1..1.0f32,
+    ) {
+        let mesh = grids(&[grid], &Layout { most_steps: 0, ..layout });
+        let options = Options::default().with_width(Width::PercentOfExtent(percent));
+        let result = chamfer(&mesh.as_mesh(), &options).unwrap();
+        assert_sound("box", &mesh.as_mesh(), &result);
+        prop_assert_eq!(result.totals.skipped[Reason::TJunction], 0);
+    }
+}
