@@ -5,7 +5,8 @@ mod parted;
 use glam::DVec3;
 
 use crate::breaks::{is_hard, seam_between};
-use crate::contacts::Contacts;
+use crate::contacts::{ASKED, Contacts};
+use crate::error::Error;
 use crate::faces::Faces;
 use crate::ids::{Corner, Edge, IdVec, Vertex};
 use crate::mesh::UV_CHANNELS;
@@ -14,6 +15,7 @@ use crate::selection::Selection;
 use crate::tolerance::BACK_TO_BACK_COSINE;
 use crate::topology::Topology;
 use crate::view::View;
+use crate::watch::Watch;
 use crate::weld::Weld;
 
 pub use parted::{Parted, parted};
@@ -100,13 +102,17 @@ pub fn may_be_hard(view: &View, weld: &Weld) -> bool {
     weld.cluster_of.ids().any(differs)
 }
 
+/// Finds them.
+///
+/// # Errors
+/// [`Error::Cancelled`] where the watch stops it.
 pub fn edges(
     view: &View,
-    topology: &Topology,
-    faces: &Faces,
+    (topology, faces): (&Topology, &Faces),
     contacts: &Contacts,
     selection: &Selection,
-) -> Edges {
+    watch: &dyn Watch,
+) -> Result<Edges, Error> {
     let mut hard = IdVec::default();
     let mut chamfered_at = IdVec::filled(Edge::NONE, view.corner_count());
     for corner in topology.twin.ids() {
@@ -114,6 +120,7 @@ pub fn edges(
         if twin.is_none() || twin < corner || !is_hard(view, corner, twin) {
             continue;
         }
+        watch.worked(ASKED)?;
         let widths = selection.widths(topology, faces, [corner, twin]);
         let skipped = obstacle(topology, faces, corner, twin)
             .or(widths.is_none().then_some(Reason::NotSelected))
@@ -131,7 +138,7 @@ pub fn edges(
     }
     let spanned = spanned(view, topology, faces, &chamfered_at);
     let parted = parted(view, topology, faces, &hard, &chamfered_at);
-    Edges { hard, chamfered_at, spanned, parted }
+    Ok(Edges { hard, chamfered_at, spanned, parted })
 }
 
 /// The corners across from the long sides of lines that reach such a side to a chamfered edge.
@@ -199,6 +206,7 @@ mod tests {
     use crate::threads::Threads;
     use crate::topology::topology;
     use crate::view::view;
+    use crate::watch::Unwatched;
     use crate::weld::weld;
 
     /// A roof of two triangles over the edge 0-1, with the given normals and far corners.
@@ -229,9 +237,9 @@ mod tests {
         let weld = weld(&mesh);
         let topology = topology(&view, &weld);
         let faces = faces(&view, &topology, &Threads::default());
-        let contacts = contacts(&view, &topology, &faces).unwrap();
+        let contacts = contacts(&view, &topology, &faces, &Unwatched).unwrap();
         let selection = selection(&view, &weld, &Options::default());
-        let edges = edges(&view, &topology, &faces, &contacts, &selection);
+        let edges = edges(&view, (&topology, &faces), &contacts, &selection, &Unwatched).unwrap();
         edges.hard.iter().map(|edge| edge.skipped).collect()
     }
 
