@@ -7,7 +7,7 @@ use glam::DVec3;
 use crate::breaks::{is_hard, seam_between};
 use crate::contacts::{ASKED, Contacts};
 use crate::error::Error;
-use crate::faces::Faces;
+use crate::faces::{Faces, is_blurred};
 use crate::ids::{Corner, Edge, IdVec, Vertex};
 use crate::mesh::UV_CHANNELS;
 use crate::report::Reason;
@@ -122,7 +122,7 @@ pub fn edges(
         }
         watch.worked(ASKED)?;
         let widths = selection.widths(topology, faces, [corner, twin]);
-        let skipped = obstacle(topology, faces, corner, twin)
+        let skipped = obstacle(view, topology, faces, [corner, twin])
             .or(widths.is_none().then_some(Reason::NotSelected))
             .or_else(|| contacts.holds(view, topology, faces, corner).then_some(Reason::Contact));
         let edge = hard.push(HardEdge {
@@ -170,10 +170,17 @@ fn spanned(
 }
 
 /// What keeps a hard edge from being chamfered whatever the width.
-fn obstacle(topology: &Topology, faces: &Faces, side: Corner, other: Corner) -> Option<Reason> {
+fn obstacle(
+    view: &View,
+    topology: &Topology,
+    faces: &Faces,
+    [side, other]: [Corner; 2],
+) -> Option<Reason> {
     let [one, two] = [side, other].map(|half_edge| faces.normal[half_edge.triangle()]);
     if one == DVec3::ZERO || two == DVec3::ZERO {
-        return Some(Reason::NoArea);
+        let unknown = [(side, one), (other, two)].into_iter().filter(|(_, n)| *n == DVec3::ZERO);
+        let is_blurred = unknown.into_iter().all(|(side, _)| is_blurred(view, side.triangle()));
+        return Some(if is_blurred { Reason::TooFine } else { Reason::NoArea });
     }
     let is_doubled = topology.doubled.binary_search(&side).is_ok();
     if is_doubled || one.dot(two) < BACK_TO_BACK_COSINE {
