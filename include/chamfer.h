@@ -208,7 +208,7 @@ extern "C" {
 /** `reason`: a triangle beside the edge has no area. */
 #define CHAMFER_REASON_NO_AREA 7
 
-/** `reason`: the width is too small for the precision of the positions here. */
+/** `reason`: the width, or a face beside it, is too small for the precision of the positions here. */
 #define CHAMFER_REASON_TOO_FINE 8
 
 /** `reason`: something rests on the edge, or right beside it; light would show behind a chamfer. */

@@ -23,6 +23,7 @@ use crate::threads::Threads;
 use crate::tolerance::{BACK_TO_BACK_COSINE, LINE_HEIGHT, TOUCHING, TOUCHING_STEPS};
 use crate::topology::{Topology, topology};
 use crate::view::{View, view, wide};
+use crate::watch::Watch;
 use crate::weld::weld;
 
 use crowds::{Crowds, Search, crowds};
@@ -33,6 +34,9 @@ const HOLD_REACH: f64 = 2.0;
 
 /// What rests on an edge within so many tolerances of an end alone rests on that end.
 const HOLD_SLACK: f64 = 4.0;
+
+/// So many steps it takes to ask what rests on an edge, as a watch counts them.
+pub const ASKED: usize = 8;
 
 /// A line that may rest on the mesh.
 #[derive(Clone)]
@@ -68,8 +72,14 @@ pub struct Contacts {
 /// Gathers what may rest on a mesh.
 ///
 /// # Errors
-/// [`Error::OutOfMemory`] where what that needs is not to be had.
-pub fn contacts(view: &View, topology: &Topology, faces: &Faces) -> Result<Contacts, Error> {
+/// [`Error::OutOfMemory`] where what that needs is not to be had, and [`Error::Cancelled`] where the
+/// watch stops it.
+pub fn contacts(
+    view: &View,
+    topology: &Topology,
+    faces: &Faces,
+    watch: &dyn Watch,
+) -> Result<Contacts, Error> {
     let borders = open_borders(topology).count() + sheet_rims(topology, faces).count();
     memory::ask(memory::of_rims(borders + view.mesh.held.len()))?;
     let borders = open_borders(topology).chain(sheet_rims(topology, faces)).map(|border| Rim {
@@ -91,7 +101,7 @@ pub fn contacts(view: &View, topology: &Topology, faces: &Faces) -> Result<Conta
     let reach = view.resolution * LINE_HEIGHT;
     let kin = |rim: &Rim| crowds.kin(rim, rim.is_of_sheet(topology), reach);
     let kin: Vec<Kin> = if crowds.is_empty() { Vec::new() } else { places().map(kin).collect() };
-    let tree = Tree::new(&boxes, &kin).into();
+    let tree = Tree::watched(&boxes, &kin, watch)?.into();
     Ok(Contacts { rims, starts: starts.into(), tree, crowds, tolerance })
 }
 

@@ -5,8 +5,9 @@ mod parted;
 use glam::DVec3;
 
 use crate::breaks::{is_hard, seam_between};
-use crate::contacts::Contacts;
-use crate::faces::Faces;
+use crate::contacts::{ASKED, Contacts};
+use crate::error::Error;
+use crate::faces::{Faces, is_blurred};
 use crate::ids::{Corner, Edge, IdVec, Vertex};
 use crate::mesh::UV_CHANNELS;
 use crate::report::Reason;
@@ -14,6 +15,7 @@ use crate::selection::Selection;
 use crate::tolerance::BACK_TO_BACK_COSINE;
 use crate::topology::Topology;
 use crate::view::View;
+use crate::watch::Watch;
 use crate::weld::Weld;
 
 pub use parted::{Parted, parted};
@@ -100,13 +102,17 @@ pub fn may_be_hard(view: &View, weld: &Weld) -> bool {
     weld.cluster_of.ids().any(differs)
 }
 
+/// Finds them.
+///
+/// # Errors
+/// [`Error::Cancelled`] where the watch stops it.
 pub fn edges(
     view: &View,
-    topology: &Topology,
-    faces: &Faces,
+    (topology, faces): (&Topology, &Faces),
     contacts: &Contacts,
     selection: &Selection,
-) -> Edges {
+    watch: &dyn Watch,
+) -> Result<Edges, Error> {
     let mut hard = IdVec::default();
     let mut chamfered_at = IdVec::filled(Edge::NONE, view.corner_count());
     for corner in topology.twin.ids() {
@@ -114,8 +120,9 @@ pub fn edges(
         if twin.is_none() || twin < corner || !is_hard(view, corner, twin) {
             continue;
         }
+        watch.worked(ASKED)?;
         let widths = selection.widths(topology, faces, [corner, twin]);
-        let skipped = obstacle(topology, faces, corner, twin)
+        let skipped = obstacle(view, topology, faces, [corner, twin])
             .or(widths.is_none().then_some(Reason::NotSelected))
             .or_else(|| contacts.holds(view, topology, faces, corner).then_some(Reason::Contact));
         let edge = hard.push(HardEdge {
@@ -131,7 +138,7 @@ pub fn edges(
     }
     let spanned = spanned(view, topology, faces, &chamfered_at);
     let parted = parted(view, topology, faces, &hard, &chamfered_at);
-    Edges { hard, chamfered_at, spanned, parted }
+    Ok(Edges { hard, chamfered_at, spanned, parted })
 }
 
 /// The corners across from the long sides of lines that reach such a side to a chamfered edge.
@@ -163,10 +170,17 @@ fn spanned(
 }
 
 /// What keeps a hard edge from being chamfered whatever the width.
-fn obstacle(topology: &Topology, faces: &Faces, side: Corner, other: Corner) -> Option<Reason> {
+fn obstacle(
+    view: &View,
+    topology: &Topology,
+    faces: &Faces,
+    [side, other]: [Corner; 2],
+) -> Option<Reason> {
     let [one, two] = [side, other].map(|half_edge| faces.normal[half_edge.triangle()]);
     if one == DVec3::ZERO || two == DVec3::ZERO {
-        return Some(Reason::NoArea);
+        let unknown = [(side, one), (other, two)].into_iter().filter(|(_, n)| *n == DVec3::ZERO);
+        let is_blurred = unknown.into_iter().all(|(side, _)| is_blurred(view, side.triangle()));
+        return Some(if is_blurred { Reason::TooFine } else { Reason::NoArea });
     }
     let is_doubled = topology.doubled.binary_search(&side).is_ok();
     if is_doubled || one.dot(two) < BACK_TO_BACK_COSINE {
@@ -199,6 +213,7 @@ mod tests {
     use crate::threads::Threads;
     use crate::topology::topology;
     use crate::view::view;
+    use crate::watch::Unwatched;
     use crate::weld::weld;
 
     /// A roof of two triangles over the edge 0-1, with the given normals and far corners.
@@ -229,9 +244,9 @@ mod tests {
         let weld = weld(&mesh);
         let topology = topology(&view, &weld);
         let faces = faces(&view, &topology, &Threads::default());
-        let contacts = contacts(&view, &topology, &faces).unwrap();
+        let contacts = contacts(&view, &topology, &faces, &Unwatched).unwrap();
         let selection = selection(&view, &weld, &Options::default());
-        let edges = edges(&view, &topology, &faces, &contacts, &selection);
+        let edges = edges(&view, (&topology, &faces), &contacts, &selection, &Unwatched).unwrap();
         edges.hard.iter().map(|edge| edge.skipped).collect()
     }
 

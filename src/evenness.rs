@@ -11,10 +11,12 @@ use std::collections::BinaryHeap;
 
 use glam::DVec3;
 
+use crate::error::Error;
 use crate::given::Given;
-use crate::ids::{Corner, Edge, Sector};
+use crate::ids::{Corner, Edge, Id, Sector};
 use crate::room::Room;
 use crate::tolerance::CREASE_COSINE;
+use crate::watch::{Watch, stretches};
 
 /// At an evenness of a half, how much wider a chamfer may get along its edge for each unit of the
 /// way: from nothing to the whole width in two hundred widths. With twice as much an edge of ten
@@ -36,21 +38,30 @@ type Front = (Sector, usize);
 /// Narrows what is next to something narrow, so far as an evenness of 0 (not at all) to 1 asks: at
 /// 1 a side of an edge has one width, and both sides the same; at a half one side may be twice as
 /// wide as the other.
-pub fn evenness(given: &Given, room: Room, evenness: f64) -> Room {
+///
+/// # Errors
+/// [`Error::Cancelled`] where the watch stops it.
+pub fn evenness(
+    given: &Given,
+    room: Room,
+    evenness: f64,
+    watch: &dyn Watch,
+) -> Result<Room, Error> {
     if evenness == 0.0 {
-        return room;
+        return Ok(room);
     }
     let (slope, lopsided) = (SLOPE * (1.0 - evenness) / evenness, 1.0 / evenness);
     let mut leveling = Leveling { given, slope, lopsided, room, narrow: BinaryHeap::new() };
-    leveling.narrow = leveling.seeds();
+    leveling.narrow = leveling.seeds(watch)?;
     while let Some(Narrow { share, front }) = leveling.narrow.pop() {
+        watch.worked(1)?;
         if share == leveling.share(front) {
             for (other, most) in leveling.linked(front, share).into_iter().flatten() {
                 leveling.lower(other, most);
             }
         }
     }
-    leveling.room
+    Ok(leveling.room)
 }
 
 struct Leveling<'a> {
@@ -87,21 +98,24 @@ impl PartialOrd for Narrow {
 impl Leveling<'_> {
     /// The fronts that narrow others from the beginning: few of those that are narrow. The others can
     /// only come to do so when they are lowered themselves.
-    fn seeds(&mut self) -> BinaryHeap<Narrow> {
+    fn seeds(&mut self, watch: &dyn Watch) -> Result<BinaryHeap<Narrow>, Error> {
         let mut seeds = Vec::new();
-        for sector in self.room.fronts.ids().filter(|&sector| self.given.offsets[sector].moves()) {
-            for front in [(sector, 0), (sector, 1)] {
-                let share = self.share(front);
-                if share < 1.0 {
-                    let linked = self.linked(front, share);
-                    if linked.into_iter().flatten().any(|(other, most)| self.has_more(other, most))
-                    {
-                        seeds.push(Narrow { share, front });
-                    }
-                }
+        for stretch in stretches(self.room.fronts.len(), watch) {
+            let moves = |sector: &Sector| self.given.offsets[*sector].moves();
+            for sector in stretch?.map(Sector::new).filter(moves) {
+                seeds.extend([0, 1].into_iter().filter_map(|which| self.seed((sector, which))));
             }
         }
-        seeds.into()
+        Ok(seeds.into())
+    }
+
+    fn seed(&mut self, front: Front) -> Option<Narrow> {
+        let share = self.share(front);
+        if share >= 1.0 {
+            return None;
+        }
+        let mut linked = self.linked(front, share).into_iter().flatten();
+        linked.any(|(other, most)| self.has_more(other, most)).then_some(Narrow { share, front })
     }
 
     fn share(&self, (sector, which): Front) -> f64 {
@@ -207,10 +221,18 @@ mod tests {
     use crate::ids::Id;
     use crate::mesh::{Factors, Mesh, MeshBuffers};
     use crate::options::{Options, Width};
-    use crate::room::room;
     use crate::shapes;
     use crate::stages::{Stages, stages_of, stages_of_mesh};
     use crate::strips;
+    use crate::watch::Unwatched;
+
+    fn room(given: &Given) -> Room {
+        crate::room::room(given, &Unwatched).unwrap()
+    }
+
+    fn evened(given: &Given, room: Room, even: f64) -> Room {
+        evenness(given, room, even, &Unwatched).unwrap()
+    }
 
     /// The shares of an edge in the order of its strip's corners, where one front has so little
     /// room that it narrows all around it.
@@ -219,7 +241,7 @@ mod tests {
         let mut room = room(&given);
         let sectors = sectors(stages, edge);
         room.fronts[sectors[1]] = [narrow, 1.0];
-        let room = evenness(&given, room, even);
+        let room = evened(&given, room, even);
         let share = |(place, front): (usize, usize)| room.fronts[sectors[place]][front];
         [(0, 1), (1, 0), (2, 1), (3, 0)].map(share)
     }
@@ -324,7 +346,7 @@ mod tests {
         let mut room = room(&given);
         assert_eq!([room.fronts[left], room.fronts[right]], [[1.0; 2]; 2]);
         room.fronts[left] = [0.3, 1.0];
-        let room = evenness(&given, room, 0.5);
+        let room = evened(&given, room, 0.5);
         assert_eq!(room.fronts[right][1], 0.3);
         assert!(room.fronts[right][0] > 0.9 && room.fronts[left][1] > 0.5, "{:?}", room.fronts);
     }
@@ -333,7 +355,7 @@ mod tests {
     fn what_has_room_everywhere_stays_as_it_is() {
         let cube: MeshBuffers = shapes::plain_cube(1.0);
         let stages = stages_of(&cube, 0.1);
-        let room = evenness(&given_of(&stages), room(&given_of(&stages)), 1.0);
+        let room = evened(&given_of(&stages), room(&given_of(&stages)), 1.0);
         assert!(room.fronts.iter().all(|&fronts| fronts == [1.0; 2]));
     }
 
@@ -342,7 +364,7 @@ mod tests {
         for mesh in [shapes::plate(), shapes::l_shape(), shapes::table(), shapes::bolt()] {
             let stages = stages_of(&mesh, 0.3);
             let given = given_of(&stages);
-            let room = evenness(&given, room(&given), 0.5);
+            let room = evened(&given, room(&given), 0.5);
             for edge in stages.edges.hard.ids() {
                 let sectors = sectors(&stages, edge);
                 let share = |(place, front): (usize, usize)| room.fronts[sectors[place]][front];

@@ -12,7 +12,7 @@ use crate::math::{area_vector, unit};
 use crate::threads::Threads;
 use crate::tolerance::LINE_HEIGHT;
 use crate::topology::Topology;
-use crate::view::View;
+use crate::view::{View, resolution_of};
 
 /// Lines lie next to lines where an edge meets several others; more than so many in a row are
 /// broken geometry.
@@ -56,11 +56,23 @@ pub fn faces(view: &View, topology: &Topology, threads: &Threads) -> Faces {
 
 /// Zero for a line.
 pub fn own_normal(view: &View, triangle: Triangle) -> DVec3 {
-    let points = view.triangle(triangle);
-    let area = area_vector(points);
-    let longest = (0..3).map(|k| points[k].distance(points[(k + 1) % 3])).fold(0.0, f64::max);
+    let (area, longest) = measures(view, triangle);
     let is_line = area.length() <= longest * view.resolution * LINE_HEIGHT;
     if is_line { DVec3::ZERO } else { unit(area) }
+}
+
+/// Whether a line would be none if its mesh stood at the origin: out here its coordinates are too
+/// coarse to tell.
+pub fn is_blurred(view: &View, line: Triangle) -> bool {
+    let (area, longest) = measures(view, line);
+    area.length() > longest * resolution_of(view.extent) * LINE_HEIGHT
+}
+
+/// A triangle's area vector, and its longest side.
+fn measures(view: &View, triangle: Triangle) -> (DVec3, f64) {
+    let points = view.triangle(triangle);
+    let longest = (0..3).map(|k| points[k].distance(points[(k + 1) % 3])).fold(0.0, f64::max);
+    (area_vector(points), longest)
 }
 
 /// The half-edge behind a line's longest soft side that has a face with a normal.

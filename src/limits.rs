@@ -18,7 +18,7 @@ use crate::ids::{IdVec, Ring, Sector};
 use crate::options::Verify;
 use crate::placement::Placement;
 use crate::report::Reason;
-use crate::watch::Watch;
+use crate::watch::{Watch, stretches};
 
 pub use elements::Element;
 
@@ -42,6 +42,9 @@ const GROW_PASSES: usize = 2;
 /// take quadratic time.
 const LONGEST_GROWN: usize = 64;
 
+/// Each try looks at a dozen elements, most of them at once.
+const STEPS_OF_GROWTH: usize = 64;
+
 /// What each sector gets.
 pub struct Limits<'a> {
     pub placement: Placement<'a>,
@@ -61,10 +64,11 @@ pub fn limits<'a>(
     watch: &dyn Watch,
 ) -> Result<Limits<'a>, Error> {
     let mut limits = bounded(given, room);
-    let bad = bad_elements(given, &limits.placement);
-    shrink(given, &mut limits, bad);
+    watch.worked(room.len())?;
+    let bad = bad_elements(given, &limits.placement, watch)?;
+    shrink(given, &mut limits, bad, watch)?;
     for _ in 0..GROW_PASSES {
-        grow(given, room, &mut limits);
+        grow(given, room, &mut limits, watch)?;
     }
     if verify != Verify::Fast {
         collisions::resolve(given, &mut limits, watch)?;
@@ -100,11 +104,17 @@ fn bounded<'a>(given: &Given<'a>, shares: &IdVec<Sector, f64>) -> Limits<'a> {
 }
 
 /// Shrinks what is bad, and then what is bad around what has shrunk; tells all that has.
-fn shrink(given: &Given, limits: &mut Limits, mut bad: Vec<Element>) -> Vec<Sector> {
+fn shrink(
+    given: &Given,
+    limits: &mut Limits,
+    mut bad: Vec<Element>,
+    watch: &dyn Watch,
+) -> Result<Vec<Sector>, Error> {
     let mut all = Vec::new();
     for round in 0.. {
         let mut shrunk = Vec::new();
         let reason = |element| (why(given, &limits.placement, element), element);
+        watch.worked(bad.len())?;
         let mut blamed: Vec<(Reason, Element)> = bad.into_iter().map(reason).collect();
         // The last one is told: by what it is, not by who has the largest number.
         blamed.sort_by_key(|(reason, _)| *reason);
@@ -115,10 +125,10 @@ fn shrink(given: &Given, limits: &mut Limits, mut bad: Vec<Element>) -> Vec<Sect
             break;
         }
         apply(given, limits, round, &mut shrunk);
-        bad = bad_around(given, &limits.placement, &shrunk);
+        bad = bad_around(given, &limits.placement, &shrunk, watch)?;
         all.extend(shrunk);
     }
-    all
+    Ok(all)
 }
 
 /// Why a bad element is bad.
@@ -131,9 +141,18 @@ fn why(given: &Given, placement: &Placement, element: Element) -> Reason {
 }
 
 /// All that depends on the sectors and is bad.
-fn bad_around(given: &Given, placement: &Placement, sectors: &[Sector]) -> Vec<Element> {
-    let suspects = around(given, sectors).into_iter();
-    suspects.filter(|&element| !is_valid(given, placement, element)).collect()
+fn bad_around(
+    given: &Given,
+    placement: &Placement,
+    sectors: &[Sector],
+    watch: &dyn Watch,
+) -> Result<Vec<Element>, Error> {
+    let (suspects, mut bad) = (around(given, sectors), Vec::new());
+    for stretch in stretches(suspects.len(), watch) {
+        let suspects = suspects[stretch?].iter().copied();
+        bad.extend(suspects.filter(|&element| !is_valid(given, placement, element)));
+    }
+    Ok(bad)
 }
 
 /// Shrinks sectors, each once; after some rounds together with their whole rings: to one share for
@@ -207,8 +226,14 @@ fn blame(
 
 /// Gives back to every sector that was shrunk, up to its room, as much as it can take with all
 /// others where they are.
-fn grow(given: &Given, room: &IdVec<Sector, f64>, limits: &mut Limits) {
+fn grow(
+    given: &Given,
+    room: &IdVec<Sector, f64>,
+    limits: &mut Limits,
+    watch: &dyn Watch,
+) -> Result<(), Error> {
     for sector in in_turn(given, room, &limits.placement) {
+        watch.worked(STEPS_OF_GROWTH)?;
         let (mut good, mut bad) = (limits.placement.share[sector], room[sector]);
         let mut found = obstacle(given, &mut limits.placement, sector, bad, None);
         if found.is_none() {
@@ -224,6 +249,7 @@ fn grow(given: &Given, room: &IdVec<Sector, f64>, limits: &mut Limits) {
         }
         limits.placement.set(sector, good);
     }
+    Ok(())
 }
 
 /// The sectors that were shrunk, in the order in which they are asked: those first that lost most.
@@ -271,12 +297,15 @@ mod tests {
     use crate::mesh::MeshBuffers;
     use crate::shapes;
     use crate::stages::stages_of;
+    use crate::watch::Unwatched;
 
     /// The shares of all sectors that can move.
     fn shares(mesh: &MeshBuffers, width: f32) -> Vec<f64> {
         let stages = stages_of(mesh, width);
         let limits = stages.limits(Verify::Fast);
-        assert!(bad_elements(&given_of(&stages), &limits.placement).is_empty());
+        assert!(
+            bad_elements(&given_of(&stages), &limits.placement, &Unwatched).unwrap().is_empty()
+        );
         let movable = stages.sectors.fans.ids().filter(|&sector| stages.offsets[sector].moves());
         movable.map(|sector| limits.placement.share[sector]).collect()
     }

@@ -15,6 +15,7 @@ use glam::DVec3;
 use crate::breaks::{is_hard, seam_between, uv_at};
 use crate::chamfers::Chamfers;
 use crate::edges::Edges;
+use crate::error::Error;
 use crate::faces::Faces;
 use crate::foot::{Foot, locate};
 use crate::ids::{Corner, Id, IdVec, Sector};
@@ -26,6 +27,7 @@ use crate::threads::Threads;
 use crate::tolerance::{CREASE_COSINE, FLAT_COSINE, LEAST_SLIDE_SINE, LEVEL_COSINE, LEVEL_HEIGHT};
 use crate::topology::Topology;
 use crate::view::View;
+use crate::watch::Watch;
 
 use fronts::follow;
 pub use fronts::{narrowed, parts};
@@ -87,14 +89,18 @@ impl Known<'_> {
 }
 
 /// `#sectors`; those that are known are not found anew.
+///
+/// # Errors
+/// [`Error::Cancelled`] where the watch stops it.
 pub fn offsets(
     surface: Surface,
     chamfers: Chamfers,
     known: Option<&Known>,
-    threads: &Threads,
-) -> IdVec<Sector, Offset> {
+    (threads, watch): (&Threads, &dyn Watch),
+) -> Result<IdVec<Sector, Offset>, Error> {
     let (Surface { view, topology, faces }, Chamfers { sectors, .. }) = (surface, chamfers);
-    let mut offsets = threads.map_with(sectors.fans.len(), Vec::new, |spread, sector| {
+    let count = sectors.fans.len();
+    let mut offsets = threads.map_with_watched(count, watch, Vec::new, |spread, sector| {
         if let Some(offset) = known.and_then(|known| known.of(topology, sectors, sector)) {
             return offset;
         }
@@ -109,7 +115,7 @@ pub fn offsets(
             is_capped: false,
             fronts: [1.0; 2],
         })
-    });
+    })?;
     for followers in sectors.followers.chunk_by(|one, other| one.sector == other.sector) {
         let sector = followers[0].sector;
         let corners: Vec<Corner> = sectors.corners(topology, sector).collect();
@@ -123,7 +129,7 @@ pub fn offsets(
             offsets[sectors.sector_of[corner]] = offset;
         }
     }
-    offsets
+    Ok(offsets)
 }
 
 /// Goes along with the ends of the line that the first corner of a flat fan is in: the line closes

@@ -336,7 +336,9 @@ fn chamfer_found(
 ) -> Result<Chamfered, Error> {
     let view = space.measured;
     memory::ask(memory::of_chamfers(&view.mesh, shape.chamfers().work()))?;
-    let offsets = find_offsets(shape.surface(view), shape.chamfers(), None, threads);
+    let ask = &mut || done(None);
+    let offsets =
+        find_offsets(shape.surface(view), shape.chamfers(), None, (threads, &Caller::new(ask)))?;
     let refined = if space.is_plain(&shape.edges) { refine(view, &shape, &offsets)? } else { None };
     let chamfered = match refined {
         Some(refined) => chamfer_refined(space, (shape, offsets), &refined, options, done),
@@ -361,10 +363,11 @@ pub(crate) fn shape(
     done(Some(Stage::Topology))?;
     let faces = faces(view, &topology, threads);
     done(Some(Stage::Faces))?;
-    let contacts = contacts(view, &topology, &faces)?;
+    let contacts = contacts(view, &topology, &faces, &Caller::new(&mut || done(None)))?;
     done(Some(Stage::Contacts))?;
     let selection = selection(view, &weld, options);
-    let edges = edges(view, &topology, &faces, &contacts, &selection);
+    let ask = &mut || done(None);
+    let edges = edges(view, (&topology, &faces), &contacts, &selection, &Caller::new(ask))?;
     done(Some(Stage::Edges))?;
     memory::ask(memory::of_sectors(edges.hard.len()))?;
     let sectors = sectors(view, &topology, &edges, &contacts);
@@ -392,7 +395,9 @@ fn chamfer_refined(
     };
     let known = Known { sectors: &shape.sectors, offsets: &offsets, is_new: &refined.is_new() };
     memory::ask(memory::of_chamfers(&fine.mesh, finer.chamfers().work()))?;
-    let offsets = find_offsets(finer.surface(fine), finer.chamfers(), Some(&known), threads);
+    let ask = &mut || done(None);
+    let (surface, watch) = (finer.surface(fine), Caller::new(ask));
+    let offsets = find_offsets(surface, finer.chamfers(), Some(&known), (threads, &watch))?;
     done(Some(Stage::Offsets))?;
     let hard = finer.edges.hard.clone();
     let origins = Origins::new(&view.mesh, refined, &shape.edges.hard, &hard);
@@ -441,13 +446,15 @@ fn make(
     let view = space.measured;
     let (surface, chamfers) = (shape.surface(view), shape.chamfers());
     let Shape { weld, topology, faces, contacts, edges, .. } = shape;
-    let rests = rests(view, topology, faces, edges, contacts);
+    let mut ask = || done(None);
+    let watch = Caller::new(&mut ask);
+    let rests = rests(view, topology, faces, edges, contacts, &watch)?;
     let deep = &deep(topology, chamfers.sectors);
     let asked = &Given { surface, chamfers, offsets, rests: &rests, deep, threads };
-    let room = evenness(asked, room(asked), options.evenness.into());
+    let room = evenness(asked, room(asked, &watch)?, options.evenness.into(), &watch)?;
     let offsets = &*narrowed(surface, chamfers.sectors, offsets, &room.fronts);
     let given = &Given { offsets, ..*asked };
-    let limits = limits(given, &room.shares(), options.verify, &Caller::new(&mut || done(None)))?;
+    let limits = limits(given, &room.shares(), options.verify, &watch)?;
     let placement = &limits.placement;
     done(Some(Stage::Limits))?;
     let mut ask = || done(None);

@@ -269,7 +269,7 @@ reasons! {
     ZeroThickness = 6, c"zero_thickness";
     /// A triangle beside it has no area.
     NoArea = 7, c"no_area";
-    /// The width is too small for the precision of the positions here.
+    /// The width, or a face beside it, is too small for the precision of the positions here.
     TooFine = 8, c"too_fine";
     /// Something rests on the edge, or on a face right beside it: light would show behind a chamfer.
     Contact = 9, c"contact";

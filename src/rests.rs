@@ -2,12 +2,14 @@
 
 use glam::DVec3;
 
-use crate::contacts::{Contacts, Cut, Stretch, Wedge};
+use crate::contacts::{ASKED, Contacts, Cut, Stretch, Wedge};
 use crate::edges::Edges;
+use crate::error::Error;
 use crate::faces::Faces;
 use crate::ids::{Edge, IdVec};
 use crate::topology::Topology;
 use crate::view::View;
+use crate::watch::Watch;
 
 /// For each hard edge, the stretches of border in the wedge that it loses at full width.
 #[derive(Default)]
@@ -21,16 +23,20 @@ pub struct Rests {
 }
 
 /// What rests in the wedges that chamfers of full width cut off.
+///
+/// # Errors
+/// [`Error::Cancelled`] where the watch stops it.
 pub fn rests(
     view: &View,
     topology: &Topology,
     faces: &Faces,
     edges: &Edges,
     contacts: &Contacts,
-) -> Rests {
+    watch: &dyn Watch,
+) -> Result<Rests, Error> {
     let mut rests = Rests { tolerance: contacts.tolerance(), ..Rests::default() };
     if contacts.is_empty() {
-        return rests;
+        return Ok(rests);
     }
     for edge in edges.hard.iter() {
         if edge.skipped.is_none() {
@@ -42,8 +48,9 @@ pub fn rests(
             ));
         }
         rests.ends.push(rests.stretches.len() as u32);
+        watch.worked(ASKED)?;
     }
-    rests
+    Ok(rests)
 }
 
 impl Rests {

@@ -12,10 +12,12 @@ use std::collections::BinaryHeap;
 
 use glam::DVec3;
 
+use crate::error::Error;
 use crate::given::Given;
-use crate::ids::{Corner, Few, IdVec, Sector, Triangle};
+use crate::ids::{Corner, Few, Id, IdVec, Sector, Triangle};
 use crate::math::area_vector;
 use crate::offsets::parts;
+use crate::watch::{Watch, stretches};
 
 /// A triangle may give away all but this share of its area. Somewhat more than what validity asks
 /// for, so that rounding does not undo it.
@@ -75,24 +77,26 @@ impl KnownParts {
 }
 
 /// The room that there is.
-pub fn room(given: &Given) -> Room {
+///
+/// # Errors
+/// [`Error::Cancelled`] where the watch stops it.
+pub fn room(given: &Given, watch: &dyn Watch) -> Result<Room, Error> {
     let share = |sector: Sector| [if given.offsets[sector].moves() { GROWING } else { 0.0 }; 2];
     let fronts = given.threads.map(given.offsets.len(), share);
     let parts = KnownParts::new(fronts.len());
     let due = IdVec::filled(GROWING, given.surface.faces.normal.len());
     let (first, later) = (Vec::new(), BinaryHeap::new());
     let mut filling = Filling { given, fronts, parts, first, later, due };
-    let is_free = |triangle: Triangle| filling.has_plenty(triangle);
-    let pressed = given.surface.view.triangles().filter(|&triangle| !is_free(triangle));
-    filling.first = pressed.filter_map(|triangle| filling.event(triangle, 0.0)).collect();
+    filling.first = filling.pressed(watch)?;
     filling.first.iter().for_each(|event| filling.due[event.triangle] = event.share);
     filling.first.sort_unstable();
     while let Some(event) = filling.next_event() {
+        watch.worked(1)?;
         filling.stop_around(&event);
     }
     let Filling { mut fronts, parts, .. } = filling;
     fronts.iter_mut().for_each(|fronts| *fronts = fronts.map(|share| share.min(1.0)));
-    Room { fronts, parts }
+    Ok(Room { fronts, parts })
 }
 
 /// A triangle that has given away all it can when everything has grown to a share.
@@ -170,6 +174,16 @@ struct Moving {
 impl Filling<'_> {
     fn sectors(&self, triangle: Triangle) -> [Sector; 3] {
         triangle.corners().map(|corner| self.given.chamfers.sectors.sector_of[corner])
+    }
+
+    /// The events that are known from the beginning, in the order of their triangles.
+    fn pressed(&self, watch: &dyn Watch) -> Result<Vec<Event>, Error> {
+        let mut events = Vec::new();
+        for stretch in stretches(self.due.len(), watch) {
+            let pressed = stretch?.map(Triangle::new).filter(|&t| !self.has_plenty(t));
+            events.extend(pressed.filter_map(|triangle| self.event(triangle, 0.0)));
+        }
+        Ok(events)
     }
 
     /// The earliest event that is left.
@@ -436,6 +450,7 @@ mod tests {
     use crate::options::{Options, Width};
     use crate::shapes;
     use crate::stages::stages_with;
+    use crate::watch::Unwatched;
 
     #[test]
     fn the_first_root_is_the_smallest_positive_one() {
@@ -463,7 +478,7 @@ mod tests {
     /// its first edge along x or along z.
     fn shares_on(face: DVec3, mesh: &MeshBuffers, width: f32) -> Vec<(DVec3, [f64; 2])> {
         let stages = stages_with(mesh, &asking(width));
-        let room = room(&given_of(&stages));
+        let room = room(&given_of(&stages), &Unwatched).unwrap();
         let on_face = |sector: &Sector| {
             let corner = stages.sectors.fans[*sector].first;
             stages.faces.normal[corner.triangle()].dot(face) > 0.9

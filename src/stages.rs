@@ -61,19 +61,20 @@ pub fn stages_of_mesh<'a>(mesh: Mesh<'a>, options: &Options) -> Stages<'a> {
     let weld = weld(&view.mesh);
     let topology = topology(&view, &weld);
     let faces = faces(&view, &topology, &threads);
-    let contacts = contacts(&view, &topology, &faces).unwrap();
+    let contacts = contacts(&view, &topology, &faces, &Unwatched).unwrap();
     let selection = selection(&view, &weld, options);
-    let edges = edges(&view, &topology, &faces, &contacts, &selection);
+    let edges = edges(&view, (&topology, &faces), &contacts, &selection, &Unwatched).unwrap();
     let sectors = sectors(&view, &topology, &edges, &contacts);
     let surface = Surface { view: &view, topology: &topology, faces: &faces };
     let chamfers = Chamfers { edges: &edges, sectors: &sectors };
-    let offsets = offsets(surface, chamfers, None, &threads);
-    let rests = rests(&view, &topology, &faces, &edges, &contacts);
+    let offsets = offsets(surface, chamfers, None, (&threads, &Unwatched)).unwrap();
+    let rests = rests(&view, &topology, &faces, &edges, &contacts, &Unwatched).unwrap();
     let deep = deep(&topology, &sectors);
     let (room, narrowed) = {
         let (offsets, rests, deep, threads) = (&offsets, &rests, &deep, &threads);
         let given = &Given { surface, chamfers, offsets, rests, deep, threads };
-        let room = evenness(given, room(given), options.evenness.into());
+        let room = room(given, &Unwatched).unwrap();
+        let room = evenness(given, room, options.evenness.into(), &Unwatched).unwrap();
         let narrowed = narrowed(surface, &sectors, offsets, &room.fronts).into_owned();
         (room, narrowed)
     };
@@ -136,5 +137,75 @@ impl Stages<'_> {
     /// All sectors where the limits leave them.
     pub fn placement(&self) -> Placement<'_> {
         self.limits(Verify::Fast).placement
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cell::Cell;
+
+    use super::*;
+    use crate::error::Error;
+    use crate::shapes;
+    use crate::watch::Watch;
+
+    /// Stops when it is told for the last time that it bears.
+    struct Bears(Cell<usize>);
+
+    impl Watch for Bears {
+        fn worked(&self, _: usize) -> Result<(), Error> {
+            self.0.set(self.0.get() - 1);
+            if self.0.get() > 0 { Ok(()) } else { Err(Error::Cancelled) }
+        }
+    }
+
+    /// How often a stage tells its watch; whenever it does, it can be stopped.
+    #[track_caller]
+    fn times<T>(stage: impl Fn(&dyn Watch) -> Result<T, Error>) -> usize {
+        let all = Bears(Cell::new(usize::MAX));
+        assert!(stage(&all).is_ok());
+        let times = usize::MAX - all.0.get();
+        for last in 1..=times {
+            assert!(matches!(stage(&Bears(Cell::new(last))), Err(Error::Cancelled)), "{last}");
+        }
+        times
+    }
+
+    /// A plate that is too thin for the width, so that each stage has something to do.
+    #[test]
+    fn each_stage_that_may_take_long_tells_its_watch() {
+        let plate = shapes::plate();
+        let stages = stages_of(&plate, 0.5);
+        let Stages { view, topology, faces, edges, weld, .. } = &stages;
+        let contacts_of = |watch: &dyn Watch| contacts(view, topology, faces, watch);
+        let found = contacts_of(&Unwatched).unwrap();
+        let selection = selection(view, weld, &Options::default());
+        let (surface, chamfers) = (stages.surface(), stages.chamfers());
+        let Stages { offsets: vectors, rests: held, deep, threads, .. } = &stages;
+        let given = &Given { surface, chamfers, offsets: vectors, rests: held, deep, threads };
+        let open = room(given, &Unwatched).unwrap().shares();
+        let twelve = edges.hard.len();
+        assert_eq!(
+            times(|watch| super::edges(view, (topology, faces), &found, &selection, watch)),
+            twelve
+        );
+        assert_eq!(times(|watch| offsets(surface, chamfers, None, (threads, watch))), 1);
+        assert!(times(|watch| room(given, watch)) > 1);
+        let evened = |watch: &dyn Watch| evenness(given, room(given, &Unwatched)?, 0.5, watch);
+        assert!(times(evened) > 1);
+        let limited = |verify| times(|watch| limits(given, &open, verify, watch));
+        assert!(limited(Verify::Fast) > 8);
+        assert!(limited(Verify::Full) > limited(Verify::Fast));
+    }
+
+    #[test]
+    fn what_may_rest_on_something_is_gathered_and_asked_under_a_watch() {
+        let open = shapes::open_box();
+        let stages = stages_of(&open, 0.05);
+        let Stages { view, topology, faces, edges, .. } = &stages;
+        assert!(times(|watch| contacts(view, topology, faces, watch)) >= 1);
+        let found = contacts(view, topology, faces, &Unwatched).unwrap();
+        let asked = times(|watch| rests(view, topology, faces, edges, &found, watch));
+        assert_eq!(asked, edges.hard.len());
     }
 }

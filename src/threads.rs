@@ -10,9 +10,9 @@ use std::time::Duration;
 
 use crate::error::Error;
 use crate::ids::{Id, IdVec};
-use crate::watch::Watch;
 #[cfg(feature = "parallel")]
-use crate::watch::{Flag, STEPS};
+use crate::watch::Flag;
+use crate::watch::{STEPS, Watch};
 
 /// With less work than this in one stage, waking another thread takes longer than doing it.
 #[cfg(feature = "parallel")]
@@ -97,6 +97,27 @@ impl Threads {
         }
         let mut scratch = scratch();
         IdVec::from_vec((0..count).map(|index| value(&mut scratch, index)).collect())
+    }
+
+    /// As [`Threads::map_with`], telling a watch again and again.
+    ///
+    /// # Errors
+    /// What `watch` gives.
+    pub fn map_with_watched<I: Id + Send, T: Send, S>(
+        &self,
+        count: usize,
+        watch: &dyn Watch,
+        scratch: impl Fn() -> S + Sync + Send,
+        value: impl Fn(&mut S, I) -> T + Sync + Send,
+    ) -> Result<IdVec<I, T>, Error> {
+        let mut values = Vec::with_capacity(count);
+        for start in (0..count).step_by(STEPS) {
+            let some = STEPS.min(count - start);
+            let of = |scratch: &mut S, within: I| value(scratch, I::new(start + within.index()));
+            values.extend(self.map_with(some, &scratch, of));
+            watch.worked(some)?;
+        }
+        Ok(IdVec::from_vec(values))
     }
 
     /// Looks at each id in the light of a state, block by block, and takes what was noted of the
@@ -196,6 +217,27 @@ impl Threads {
             return pool.install(|| (0..count).into_par_iter().filter_map(such).collect());
         }
         (0..count).filter_map(such).collect()
+    }
+
+    /// As [`Threads::filter`], telling a watch again and again.
+    ///
+    /// # Errors
+    /// What `watch` gives.
+    pub fn filter_watched<I: Id + Send>(
+        &self,
+        count: usize,
+        watch: &dyn Watch,
+        is_such: impl Fn(I) -> bool + Sync + Send,
+    ) -> Result<Vec<I>, Error> {
+        let mut such = Vec::new();
+        for start in (0..count).step_by(STEPS) {
+            let some = STEPS.min(count - start);
+            let id = |within: I| I::new(start + within.index());
+            let found = self.filter(some, |within: I| is_such(id(within)));
+            such.extend(found.into_iter().map(id));
+            watch.worked(some)?;
+        }
+        Ok(such)
     }
 }
 

@@ -45,7 +45,9 @@ fn verdict(
             let at = strips::corners(edge).map(|corner| sectors.sector_of[corner]);
             let reason = worst_reason(limits, at);
             if !is_open {
-                let reason = reason.unwrap_or(unopened(view, sectors, (edge, at)));
+                let is_fine = edge.widest() <= view.resolution;
+                let reason = if is_fine { Some(Reason::TooFine) } else { reason };
+                let reason = reason.unwrap_or(unopened(sectors, at));
                 let is_turned = reason == Reason::Folds && faces_away(view, edge);
                 left(if is_turned { Reason::Winding } else { reason })
             } else {
@@ -75,10 +77,8 @@ fn faces_away(view: &View, edge: &HardEdge) -> bool {
 }
 
 /// Why an edge did not open though nothing limited it.
-fn unopened(view: &View, sectors: &Sectors, (edge, at): (&HardEdge, [Sector; 4])) -> Reason {
-    if edge.widest() <= view.resolution {
-        Reason::TooFine
-    } else if at.into_iter().any(|sector| sectors.fans[sector].stays_with_rim()) {
+fn unopened(sectors: &Sectors, at: [Sector; 4]) -> Reason {
+    if at.into_iter().any(|sector| sectors.fans[sector].stays_with_rim()) {
         Reason::Contact
     } else {
         Reason::NoEnd

@@ -167,8 +167,12 @@ fn width_in_units(mesh: &Mesh, width: Width) -> Result<f64, Error> {
 /// The shortest length that single precision can tell from zero on a mesh.
 pub fn resolution(mesh: &Mesh) -> f64 {
     let largest = mesh.positions.as_flattened().iter().fold(0.0_f32, |m, x| m.max(x.abs()));
-    let step = f64::from(largest) * f64::from(f32::EPSILON);
-    step.max(SMALLEST_STEP) * RESOLUTION_STEPS
+    resolution_of(largest.into())
+}
+
+/// The same where coordinates are as large as this.
+pub fn resolution_of(largest: f64) -> f64 {
+    (largest * f64::from(f32::EPSILON)).max(SMALLEST_STEP) * RESOLUTION_STEPS
 }
 
 fn check_angles(options: &Options) -> Result<(), Error> {

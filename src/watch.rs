@@ -1,6 +1,7 @@
 //! Watch: inside of long work the caller is told that it goes on, and may stop it.
 
 use std::cell::{Cell, RefCell};
+use std::ops::Range;
 #[cfg(feature = "parallel")]
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -41,6 +42,21 @@ impl Watch for Caller<'_> {
         self.steps.set(if sum < STEPS { sum } else { 0 });
         if sum < STEPS { Ok(()) } else { (self.ask.borrow_mut())() }
     }
+}
+
+/// So many numbers at a time: told of each, telling would take a share of the time.
+const STRETCH: usize = 256;
+
+/// All numbers below one, stretch by stretch, of each of which the watch is told; its error comes in
+/// the place of one.
+pub fn stretches(
+    count: usize,
+    watch: &dyn Watch,
+) -> impl Iterator<Item = Result<Range<usize>, Error>> {
+    (0..count).step_by(STRETCH).map(move |start| {
+        let stretch = start..count.min(start + STRETCH);
+        watch.worked(stretch.len()).map(|()| stretch)
+    })
 }
 
 /// Stops nothing.

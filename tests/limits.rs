@@ -275,3 +275,36 @@ fn where_borders_of_two_parts_meet_nothing_gapes() {
         }
     }
 }
+
+/// What becomes of a mesh that stands so many times its extent from the origin.
+fn far_out(name: &str, mesh: &MeshBuffers, extents: f32) -> Chamfered {
+    let (mut far, extent) = (mesh.clone(), mesh.as_mesh().extent());
+    far.positions.iter_mut().for_each(|at| at[0] += extents * extent);
+    asked(name, &far, &Options::default().with_width(Width::PercentOfExtent(0.5)))
+}
+
+#[test]
+fn far_from_the_origin_nothing_is_lost_that_can_be_told() {
+    for (name, mesh) in [("table", shapes::table()), ("bolt", shapes::bolt())] {
+        for extents in [8.0, 64.0, 512.0, 4096.0] {
+            let totals = far_out(name, &mesh, extents).totals;
+            assert_eq!(totals.chamfered, totals.hard_edges, "{name}, {extents} extents out");
+        }
+    }
+}
+
+// So far out a step of the coordinates is a thousandth of the extent to a 256th: first the thin faces
+// cannot be told from lines, then the width cannot be told from nothing.
+#[test]
+fn what_is_lost_far_from_the_origin_is_too_fine() {
+    let models = [("bolt", shapes::bolt()), ("cylinder", shapes::cylinder(48))];
+    for (name, mesh) in models.into_iter().chain([("cube", shapes::plain_cube(1.0))]) {
+        for extents in [8192.0, 16384.0, 32768.0] {
+            let result = far_out(name, &mesh, extents);
+            let lost = result.verdicts.iter().filter(|verdict| verdict.outcome != Outcome::Full);
+            let reasons: Vec<Reason> = lost.map(|verdict| verdict.reason).collect();
+            assert!(reasons.iter().all(|&reason| reason == Reason::TooFine), "{name}: {reasons:?}");
+            assert!(extents < 32768.0 || !reasons.is_empty(), "{name}");
+        }
+    }
+}

@@ -1,15 +1,31 @@
 //! A caller is told again and again that a long call goes on, and ends it whenever it likes.
 
+#[allow(dead_code)] // Each test uses some of them.
+#[path = "support/shaded.rs"]
+mod shaded;
+#[allow(dead_code)]
+#[path = "support/worst.rs"]
+mod worst;
+
 use std::ops::ControlFlow;
 
-use chamfer::{Chamfered, Error, Options, Verify, chamfer_with_progress, shapes};
+use chamfer::{Chamfered, Error, MeshBuffers, Options, Verify, chamfer_with_progress, shapes};
 
 /// All sides in one part, and so within one long stage of `full`.
 const SIDES: u32 = 4_000;
 
 /// What is told of a pyramid of many sides, if the caller breaks when it is told so often.
 fn told(verify: Verify, threads: u32, last: usize) -> (Result<Chamfered, Error>, Vec<f32>) {
-    let (mesh, mut shares) = (shapes::pyramid(SIDES), Vec::new());
+    told_of(&shapes::pyramid(SIDES), verify, threads, last)
+}
+
+fn told_of(
+    mesh: &MeshBuffers,
+    verify: Verify,
+    threads: u32,
+    last: usize,
+) -> (Result<Chamfered, Error>, Vec<f32>) {
+    let mut shares = Vec::new();
     let options = Options::default().with_verify(verify).with_threads(threads);
     let result = chamfer_with_progress(&mesh.as_mesh(), &options, &mut |share| {
         shares.push(share);
@@ -20,13 +36,30 @@ fn told(verify: Verify, threads: u32, last: usize) -> (Result<Chamfered, Error>,
 
 #[test]
 fn within_the_search_for_cuts_the_share_is_told_again_and_again() {
-    let (_, stages) = told(Verify::Fast, 1, usize::MAX);
+    let (_, mut stages) = told(Verify::Fast, 1, usize::MAX);
     let (result, shares) = told(Verify::Full, 1, usize::MAX);
     assert!(result.is_ok() && shares.is_sorted() && shares.last() == Some(&1.0), "{shares:?}");
-    assert!(stages.is_sorted_by(|one, other| one < other), "each stage once: {stages:?}");
-    let again = shares.windows(2).filter(|pair| pair[0] == pair[1]).count();
-    assert_eq!(shares.len() - again, stages.len());
+    let again = shares.len() - stages.len();
     assert!(again > 20, "{again}");
+    let mut each = shares;
+    [&mut each, &mut stages].into_iter().for_each(|shares| shares.dedup());
+    assert_eq!(each, stages, "each stage is told once, whatever is told within it");
+}
+
+/// A cone without floor: its rim is open, and of so many sides every second edge is hard.
+const OPEN_SIDES: u32 = 40_000;
+
+#[test]
+fn it_is_told_within_each_stage_that_may_take_long() {
+    let cone = worst::fan(OPEN_SIDES, true);
+    let all = |last| told_of(&cone, Verify::Fast, 1, last);
+    let (_, shares) = all(usize::MAX);
+    for within in [0.14, 0.15, 0.2, 0.25] {
+        // The end of the stage before is told first.
+        let first = shares.iter().position(|&share| share == within).unwrap();
+        assert_eq!(shares[first + 1], within, "{shares:?}");
+        assert!(matches!(all(first + 2).0, Err(Error::Cancelled)));
+    }
 }
 
 #[test]

@@ -98,7 +98,9 @@ fn why_skipped(counts: &Counts) -> &'static str {
         Some(Reason::TJunction) => {
             "; vertices of one side lie in the middle of the other: join the sides there"
         }
-        Some(Reason::TooFine) => "; the width is finer than its coordinates: ask for more",
+        Some(Reason::TooFine) => {
+            "; the width, or the faces, are finer than its coordinates: ask for more, or move it to the origin"
+        }
         Some(Reason::Contact) => "; other parts rest on all of them",
         _ => "",
     }

@@ -7,6 +7,7 @@ use crate::pipeline::chamfer;
 use crate::report::{Chamfered, EdgeVerdict, Outcome, Reason};
 use crate::shapes;
 use crate::threads::Threads;
+use crate::watch::Unwatched;
 
 /// A cube of side 2 around the origin.
 fn cube() -> MeshBuffers {
@@ -156,7 +157,7 @@ fn lines_that_are_alike_are_one_place_in_the_order_of_the_first() {
     let view = view(&mesh, &Options::default()).unwrap();
     let topology = topology(&view, &weld(&mesh));
     let faces = faces(&view, &topology, &Threads::default());
-    let contacts = contacts(&view, &topology, &faces).unwrap();
+    let contacts = contacts(&view, &topology, &faces, &Unwatched).unwrap();
     assert_eq!(contacts.starts[..], [0, 3, 4, 5]);
     let near: Vec<_> = contacts.beside_edge(EDGE.map(wide), 0.0).map(<[Rim]>::len).collect();
     assert_eq!(near, [3, 1, 1]);

@@ -134,7 +134,7 @@ pub const CHAMFER_REASON_NO_END: u32 = 5;
 pub const CHAMFER_REASON_ZERO_THICKNESS: u32 = 6;
 /// `reason`: a triangle beside the edge has no area.
 pub const CHAMFER_REASON_NO_AREA: u32 = 7;
-/// `reason`: the width is too small for the precision of the positions here.
+/// `reason`: the width, or a face beside it, is too small for the precision of the positions here.
 pub const CHAMFER_REASON_TOO_FINE: u32 = 8;
 /// `reason`: something rests on the edge, or right beside it; light would show behind a chamfer.
 pub const CHAMFER_REASON_CONTACT: u32 = 9;

@@ -40,7 +40,7 @@ const GIVE_BACK_ROUNDS: usize = 3;
 /// [`Error::OutOfMemory`] where what searching the parts needs is not to be had, and
 /// [`Error::Cancelled`] where the watch stops it.
 pub fn resolve(given: &Given, limits: &mut Limits, watch: &dyn Watch) -> Result<(), Error> {
-    let parts = parts(given);
+    let parts = parts(given, watch)?;
     memory::ask(memory::of_collisions(most_searched(given, &parts)))?;
     // Most parts are clean, and no part has a say in another: so all can be searched at once.
     let cuts =
@@ -68,7 +68,7 @@ pub fn lessen_cuts<S: Sync>(
     watch: &dyn Watch,
     mut lessen: impl FnMut(&mut S, &[Element]) -> bool,
 ) -> Result<(), Error> {
-    let parts = parts(given);
+    let parts = parts(given, watch)?;
     let mut left: Vec<&Part> = parts.iter().collect();
     loop {
         let shared: &S = state;
@@ -125,8 +125,8 @@ fn shrink_cuts(
             break;
         }
         apply(given, limits, round, &mut shrunk);
-        let bad = bad_around(given, &limits.placement, &shrunk);
-        shrunk.extend(shrink(given, limits, bad));
+        let bad = bad_around(given, &limits.placement, &shrunk, watch)?;
+        shrunk.extend(shrink(given, limits, bad, watch)?);
         cutting = part.cuts_now(&limits.placement, cutting, &shrunk, watch)?;
         all.extend(shrunk);
     }
@@ -160,7 +160,7 @@ fn give_back(
         let mut cutting = part.cuts_now(&limits.placement, Vec::new(), &sectors, watch)?;
         loop {
             let mut bad = cutting.clone();
-            bad.extend(bad_around(given, &limits.placement, &sectors));
+            bad.extend(bad_around(given, &limits.placement, &sectors, watch)?);
             let mut back: Vec<Sector> = bad.iter().flat_map(|&e| sectors_of(given, e)).collect();
             // Each once: the second time, what was safe would be taken for what was not.
             back.sort_unstable();
@@ -398,8 +398,9 @@ impl Part<'_> {
 }
 
 /// The parts with chamfered edges.
-fn parts<'a>(given: &'a Given<'a>) -> Vec<Part<'a>> {
+fn parts<'a>(given: &'a Given<'a>, watch: &dyn Watch) -> Result<Vec<Part<'a>>, Error> {
     let label_of = solids(given.surface.topology);
+    watch.worked(label_of.len())?;
     let label = |corner: Corner| label_of[corner.triangle().index()];
     let mut is_chamfered = vec![false; label_of.len()];
     let chamfered = || {
@@ -437,6 +438,7 @@ fn parts<'a>(given: &'a Given<'a>) -> Vec<Part<'a>> {
     // They stand in the order of their keys.
     all.sort_by_key(|(label, _)| *label);
     let crowds = crowds(given);
+    watch.worked(all.len())?;
     let part = |group: &[(u32, Element)]| {
         let elements: Vec<Element> = group.iter().map(|(_, element)| *element).collect();
         let of = |crowds: &Crowds| -> Vec<Option<Crowd>> {
@@ -444,7 +446,8 @@ fn parts<'a>(given: &'a Given<'a>) -> Vec<Part<'a>> {
         };
         let crowds = crowds.as_ref().map(of).filter(|all| all.iter().any(Option::is_some));
         let (crowds, was_cut) = (crowds.unwrap_or_default(), OnceLock::new());
-        Part { given, elements, crowds, was_cut }
+        watch.worked(group.len())?;
+        Ok(Part { given, elements, crowds, was_cut })
     };
     all.chunk_by(|one, other| one.0 == other.0).map(part).collect()
 }
@@ -463,7 +466,11 @@ mod tests {
 
     /// For each part, how many elements it has.
     fn sizes(mesh: &MeshBuffers) -> Vec<usize> {
-        parts(&given_of(&stages_of(mesh, 0.1))).iter().map(|part| part.elements.len()).collect()
+        parts(&given_of(&stages_of(mesh, 0.1)), &Unwatched)
+            .unwrap()
+            .iter()
+            .map(|part| part.elements.len())
+            .collect()
     }
 
     #[test]
@@ -479,7 +486,7 @@ mod tests {
         let stages = stages_of(mesh, width);
         let placement = stages.placed(share);
         let given = given_of(&stages);
-        let parts = parts(&given);
+        let parts = parts(&given, &Unwatched).unwrap();
         let found = parts[0].new_cuts(&placement, &parts[0].elements, &Unwatched).unwrap();
         assert_eq!(found, each_with_each(&parts[0], &placement));
         found.len()

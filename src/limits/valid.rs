@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use crate::contacts::Wedge;
+use crate::error::Error;
 use crate::fills;
 use crate::flaps;
 use crate::ids::{Edge, Ring, Triangle};
@@ -10,28 +11,37 @@ use crate::math::{area_vector, unit};
 use crate::placement::Placement;
 use crate::strips;
 use crate::validity::{opens_along, stays_line, survives};
+use crate::watch::Watch;
 
 use super::elements::{Element, flap_joints};
 use crate::given::Given;
 use crate::room::breadth;
 
 /// Everything that is bad where the sectors stand now.
-pub fn bad_elements(given: &Given, placement: &Placement) -> Vec<Element> {
+///
+/// # Errors
+/// [`Error::Cancelled`] where the watch stops it.
+pub fn bad_elements(
+    given: &Given,
+    placement: &Placement,
+    watch: &dyn Watch,
+) -> Result<Vec<Element>, Error> {
     let threads = given.threads;
     let is_bad = |element| !is_valid(given, placement, element);
-    let triangles = threads.filter(given.surface.faces.normal.len(), |triangle| {
+    let triangles = given.surface.faces.normal.len();
+    let triangles = threads.filter_watched(triangles, watch, |triangle| {
         is_touched(given, triangle) && is_bad(Element::Surface(triangle))
-    });
-    let edges = threads.filter(given.chamfers.edges.hard.len(), |edge| {
+    })?;
+    let edges = threads.filter_watched(given.chamfers.edges.hard.len(), watch, |edge| {
         given.chamfers.edges.hard[edge].skipped.is_none() && is_bad(Element::Strip(edge))
-    });
-    let rings =
-        threads.filter(given.chamfers.sectors.rings.len(), |ring| is_bad(Element::Fill(ring)));
+    })?;
+    let rings = given.chamfers.sectors.rings.len();
+    let rings = threads.filter_watched(rings, watch, |ring| is_bad(Element::Fill(ring)))?;
     let surface = triangles.into_iter().map(Element::Surface);
     let strips = edges.into_iter().map(Element::Strip);
     let flaps =
         (0..given.chamfers.edges.parted.len() as u32).map(Element::Flap).filter(|&e| is_bad(e));
-    surface.chain(strips).chain(rings.into_iter().map(Element::Fill)).chain(flaps).collect()
+    Ok(surface.chain(strips).chain(rings.into_iter().map(Element::Fill)).chain(flaps).collect())
 }
 
 fn is_touched(given: &Given, triangle: Triangle) -> bool {

@@ -8,6 +8,7 @@ use crate::report::{Chamfered, EdgeVerdict, Outcome, Reason, TriangleKind};
 use crate::shapes;
 use crate::threads::Threads;
 use crate::view::view;
+use crate::watch::Unwatched;
 use crate::weld::weld;
 
 /// The triangle 0, 1, 2 cut at vertices with these shares of its sides, numbered from 3 on.
@@ -222,7 +223,9 @@ fn with_offsets(bar: &MeshBuffers, check: impl FnOnce(&View, &Shape, IdVec<Secto
     let options = Options { width: Width::Units(0.1), ..Options::default() };
     let view = view(&bar.as_mesh(), &options).unwrap();
     let shape = shape_of(&view);
-    let offsets = offsets(shape.surface(&view), shape.chamfers(), None, &Threads::default());
+    let offsets =
+        offsets(shape.surface(&view), shape.chamfers(), None, (&Threads::default(), &Unwatched))
+            .unwrap();
     check(&view, &shape, offsets);
 }
 

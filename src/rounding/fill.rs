@@ -68,7 +68,7 @@ pub fn lay_fill(given: &Given, rows: &Rows, (ring, fill): (Ring, Parts), lay: &m
     if count < 2 {
         return false;
     }
-    lay.begin(fill, |_| Place { point: DVec3::ZERO, normal: DVec3::ZERO });
+    lay.begin(given, fill, |_| Place { point: DVec3::ZERO, normal: DVec3::ZERO });
     let members = given.chamfers.sectors.ring(ring);
     for (place, &sector) in lay.places.iter_mut().zip(members) {
         *place = joint(given, sector);

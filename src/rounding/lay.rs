@@ -1,5 +1,7 @@
 //! Lay: one rounded patch, its points and its triangles.
 
+use glam::DVec3;
+
 use super::Given;
 use super::arc::Place;
 use super::ends::{End, EndPoint, Rows};
@@ -29,6 +31,9 @@ pub struct Added {
 #[derive(Default)]
 pub struct Lay {
     pub places: Vec<Place>,
+    /// The normals of the first places as they come out: curves need unit ones, but those of the source
+    /// may be longer or shorter.
+    pub stored: Vec<DVec3>,
     pub added: Vec<Added>,
     pub triangles: Vec<[u32; 3]>,
 }
@@ -36,6 +41,7 @@ pub struct Lay {
 impl Lay {
     pub fn clear(&mut self) {
         self.places.clear();
+        self.stored.clear();
         self.added.clear();
         self.triangles.clear();
     }
@@ -67,14 +73,21 @@ impl Lay {
     /// Whether all triangles have area and face out.
     pub fn is_valid(&self, resolution: f64) -> bool {
         self.triangles.iter().all(|triangle| {
-            let places = triangle.map(|place| self.places[place as usize]);
-            faces_out(places.map(|p| p.point), places.map(|p| p.normal), resolution)
+            let points = triangle.map(|place| self.places[place as usize].point);
+            faces_out(points, triangle.map(|place| self.normal(place)), resolution)
         })
     }
 
+    /// The normal of a place as it comes out.
+    fn normal(&self, place: u32) -> DVec3 {
+        let place = place as usize;
+        self.stored.get(place).copied().unwrap_or(self.places[place].normal)
+    }
+
     /// The points of the patch with one segment.
-    pub fn begin(&mut self, parts: Parts, at: impl Fn(Corner) -> Place) {
+    pub fn begin(&mut self, given: &Given, parts: Parts, at: impl Fn(Corner) -> Place) {
         self.clear();
+        self.stored.extend(parts.joints.iter().map(|&joint| given.placement.normal_at(joint)));
         self.places.extend(parts.joints.iter().map(|&joint| at(joint)));
         let middle = |middle: &Middle| Place { point: middle.position, normal: middle.normal };
         self.places.extend(parts.middles.iter().map(middle));
@@ -87,7 +100,7 @@ pub fn lay_strip(given: &Given, rows: &Rows, strip: Parts, ends: [End; 2], lay: 
     if counts[0].max(counts[1]) < 2 {
         return false;
     }
-    lay.begin(strip, |corner| Place {
+    lay.begin(given, strip, |corner| Place {
         point: given.placement.position_at(corner),
         normal: unit(given.placement.normal_at(corner)),
     });
@@ -135,7 +148,22 @@ pub fn joint(given: &Given, sector: Sector) -> Place {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use glam::DVec3;
+
+    // 2
+    // | .       faces up, as two of its normals do; the third leans down, and is as long as comes out
+    // 0---1
+    #[test]
+    fn a_triangle_faces_along_the_normals_that_come_out() {
+        let down = DVec3::new(0.6, 0.0, -0.8);
+        let corners = [(DVec3::ZERO, down), (DVec3::X, DVec3::Z), (DVec3::Y, DVec3::Z)];
+        let places = corners.map(|(point, normal)| Place { point, normal }).to_vec();
+        let of = |length: f64| {
+            let (places, stored) = (places.clone(), vec![down * length]);
+            Lay { places, stored, triangles: vec![[0, 1, 2]], ..Lay::default() }
+        };
+        assert!(of(1.0).is_valid(1e-6));
+        assert!(!of(3.0).is_valid(1e-6));
+    }
 
     // start 0 - 1 - 2 - 3 - 4     two rows on the left for each one on the right
     //       |  / \ /|  / \ /|

@@ -30,7 +30,7 @@ namespace Chamfer
         ZeroThickness = 6,
         /// <summary>A triangle beside the edge has no area.</summary>
         NoArea = 7,
-        /// <summary>The width is too small for the precision of the positions here.</summary>
+        /// <summary>The width, or a face beside it, is too small for the precision of the positions here.</summary>
         TooFine = 8,
         /// <summary>Something rests on the edge, or right beside it: light would show behind a chamfer.</summary>
         Contact = 9,
