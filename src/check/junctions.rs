@@ -8,6 +8,9 @@ use crate::bvh::{Aabb, Tree};
 /// How far, in roundings, a vertex may be off a line on which it was put.
 const REACH: f64 = 16.0;
 
+/// Of many that lie on one line, comparing all of them would take quadratic time.
+const MOST_ALONG: usize = 64;
+
 /// The open borders of a mesh.
 pub(super) struct Borders<'a> {
     surface: &'a Surface<'a>,
@@ -33,9 +36,11 @@ impl<'a> Borders<'a> {
         near.filter(move |other| run_along(self.surface, side, other))
     }
 
-    /// Each two that run back along a part of each other.
+    /// Borders that run back along a part of each other: each with some of those along it, which are
+    /// enough to tell what is joined.
     pub fn pairs(&'a self) -> impl Iterator<Item = [&'a HalfEdge; 2]> {
-        self.all.iter().flat_map(|&side| self.along(side).map(move |other| [side, other]))
+        let pairs = |side| self.along(side).take(MOST_ALONG).map(move |other| [side, other]);
+        self.all.iter().flat_map(move |&side| pairs(side))
     }
 
     /// Whether there are any.
