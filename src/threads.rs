@@ -110,6 +110,11 @@ impl Threads {
         scratch: impl Fn() -> S + Sync + Send,
         value: impl Fn(&mut S, I) -> T + Sync + Send,
     ) -> Result<IdVec<I, T>, Error> {
+        if count <= STEPS {
+            // Nothing is to be put together then.
+            watch.worked(count)?;
+            return Ok(self.map_with(count, scratch, value));
+        }
         let mut values = Vec::with_capacity(count);
         for start in (0..count).step_by(STEPS) {
             let some = STEPS.min(count - start);
