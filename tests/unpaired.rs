@@ -282,6 +282,18 @@ fn box_of_uneven_faces() -> MeshBuffers {
 }
 
 /// What was open along both is closed, too.
+/// Where nothing opens, nothing is brought together: not a vertex is added.
+#[test]
+fn without_a_width_the_mesh_stays_as_it_is() {
+    let mesh = box_of_uneven_faces();
+    for width in [0.0, 1e-9] {
+        let options = Options::default().with_width(Width::Units(width));
+        let result = chamfer(&mesh.as_mesh(), &options).unwrap();
+        assert_eq!(result.mesh.positions, mesh.positions, "{width}");
+        assert_eq!(result.mesh.indices, mesh.indices, "{width}");
+    }
+}
+
 #[test]
 fn a_box_of_uneven_faces_is_chamfered_as_a_box() {
     let mesh = box_of_uneven_faces();

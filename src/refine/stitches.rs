@@ -49,8 +49,12 @@ pub struct Left {
     pub places: BTreeSet<Cluster>,
 }
 
-/// For a mesh with T-junctions: mostly nothing.
+/// For a mesh with T-junctions: mostly nothing. Nothing either at a width at which nothing opens, so
+/// that the mesh comes out as it was.
 pub fn stitches(view: &View, shape: &Shape, unpaired: &[Unpaired]) -> Stitches {
+    if view.width <= view.resolution {
+        return Stitches::default();
+    }
     let Shape { topology, contacts, .. } = shape;
     let (mut at, mut near, mut pairs) = (BTreeMap::new(), Vec::new(), 0);
     for &(side, _) in unpaired.iter().filter(|(_, reason)| *reason == Reason::TJunction) {
