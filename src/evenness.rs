@@ -222,7 +222,7 @@ mod tests {
     use crate::mesh::{Factors, Mesh, MeshBuffers};
     use crate::options::{Options, Width};
     use crate::shapes;
-    use crate::stages::{Stages, stages_of, stages_of_mesh};
+    use crate::stages::{Stages, split, stages_of, stages_of_mesh};
     use crate::strips;
     use crate::watch::Unwatched;
 
@@ -313,14 +313,7 @@ mod tests {
             fan[1..].windows(2).flat_map(|pair| [fan[0], pair[0], pair[1]]).collect()
         };
         let indices: Vec<u32> = fans.iter().flat_map(|fan| triangles(fan)).collect();
-        let smoothed = crate::split_by_angle(&points, &indices, 1.0).unwrap();
-        MeshBuffers {
-            positions: smoothed.source_of.iter().map(|&point| points[point as usize]).collect(),
-            normals: smoothed.normals,
-            submesh_index_counts: vec![indices.len() as u32],
-            indices: smoothed.indices,
-            ..MeshBuffers::default()
-        }
+        split(&points, &indices)
     }
 
     // 0------1------2     seen from the front: at 1 two edges go down. What narrows 1-0 on this side

@@ -527,7 +527,7 @@ mod tests {
     use crate::ids::Id;
     use crate::mesh::MeshBuffers;
     use crate::shapes;
-    use crate::stages::stages_of;
+    use crate::stages::{split, stages_of};
 
     /// The offsets of the sectors whose vertex stands at a point and has a normal.
     fn offsets_at(mesh: &MeshBuffers, width: f32, at: [f32; 3], normal: [f32; 3]) -> Vec<Offset> {
@@ -583,18 +583,6 @@ mod tests {
         assert!(!at_end[0].moves());
     }
 
-    /// The mesh of points and indices, split at folds of more than a degree.
-    fn split(points: &[[f32; 3]], indices: Vec<u32>) -> MeshBuffers {
-        let smoothed = crate::split_by_angle(points, &indices, 1.0).unwrap();
-        MeshBuffers {
-            positions: smoothed.source_of.iter().map(|&point| points[point as usize]).collect(),
-            normals: smoothed.normals,
-            submesh_index_counts: vec![indices.len() as u32],
-            indices: smoothed.indices,
-            ..MeshBuffers::default()
-        }
-    }
-
     // 3 ------------- 0     the top of a box: 5 is off the plane by rounding, so that the small
     // |           5 / |     triangle 0-4-5 leans by a tenth of a degree
     // |            4  |
@@ -610,7 +598,7 @@ mod tests {
             indices.extend([a, b, b + 6, a, b + 6, a + 6]);
         }
         indices.extend([6, 9, 8, 6, 8, 7]);
-        let box_ = split(&points, indices);
+        let box_ = split(&points, &indices);
         let stages = stages_of(&box_, 0.1);
         let at_corner = |sector: &Sector| {
             let fan = &stages.sectors.fans[*sector];
@@ -639,7 +627,7 @@ mod tests {
         ];
         let sides = [0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4, 2, 0, 3, 2, 3, 5];
         let indices = [&[0, 2, 1, 3, 4, 5][..], &sides[..]].concat();
-        let blade = split(&points, indices);
+        let blade = split(&points, &indices);
         let tip = offsets_at(&blade, 0.01, [0.0, 0.0, 1.0], [0.0, 0.0, 1.0]);
         assert!(tip[0].is_capped);
         assert!((tip[0].vector.length() - 0.01 * MITER_LIMIT).abs() < 1e-6);
@@ -655,7 +643,7 @@ mod tests {
         let points: Vec<[f32; 3]> =
             [0.0, 1.0].into_iter().flat_map(|z| side.map(|[x, y]| [x, y, z])).collect();
         let indices = vec![0, 2, 1, 3, 4, 5, 0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4, 2, 0, 3, 2, 3, 5];
-        let ramp = split(&points, indices);
+        let ramp = split(&points, &indices);
         let toe = offsets_at(&ramp, 0.01, [1.0, 0.0, 1.0], [0.0, 0.0, 1.0]);
         assert!(!toe[0].is_capped);
         let exact = 0.01 / (std::f64::consts::FRAC_PI_4 / 2.0).sin();
@@ -681,7 +669,7 @@ mod tests {
     fn a_vertex_does_not_slide_far_along_a_border() {
         let points = [[0.0, 0.0, 0.0], [9.0, 0.0, 0.0], [9.0, -3.0, 0.0], [9.0, 1.0, 0.0]];
         let folded = [[9.0, 1.0, -5.0]];
-        let sheet = split(&[&points[..], &folded[..]].concat(), vec![0, 1, 3, 0, 3, 4]);
+        let sheet = split(&[&points[..], &folded[..]].concat(), &[0, 1, 3, 0, 3, 4]);
         let at_origin = offsets_at(&sheet, 0.01, [0.0; 3], [0.0, 0.0, 1.0]);
         assert!(at_origin[0].is_capped);
         assert_goes(&at_origin, [0.01 * MITER_LIMIT, 0.0, 0.0]);

@@ -140,6 +140,19 @@ impl Stages<'_> {
     }
 }
 
+/// The mesh over `#vertices by 3` points and `#triangles by 3` indices, split at folds of more than a
+/// degree.
+pub fn split(points: &[[f32; 3]], indices: &[u32]) -> MeshBuffers {
+    let smoothed = crate::split_by_angle(points, indices, 1.0).unwrap();
+    MeshBuffers {
+        positions: smoothed.source_of.iter().map(|&point| points[point as usize]).collect(),
+        normals: smoothed.normals,
+        submesh_index_counts: vec![indices.len() as u32],
+        indices: smoothed.indices,
+        ..MeshBuffers::default()
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use std::cell::Cell;

@@ -6,31 +6,20 @@
 
 #[path = "support/boxes.rs"]
 mod boxes;
+#[path = "support/seeded.rs"]
+mod seeded;
 
 use chamfer::check::{Element, Rule, assert_sound, check, compare};
 use chamfer::{Chamfered, MeshBuffers, Options, Reason, Verify, Width, chamfer};
 use glam::{DMat3, DVec3};
 use proptest::collection::vec;
 use proptest::prelude::*;
-use proptest::test_runner::{Config, RngSeed};
 
 use boxes::{Block, Skin, assembly};
+use seeded::seeded;
 
 /// As many as a debug build checks in a few seconds.
 const CASES: u32 = 300;
-
-fn config() -> Config {
-    let asked = Config::default();
-    Config {
-        cases: if std::env::var_os("PROPTEST_CASES").is_some() { asked.cases } else { CASES },
-        rng_seed: match asked.rng_seed {
-            RngSeed::Random => RngSeed::Fixed(1),
-            fixed => fixed,
-        },
-        failure_persistence: None,
-        ..asked
-    }
-}
 
 /// Segments, and how much is verified.
 const WAYS: [(u32, Verify); 6] = [
@@ -70,7 +59,7 @@ fn percent() -> impl Strategy<Value = f32> {
 }
 
 proptest! {
-    #![proptest_config(config())]
+    #![proptest_config(seeded(CASES))]
 
     #[test]
     fn assemblies_of_boxes_are_sound(

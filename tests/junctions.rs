@@ -6,6 +6,8 @@
 
 #[path = "support/grids.rs"]
 mod grids;
+#[path = "support/seeded.rs"]
+mod seeded;
 
 use std::ops::RangeInclusive;
 
@@ -17,25 +19,12 @@ use chamfer::{
 use glam::{DMat3, DVec3};
 use proptest::collection::vec;
 use proptest::prelude::*;
-use proptest::test_runner::{Config, RngSeed};
 
 use grids::{Cells, Grid, Layout, grids};
+use seeded::seeded;
 
 /// As many as are checked in two seconds.
 const CASES: u32 = 60;
-
-fn config() -> Config {
-    let asked = Config::default();
-    Config {
-        cases: if std::env::var_os("PROPTEST_CASES").is_some() { asked.cases } else { CASES },
-        rng_seed: match asked.rng_seed {
-            RngSeed::Random => RngSeed::Fixed(1),
-            fixed => fixed,
-        },
-        failure_persistence: None,
-        ..asked
-    }
-}
 
 /// Segments, and how much is verified.
 const WAYS: [(u32, Verify); 4] =
@@ -185,7 +174,7 @@ fn percent() -> impl Strategy<Value = f32> {
 }
 
 proptest! {
-    #![proptest_config(config())]
+    #![proptest_config(seeded(CASES))]
 
     #[test]
     fn boxes_of_cells_that_do_not_match_are_sound(

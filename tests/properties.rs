@@ -9,29 +9,19 @@ mod crowded;
 mod prism;
 #[path = "support/random.rs"]
 mod random;
+#[path = "support/seeded.rs"]
+mod seeded;
 #[path = "support/shaded.rs"]
 mod shaded;
 
 use chamfer::check::{Findings, Rule, check};
 use chamfer::{Chamfered, MeshBuffers, Options, Verify, Width, chamfer};
 use proptest::prelude::*;
-use proptest::test_runner::{Config, RngSeed};
 
 use crowded::has_crowded_edges;
 use random::{Model, clean_mesh, soup};
 
-fn config(cases: u32) -> Config {
-    let asked = Config::default();
-    Config {
-        cases: if std::env::var_os("PROPTEST_CASES").is_some() { asked.cases } else { cases },
-        rng_seed: match asked.rng_seed {
-            RngSeed::Random => RngSeed::Fixed(1),
-            fixed => fixed,
-        },
-        failure_persistence: None,
-        ..asked
-    }
-}
+use seeded::seeded;
 
 /// From hair-fine to a fifth of the extent, which is wider than most features.
 fn percent() -> impl Strategy<Value = f32> {
@@ -74,7 +64,7 @@ fn any_mesh() -> impl Strategy<Value = Model> {
 }
 
 proptest! {
-    #![proptest_config(config(400))]
+    #![proptest_config(seeded(400))]
 
     #[test]
     fn a_chamfered_mesh_is_sound(Model(mesh) in clean_mesh(), percent in percent()) {
@@ -106,7 +96,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(config(150))]
+    #![proptest_config(seeded(150))]
 
     #[test]
     fn twice_the_same_gives_the_same_bytes(Model(mesh) in any_mesh(), percent in percent()) {

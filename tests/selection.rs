@@ -5,6 +5,8 @@ mod prism;
 #[allow(dead_code)] // Other tests use more of it.
 #[path = "support/random.rs"]
 mod random;
+#[path = "support/seeded.rs"]
+mod seeded;
 #[path = "support/shaded.rs"]
 mod shaded;
 
@@ -17,20 +19,10 @@ use chamfer::{
 };
 use glam::{DMat3, DVec3};
 use proptest::prelude::*;
-use proptest::test_runner::{Config, RngSeed};
 
 use random::{Model, clean_mesh};
 
-fn config(cases: u32) -> Config {
-    let asked = Config::default();
-    let is_given = std::env::var_os("PROPTEST_CASES").is_some();
-    let rng_seed = match asked.rng_seed {
-        RngSeed::Random => RngSeed::Fixed(1),
-        fixed => fixed,
-    };
-    let cases = if is_given { asked.cases } else { cases };
-    Config { cases, rng_seed, failure_persistence: None, ..asked }
-}
+use seeded::seeded;
 
 /// Options that select some edges, and what each width measures.
 fn options() -> impl Strategy<Value = Options> {
@@ -68,7 +60,7 @@ fn factors(mesh: &MeshBuffers, seed: u32) -> [Vec<f32>; 2] {
 }
 
 proptest! {
-    #![proptest_config(config(300))]
+    #![proptest_config(seeded(300))]
 
     #[test]
     fn a_mesh_of_which_some_edges_are_chamfered_is_sound(
@@ -200,7 +192,7 @@ fn convex() -> impl Strategy<Value = MeshBuffers> {
 }
 
 proptest! {
-    #![proptest_config(config(300))]
+    #![proptest_config(seeded(300))]
 
     // Whatever meets at its ends, and stays hard: on a convex solid each chamfer opens.
     #[test]
@@ -245,7 +237,7 @@ fn tetrahedron([x, y, z]: [[f32; 3]; 3]) -> MeshBuffers {
 }
 
 proptest! {
-    #![proptest_config(config(1000))]
+    #![proptest_config(seeded(1000))]
 
     // Around the origin three edges have widths of their own; on each face both pulled edges run at
     // the distances asked for, as far as no vertex would go farther than three widths.
@@ -323,7 +315,7 @@ fn distances(mesh: &MeshBuffers, result: &Chamfered, to: DMat3) -> Vec<f64> {
 }
 
 proptest! {
-    #![proptest_config(config(200))]
+    #![proptest_config(seeded(200))]
 
     #[test]
     fn a_scaled_box_has_chamfers_of_one_width(
@@ -525,7 +517,7 @@ fn all_edges(mesh: &Mesh, factor: f32) -> Vec<EdgeFactor> {
 }
 
 proptest! {
-    #![proptest_config(config(100))]
+    #![proptest_config(seeded(100))]
 
     // By vertices, by submeshes, and by a list; fine meshes and those that are refined.
     #[test]

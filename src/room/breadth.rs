@@ -82,7 +82,7 @@ mod tests {
     use crate::mesh::MeshBuffers;
     use crate::options::{Options, Width};
     use crate::shapes;
-    use crate::stages::stages_with;
+    use crate::stages::{split, stages_with};
 
     /// The faces of an upright box: how much of each stays along each of its sides, as a share.
     fn shares_kept(mesh: &MeshBuffers, options: &Options) -> Vec<f64> {
@@ -172,14 +172,7 @@ mod tests {
             }
             indices.extend([rim(side, cells), from, to]);
         }
-        let smoothed = crate::split_by_angle(&points, &indices, 1.0).unwrap();
-        MeshBuffers {
-            positions: smoothed.source_of.iter().map(|&point| points[point as usize]).collect(),
-            normals: smoothed.normals,
-            submesh_index_counts: vec![indices.len() as u32],
-            indices: smoothed.indices,
-            ..MeshBuffers::default()
-        }
+        split(&points, &indices)
     }
 
     /// How far the lid's rim is pulled at a width that is more than there is room for.
