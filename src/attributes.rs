@@ -114,23 +114,25 @@ fn move_sector(
     let mut seen: Few<Seen> = Few::new();
     for corner in sectors.corners(surface.topology, sector) {
         let vertex = surface.view.vertex_at(corner);
-        let known = seen.iter().find(|seen| seen.vertex == vertex).map(|seen| seen.output);
-        attributes.vertex_at[corner] = known.unwrap_or_else(|| {
-            let streams = &mut attributes.streams;
-            let blends = blends(surface.view, placement, sector, corner);
-            let row = row(space, placement, streams, sector, blends);
-            let output = twin_of(space.source, streams, &seen, vertex, &row).unwrap_or_else(|| {
-                if taken[vertex] {
-                    parted.push((sector, corner));
-                    return sources + parted.len() as u32 - 1;
-                }
-                taken[vertex] = true;
-                streams.set(vertex, &row, blends);
-                vertex.0
-            });
-            seen.push(Seen { vertex, output, row });
-            output
+        if let Some(known) = seen.iter().find(|seen| seen.vertex == vertex) {
+            attributes.vertex_at[corner] = known.output;
+            continue;
+        }
+        seen.push(Seen { vertex, output: NONE, row: Row::EMPTY });
+        let Some((own, others)) = seen.split_last_mut() else { continue };
+        let streams = &mut attributes.streams;
+        let blends = blends(surface.view, placement, sector, corner);
+        fill(space, placement, streams, (sector, blends), &mut own.row);
+        own.output = twin_of(space.source, streams, others, own).unwrap_or_else(|| {
+            if taken[vertex] {
+                parted.push((sector, corner));
+                return sources + parted.len() as u32 - 1;
+            }
+            taken[vertex] = true;
+            streams.set(vertex, &own.row, blends);
+            vertex.0
         });
+        attributes.vertex_at[corner] = own.output;
     }
 }
 
@@ -143,19 +145,13 @@ struct Seen {
 
 /// The vertex of a sector that another one of it has become equal to, though they differed before:
 /// their normals were less than a degree apart.
-fn twin_of(
-    view: &View,
-    streams: &Streams,
-    seen: &[Seen],
-    vertex: Vertex,
-    row: &Row,
-) -> Option<u32> {
-    let is_twin = |seen: &&Seen| {
-        streams.are_equal(&seen.row, row)
-            && !(view.normal(seen.vertex) == view.normal(vertex)
-                && same_chart(view, seen.vertex, vertex))
+fn twin_of(view: &View, streams: &Streams, others: &[Seen], own: &Seen) -> Option<u32> {
+    let is_twin = |other: &&Seen| {
+        streams.are_equal(&other.row, &own.row)
+            && !(view.normal(other.vertex) == view.normal(own.vertex)
+                && same_chart(view, other.vertex, own.vertex))
     };
-    seen.iter().find(is_twin).map(|seen| seen.output)
+    others.iter().find(is_twin).map(|twin| twin.output)
 }
 
 /// Appends the vertices that were noted, and puts them in the place of their numbers.
@@ -166,9 +162,10 @@ fn add_parted(
     attributes: &mut Attributes,
 ) {
     let streams = &mut attributes.streams;
+    let mut row = Row::EMPTY;
     let add = |&(sector, corner): &Parted| {
         let blends = blends(surface.view, placement, sector, corner);
-        let row = row(space, placement, streams, sector, blends);
+        fill(space, placement, streams, (sector, blends), &mut row);
         streams.add_moved(surface.topology.cluster_at[corner], &row, blends)
     };
     let added: Vec<u32> = parted.iter().map(add).collect();
@@ -178,17 +175,18 @@ fn add_parted(
     }
 }
 
-/// The values of a corner's vertex where its sector stands: the normal of the surface there, and all
-/// else of its chart.
-fn row(
+/// Fills a row with the values of a corner's vertex where its sector stands: the normal of the surface
+/// there, and all else of its chart.
+fn fill(
     space: Space,
     placement: &Placement,
     streams: &Streams,
-    sector: Sector,
-    [surface, chart]: [Blend; 2],
-) -> Row {
+    (sector, [surface, chart]): (Sector, [Blend; 2]),
+    row: &mut Row,
+) {
     let normal = blended_normal(space.source, &surface);
-    streams.blended(space.source, (space.back(placement.point[sector]), normal), &chart)
+    let place = (space.back(placement.point[sector]), normal);
+    streams.blend(space.source, place, &chart, row);
 }
 
 /// Where a corner's vertex comes from when its sector takes a share of the offset: on the surface,

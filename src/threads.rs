@@ -3,6 +3,7 @@
 //! Every value is computed by itself and put at its own place, so the result is the same for any
 //! number of threads.
 
+use std::ops::Range;
 #[cfg(feature = "parallel")]
 use std::sync::mpsc::{RecvTimeoutError, channel};
 #[cfg(feature = "parallel")]
@@ -69,37 +70,31 @@ impl Threads {
         count: usize,
         value: impl Fn(I) -> T + Sync + Send,
     ) -> IdVec<I, T> {
-        let value = |index| value(I::new(index));
-        #[cfg(feature = "parallel")]
-        if let Some(pool) = self.pool.as_ref().filter(|_| count >= LEAST_WORK) {
-            use rayon::prelude::*;
-            return IdVec::from_vec(
-                pool.install(|| (0..count).into_par_iter().map(value).collect()),
-            );
-        }
-        IdVec::from_vec((0..count).map(value).collect())
+        let mut values = Vec::with_capacity(count);
+        self.append_with(&mut values, 0..count, &|| (), &|(), id| value(id));
+        IdVec::from_vec(values)
     }
 
-    /// As [`Threads::map`], with a scratch value that each thread makes once.
-    pub fn map_with<I: Id, T: Send, S>(
+    /// Appends the value for each of some ids, with a scratch value that each thread makes once.
+    fn append_with<I: Id, T: Send, S>(
         &self,
-        count: usize,
-        scratch: impl Fn() -> S + Sync + Send,
-        value: impl Fn(&mut S, I) -> T + Sync + Send,
-    ) -> IdVec<I, T> {
+        values: &mut Vec<T>,
+        ids: Range<usize>,
+        scratch: &(impl Fn() -> S + Sync + Send),
+        value: &(impl Fn(&mut S, I) -> T + Sync + Send),
+    ) {
         let value = |scratch: &mut S, index| value(scratch, I::new(index));
         #[cfg(feature = "parallel")]
-        if let Some(pool) = self.pool.as_ref().filter(|_| count >= LEAST_WORK) {
+        if let Some(pool) = self.pool.as_ref().filter(|_| ids.len() >= LEAST_WORK) {
             use rayon::prelude::*;
-            return IdVec::from_vec(
-                pool.install(|| (0..count).into_par_iter().map_init(scratch, value).collect()),
-            );
+            pool.install(|| values.par_extend(ids.into_par_iter().map_init(scratch, value)));
+            return;
         }
         let mut scratch = scratch();
-        IdVec::from_vec((0..count).map(|index| value(&mut scratch, index)).collect())
+        values.extend(ids.map(|index| value(&mut scratch, index)));
     }
 
-    /// As [`Threads::map_with`], telling a watch again and again.
+    /// As [`Threads::map`], telling a watch again and again, with a scratch value that each thread makes.
     ///
     /// # Errors
     /// What `watch` gives.
@@ -110,17 +105,11 @@ impl Threads {
         scratch: impl Fn() -> S + Sync + Send,
         value: impl Fn(&mut S, I) -> T + Sync + Send,
     ) -> Result<IdVec<I, T>, Error> {
-        if count <= STEPS {
-            // Nothing is to be put together then.
-            watch.worked(count)?;
-            return Ok(self.map_with(count, scratch, value));
-        }
         let mut values = Vec::with_capacity(count);
         for start in (0..count).step_by(STEPS) {
-            let some = STEPS.min(count - start);
-            let of = |scratch: &mut S, within: I| value(scratch, I::new(start + within.index()));
-            values.extend(self.map_with(some, &scratch, of));
-            watch.worked(some)?;
+            let end = count.min(start + STEPS);
+            self.append_with(&mut values, start..end, &scratch, &value);
+            watch.worked(end - start)?;
         }
         Ok(IdVec::from_vec(values))
     }

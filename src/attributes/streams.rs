@@ -71,7 +71,13 @@ impl Column {
         match self.stream {
             Stream::Tangent => vertices.tangents.push(row.at(self.start)),
             Stream::Color => vertices.colors.push(row.at(self.start)),
-            Stream::Uv(channel) => vertices.uvs[channel].values.extend_from_slice(row.of(self)),
+            Stream::Uv(channel) => {
+                let values = &mut vertices.uvs[channel].values;
+                match self.width {
+                    2 => values.extend_from_slice(&row.at::<2>(self.start)),
+                    _ => values.extend_from_slice(row.of(self)),
+                }
+            }
         }
     }
 
@@ -90,13 +96,13 @@ const MOST_VALUES: usize = 3 + 3 + 4 + 4 + 8 * 4;
 pub struct Row([f32; MOST_VALUES]);
 
 impl Row {
-    /// Nothing but a position and a normal yet.
+    /// Nothing yet. Rows are filled where they lie: they are too large to be handed around.
+    pub const EMPTY: Row = Row([0.0; MOST_VALUES]);
+
     #[inline]
-    fn new(position: [f32; 3], normal: [f32; 3]) -> Row {
-        let mut row = Row([0.0; MOST_VALUES]);
-        row.0[POSITION..NORMAL].copy_from_slice(&position);
-        row.0[NORMAL..FIRST_RARER].copy_from_slice(&normal);
-        row
+    fn stand(&mut self, position: [f32; 3], normal: [f32; 3]) {
+        self.0[POSITION..NORMAL].copy_from_slice(&position);
+        self.0[NORMAL..FIRST_RARER].copy_from_slice(&normal);
     }
 
     fn of(&self, column: &Column) -> &[f32] {
@@ -111,8 +117,9 @@ impl Row {
         &mut self.0[column.start..column.start + column.width]
     }
 
+    #[inline]
     fn set(&mut self, column: &Column, values: &[f32]) {
-        self.of_mut(column).copy_from_slice(values);
+        copy_few(values, self.of_mut(column));
     }
 }
 
@@ -180,7 +187,7 @@ impl Streams {
         self.vertices.normals[vertex.index()] = row.at(NORMAL);
         for column in &self.columns {
             let values = &mut column.values_mut(&mut self.vertices)[column.range(vertex.0)];
-            values.copy_from_slice(row.of(column));
+            copy_few(row.of(column), values);
         }
         self.sources.set(vertex.index(), surface, chart);
     }
@@ -197,7 +204,8 @@ impl Streams {
 
     /// A vertex of a cluster like another one, but for what it takes from another chart.
     pub fn add_copy(&mut self, view: &View, cluster: Cluster, of: u32, taken: &Taken) -> u32 {
-        let mut row = self.row(of);
+        let mut row = Row::EMPTY;
+        self.read(of, &mut row);
         self.take(view, &mut row, taken);
         self.add(cluster, &row, |sources| {
             sources.push_copy(of as usize, taken.place, taken.channels);
@@ -213,7 +221,8 @@ impl Streams {
         (position, normal): (DVec3, DVec3),
         (near, taken): (Blend, Option<&Taken>),
     ) -> u32 {
-        let mut row = self.blended(view, (position, normal), &near);
+        let mut row = Row::EMPTY;
+        self.blend(view, (position, normal), &near, &mut row);
         let mut source = VertexSource::new(near, near);
         if let Some(taken) = taken {
             self.take(view, &mut row, taken);
@@ -231,8 +240,12 @@ impl Streams {
         (position, normal): (DVec3, DVec3),
         (near, parents, weights, is_shared): (Blend, [u32; 3], [f64; 3], bool),
     ) -> u32 {
-        let rows = parents.map(|parent| self.row(parent));
-        let mut row = Row::new(position.as_vec3().to_array(), normal.as_vec3().to_array());
+        let mut rows = [Row::EMPTY; 3];
+        for (row, parent) in rows.iter_mut().zip(parents) {
+            self.read(parent, row);
+        }
+        let mut row = Row::EMPTY;
+        row.stand(position.as_vec3().to_array(), normal.as_vec3().to_array());
         for column in &self.columns {
             for k in column.start..column.start + column.width {
                 row.0[k] = mean(rows.each_ref().map(|row| row.0[k]), weights);
@@ -307,23 +320,28 @@ impl Streams {
             && self.columns.iter().all(|column| own(column) == row.of(column))
     }
 
-    fn row(&self, vertex: u32) -> Row {
+    /// Reads the row of a vertex.
+    fn read(&self, vertex: u32, row: &mut Row) {
         let MeshBuffers { positions, normals, .. } = &self.vertices;
-        let mut row = Row::new(positions[vertex as usize], normals[vertex as usize]);
+        row.stand(positions[vertex as usize], normals[vertex as usize]);
         for column in &self.columns {
             row.set(column, &column.values(&self.vertices)[column.range(vertex)]);
         }
-        row
     }
 
-    /// A row at a position, with a normal, and all else blended in a chart.
-    pub fn blended(&self, view: &View, (position, normal): (DVec3, DVec3), chart: &Blend) -> Row {
-        let mut row = Row::new(position.as_vec3().to_array(), normal.as_vec3().to_array());
+    /// Makes a row at a position, with a normal, and all else blended in a chart.
+    pub fn blend(
+        &self,
+        view: &View,
+        (position, normal): (DVec3, DVec3),
+        chart: &Blend,
+        row: &mut Row,
+    ) {
+        row.stand(position.as_vec3().to_array(), normal.as_vec3().to_array());
         if let Some(column) = self.columns.iter().find(|column| column.stream == Stream::Color) {
             row.set(column, &self.color(view, chart));
         }
-        self.take(view, &mut row, &Taken { channels: Channels::MAX, place: *chart });
-        row
+        self.take(view, row, &Taken { channels: Channels::MAX, place: *chart });
     }
 
     /// Takes UV channels from another place, and the tangent along with the first of them.
@@ -370,6 +388,18 @@ fn columns(view: &View) -> SmallVec<[Column; 12]> {
         Column { stream, start, width }
     })
     .collect()
+}
+
+/// Copies one value of a stream. Nearly all have two or four numbers, which need no call.
+#[inline]
+fn copy_few(from: &[f32], to: &mut [f32]) {
+    match (from, to) {
+        (&[u, v], [to_u, to_v]) => (*to_u, *to_v) = (u, v),
+        (&[x, y, z, w], [to_x, to_y, to_z, to_w]) => {
+            (*to_x, *to_y, *to_z, *to_w) = (x, y, z, w);
+        }
+        (from, to) => to.copy_from_slice(from),
+    }
 }
 
 /// A copy with room for some more; an absent stream stays absent.

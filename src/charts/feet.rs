@@ -2,14 +2,11 @@
 
 use glam::DVec3;
 
-use super::channels_of;
-use super::{Spread, Way, Wings};
+use super::{Given, Spread, Way, Wings, channels_of};
 use crate::breaks::seam_between;
-use crate::chamfers::Chamfers;
 use crate::foot::locate;
-use crate::ids::{Corner, Few, Sector};
+use crate::ids::{Corner, Edge, Few, Sector};
 use crate::math::{area_vector, unit};
-use crate::placement::Placement;
 use crate::report::Blend;
 use crate::sectors::Sectors;
 use crate::surface::Surface;
@@ -163,16 +160,18 @@ pub struct Lay {
 /// The kite between the pulled corner of one of a ring's sectors, the feet on its two edges, and
 /// the old corner. The other vertices lie on a bow from foot to foot that bends towards the old
 /// corner, so that no three of them are in line.
+///
+/// `below` knows where far corners of strips lie below themselves, at either end of a half-edge.
 pub fn kite(
-    surface: Surface,
-    chamfers: Chamfers,
-    placement: &Placement,
+    given: &Given,
     sectors: &[Sector],
     (owner, wings, middles): (usize, Wings, usize),
+    below: impl Fn((Edge, Corner), usize) -> Option<Blend>,
     lay: &mut Lay,
 ) {
+    let Given { surface, chamfers, placement, .. } = *given;
     let sector = sectors[owner];
-    let [behind, before] = feet_of_wings(surface, chamfers, placement, (sector, wings));
+    let [behind, before] = feet_of_wings(given, (sector, wings), below);
     let fan = &chamfers.sectors.fans[sector];
     let corner = Blend::one(surface.view.vertex_at(fan.first).0);
     let on_bow = |along: f64| {
@@ -210,11 +209,11 @@ fn on_others(
 /// The feet on a sector's last and first edge; the old corner itself where the last one lies in
 /// another chart.
 fn feet_of_wings(
-    surface: Surface,
-    chamfers: Chamfers,
-    placement: &Placement,
+    given: &Given,
     (sector, wings): (Sector, Wings),
+    below: impl Fn((Edge, Corner), usize) -> Option<Blend>,
 ) -> [Blend; 2] {
+    let Given { surface, chamfers, placement, .. } = *given;
     let view = surface.view;
     let fan = &chamfers.sectors.fans[sector];
     let corner = surface.view.vertex_at(fan.first).0;
@@ -223,6 +222,9 @@ fn feet_of_wings(
         let is_out = half_edge == fan.first;
         match wings {
             Wings::Far if edge.is_some() => {
+                if let Some(foot) = below((edge, half_edge), usize::from(!is_out)) {
+                    return foot;
+                }
                 let [one, two] = chamfers.edges.hard[edge].sides;
                 let other = if one == half_edge { two } else { one };
                 let across = if is_out { other.next() } else { other };

@@ -128,8 +128,9 @@ impl FillMap<'_> {
         match way {
             Way::Kite(wings) => {
                 let middles = self.fill.middles.len();
-                let Given { surface, chamfers, placement, .. } = *self.given;
-                kite(surface, chamfers, placement, self.sectors, (owner, wings, middles), lay);
+                let Given { chamfers, .. } = *self.given;
+                let below = |side, end| self.owners.foot_below(chamfers.edges, side, end);
+                kite(self.given, self.sectors, (owner, wings, middles), below, lay);
             }
             _ => *lay = self.flat(Room { corner: self.first(owner), scale: 1.0 }),
         }

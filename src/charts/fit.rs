@@ -26,13 +26,6 @@ pub struct Lie<'a> {
     pub uvs: &'a [DVec2],
 }
 
-impl Lie<'_> {
-    /// The triangles on the texture.
-    fn texture(&self) -> impl Iterator<Item = [DVec2; 3]> + '_ {
-        self.triangles.iter().map(|triangle| triangle.map(|place| self.uvs[place as usize]))
-    }
-}
-
 /// How a chamfer may lie on the texture.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Facing {
@@ -74,7 +67,7 @@ pub fn misfit(
 ) -> f64 {
     let density = density(view, face.triangle(), channel);
     let stretch = stretch(density, facing, view.resolution, lie);
-    if stretch.is_finite() && !lie.texture().all(|uvs| ground.covers(uvs)) {
+    if stretch.is_finite() && !ground.covers(lie.triangles, lie.uvs) {
         return stretch * BEYOND;
     }
     stretch

@@ -2,12 +2,10 @@
 //!
 //! And density: how much texture a triangle shows for its area.
 
-use std::cell::OnceCell;
-
 use glam::DVec2;
 
 use crate::breaks::seam_between;
-use crate::ids::{Corner, Few, Id, Triangle};
+use crate::ids::{Corner, Id, Triangle};
 use crate::math::area_vector;
 use crate::mesh::Uv;
 use crate::surface::Surface;
@@ -79,47 +77,48 @@ pub struct Ground<'a> {
     channel: usize,
     /// Corners of chamfered edges.
     corners: &'a [Corner],
-    /// The triangles around them, once that is asked for.
-    around: OnceCell<Few<Face>>,
 }
 
 impl<'a> Ground<'a> {
     pub fn new(surface: Surface<'a>, channel: usize, corners: &'a [Corner]) -> Self {
-        Ground { surface, channel, corners, around: OnceCell::new() }
+        Ground { surface, channel, corners }
     }
 
-    /// Whether a triangle on the texture lies on it.
-    pub fn covers(&self, triangle: [DVec2; 3]) -> bool {
-        let near =
-            longest_square(triangle).sqrt() * TEXTURE_MARGIN + size(triangle) * TEXTURE_ROUNDING;
-        let all_below = |face: &Face| triangle.iter().all(|&point| face.is_below(point, near));
+    /// Whether some triangles on the texture, of which each is three places in the points, lie on it.
+    pub fn covers(&self, triangles: &[[u32; 3]], points: &[DVec2]) -> bool {
+        let corners = |triangle: &[u32; 3]| triangle.map(|place| points[place as usize]);
         // Most chamfers lie on the triangle that they are cut off from.
-        if all_below(&self.face(self.corners[0].triangle())) {
+        let own = self.face(self.corners[0].triangle());
+        let nears = triangles.iter().map(|triangle| nearness(corners(triangle)));
+        let near = nears.fold(f64::INFINITY, f64::min);
+        points.iter().all(|&point| own.is_below(point, near))
+            || triangles.iter().all(|triangle| self.covers_one(&own, corners(triangle)))
+    }
+
+    /// The same for one triangle, where the face at the first corner is known.
+    fn covers_one(&self, own: &Face, triangle: [DVec2; 3]) -> bool {
+        let near = nearness(triangle);
+        let all_below = |face: &Face| triangle.iter().all(|&point| face.is_below(point, near));
+        if all_below(own) {
             return true;
         }
-        let around = self.around.get_or_init(|| self.faces_around());
-        if around.iter().any(all_below) {
+        let around = |is_such: &mut dyn FnMut(&Face) -> bool| {
+            self.any_corner(|corner| is_such(&self.face(corner.triangle())))
+        };
+        if around(&mut |face| all_below(face)) {
             return true;
         }
         let samples = SAMPLES.map(|weights| (0..3).map(|k| triangle[k] * weights[k]).sum());
-        let all_on = |faces: &[Face]| {
-            samples.iter().all(|&point| faces.iter().any(|face| face.is_below(point, near)))
+        // Whether all lie on some face, of faces one by one.
+        let mut is_left = [true; SAMPLES.len()];
+        let mut is_last = |face: &Face| {
+            for (is_left, &sample) in is_left.iter_mut().zip(&samples) {
+                *is_left = *is_left && !face.is_below(sample, near);
+            }
+            is_left == [false; SAMPLES.len()]
         };
-        if all_on(around) {
-            return true;
-        }
-        let below = self.below(triangle, near).into_iter();
-        all_on(&below.map(|face| self.face(face)).collect::<Few<Face>>())
-    }
-
-    /// The triangles around the corners.
-    fn faces_around(&self) -> Few<Face> {
-        let mut faces = Few::new();
-        self.any_corner(|corner| {
-            faces.push(self.face(corner.triangle()));
-            false
-        });
-        faces
+        around(&mut is_last)
+            || self.below(triangle, near).into_iter().any(|face| is_last(&self.face(face)))
     }
 
     /// The triangles of the chart that reach below one on the texture, as far as they follow on each
@@ -220,6 +219,11 @@ impl<'a> Ground<'a> {
     }
 }
 
+/// How near to the ground a triangle counts as on it.
+fn nearness(triangle: [DVec2; 3]) -> f64 {
+    longest_square(triangle).sqrt() * TEXTURE_MARGIN + size(triangle) * TEXTURE_ROUNDING
+}
+
 /// The least and the greatest coordinates.
 fn bounds([a, b, c]: [DVec2; 3]) -> [DVec2; 2] {
     [a.min(b).min(c), a.max(b).max(c)]
@@ -295,11 +299,14 @@ mod tests {
             DVec2::from(at.map(f64::from))
         };
         let face = [0, 1, 2].map(uv);
-        assert!(ground.covers(face));
+        assert!(ground.covers(&[[0, 1, 2]], &face));
         let middle = (face[0] + face[1] + face[2]) / 3.0;
-        assert!(ground.covers([face[0], face[1], middle]));
+        assert!(ground.covers(&[[0, 1, 2]], &[face[0], face[1], middle]));
         let away = face[0] * 2.0 - middle;
-        assert!(!ground.covers([face[0], face[1], away]), "past the end of the chart");
+        assert!(
+            !ground.covers(&[[0, 1, 2]], &[face[0], face[1], away]),
+            "past the end of the chart"
+        );
     }
 
     /// The sides of the cylinder lie one beside the other in the atlas.
@@ -316,9 +323,10 @@ mod tests {
             .fold([DVec2::INFINITY, DVec2::NEG_INFINITY], |[low, high], [least, most]| {
                 [low.min(least), high.max(most)]
             });
+        let covers = |triangle: [DVec2; 3]| ground.covers(&[[0, 1, 2]], &triangle);
         assert_eq!(across.len(), 24, "two triangles for each side");
-        assert!(ground.covers([low, DVec2::new(high.x, low.y), high]));
-        assert!(!ground.covers([low, DVec2::new(high.x * 1.1, low.y), high]));
+        assert!(covers([low, DVec2::new(high.x, low.y), high]));
+        assert!(!covers([low, DVec2::new(high.x * 1.1, low.y), high]));
     }
 
     /// Seen at an angle, front and back show most, and no seam parts them from the other sides.

@@ -1,12 +1,13 @@
 //! Owners: which side's texture each strip continues.
 
-use super::Given;
 use super::feet::is_pair;
-use super::strip_map::StripMap;
+use super::strip_map::{Band, StripMap};
+use super::{Given, Spread, Way};
 use crate::chamfers::Chamfers;
 use crate::edges::Edges;
 use crate::ids::{Corner, Edge, IdVec, Triangle};
 use crate::patches::Patches;
+use crate::report::Blend;
 use crate::surface::Surface;
 use crate::threads::Threads;
 
@@ -15,13 +16,26 @@ pub struct Owners {
     /// `#hard edges`: which of its two sides.
     side: IdVec<Edge, u8>,
     /// `#hard edges`: how the strip fits onto that side's band: see [`StripMap::band`].
-    pub band: IdVec<Edge, Option<u8>>,
+    pub band: IdVec<Edge, Option<Band>>,
 }
 
 impl Owners {
     /// Which of a hard edge's sides owns its chamfer.
     pub fn of(&self, edge: Edge) -> usize {
         self.side[edge].into()
+    }
+
+    /// Where the strip of an edge has its far corner, at the start or at the end of one of the edge's
+    /// half-edges, if it belongs to that side and lies below itself there.
+    pub fn foot_below(
+        &self,
+        edges: &Edges,
+        (edge, half_edge): (Edge, Corner),
+        end: usize,
+    ) -> Option<Blend> {
+        let is_own = edges.hard[edge].sides[self.of(edge)] == half_edge;
+        let below = self.band[edge].filter(|band| is_own && band.way == Way::Band(Spread::Far));
+        below.and_then(|band| band.far[end])
     }
 }
 
@@ -35,9 +49,11 @@ pub fn owners(given: &Given, patches: &Patches, threads: &Threads) -> Owners {
     let Given { surface, chamfers, placement, attributes, .. } = *given;
     let band = |edge: Edge, side: u8| {
         let hard = &chamfers.edges.hard[edge];
-        let map =
-            StripMap::new(surface, placement, attributes, hard, patches.strip(edge).triangles);
-        map.band(side.into())
+        if hard.skipped.is_some() || hard.seams == 0 {
+            return Some(Band::ANY);
+        }
+        let triangles = patches.strip(edge).triangles;
+        StripMap::new(surface, placement, attributes, hard, triangles).band(side.into())
     };
     let region = regions(surface, chamfers.edges);
     let side = sides_in_order(chamfers, &region);
@@ -73,7 +89,7 @@ fn sides_in_order(chamfers: Chamfers, region: &IdVec<Triangle, Triangle>) -> IdV
 fn contested(
     edges: &Edges,
     region: &IdVec<Triangle, Triangle>,
-    band: &IdVec<Edge, Option<u8>>,
+    band: &IdVec<Edge, Option<Band>>,
 ) -> Vec<([Triangle; 2], Edge)> {
     let between = |edge: Edge| {
         let [one, two] = edges.hard[edge].sides.map(|side| region[side.triangle()]);
@@ -96,19 +112,20 @@ fn contested(
 struct Claim {
     between: [Triangle; 2],
     edge: Edge,
-    own: Option<u8>,
-    other: Option<u8>,
+    own: Option<Band>,
+    other: Option<Band>,
 }
 
 /// Gives the edges between two regions to the other one where fewer of them do not fit, and single
 /// edges to the side that alone they fit.
 fn settle(claims: &[Claim], owners: &mut Owners) {
     for between in claims.chunk_by(|one, next| one.between == next.between) {
-        let misfits = |band: fn(&Claim) -> Option<u8>| {
-            between.iter().filter(|claim| band(claim).is_none()).count()
-        };
+        let misfits =
+            |fits: fn(&Claim) -> bool| between.iter().filter(|claim| !fits(claim)).count();
         let [one, two] = between[0].between;
-        let is_lost = one != two && misfits(|claim| claim.other) < misfits(|claim| claim.own);
+        let [own, other] =
+            [misfits(|claim| claim.own.is_some()), misfits(|claim| claim.other.is_some())];
+        let is_lost = one != two && other < own;
         for claim in between {
             let changes = match (claim.own, claim.other) {
                 (None, Some(_)) => true,

@@ -1,5 +1,7 @@
 //! Strip map: how a strip lies on the texture.
 
+use std::cell::LazyCell;
+
 use glam::{DVec2, DVec3};
 
 use super::feet::{End, Frame, Room, feet_at, flat_lay};
@@ -70,12 +72,7 @@ impl<'a> StripMap<'a> {
         let [start, stop] = self.strip_ends(side);
         let [start_near, start_far] = feet_at(self.surface, &start, way);
         let [stop_near, stop_far] = feet_at(self.surface, &stop, way);
-        // In the order that `places` tells.
-        if side == 0 {
-            [stop_near, start_near, start_far, stop_far]
-        } else {
-            [start_far, stop_far, stop_near, start_near]
-        }
+        in_turn(side, [start_near, stop_near], [start_far, stop_far])
     }
 
     /// The strip at the start and at the end of the owner's half-edge.
@@ -153,23 +150,17 @@ impl<'a> StripMap<'a> {
         misfit(self.surface.view, self.edge.sides[owner], Facing::AsFace, channel, &ground, &lie)
     }
 
-    /// The first channel with a seam here; none of the channels where there is no seam.
-    fn first_seam(&self) -> usize {
-        self.edge.seams.trailing_zeros() as usize
-    }
-
-    /// Which of [`BANDS`] is the first on which the strip fits in its first channel with a seam, of
-    /// those of a side; the first where nothing needs to fit.
-    pub fn band(&self, owner: usize) -> Option<u8> {
-        if self.edge.skipped.is_some() || self.edge.seams == 0 {
-            return Some(0);
-        }
-        let channel = self.first_seam();
-        let fits = |&way: &Way| {
+    /// The first of [`BANDS`], of those of a side, on which the strip fits in its first channel with a
+    /// seam.
+    pub fn band(&self, owner: usize) -> Option<Band> {
+        let channel = first_seam(self.edge);
+        BANDS.iter().find_map(|&way| {
             let lay = Some((way, owner));
-            self.misfit(channel, lay, &self.feet(channel, lay)) <= MOST_STRETCH
-        };
-        BANDS.iter().position(fits).map(|place| place as u8)
+            let feet = self.feet(channel, lay);
+            let [start, stop] = places(owner);
+            (self.misfit(channel, lay, &feet) <= MOST_STRETCH)
+                .then(|| Band { way, far: [feet[start[1]], feet[stop[1]]] })
+        })
     }
 
     /// All ways, best first.
@@ -206,6 +197,30 @@ impl<'a> StripMap<'a> {
     }
 }
 
+/// A band that a strip fits on.
+#[derive(Clone, Copy)]
+pub struct Band {
+    pub way: Way,
+    /// Where the far corners are, at the start and at the end of the owner's half-edge.
+    pub far: [Option<Blend>; 2],
+}
+
+impl Band {
+    /// That of a strip that needs none.
+    pub const ANY: Band = Band { way: BANDS[0], far: [None; 2] };
+}
+
+/// The first channel with a seam at an edge; none of the channels where there is no seam.
+fn first_seam(edge: &HardEdge) -> usize {
+    edge.seams.trailing_zeros() as usize
+}
+
+/// The owner's feet and the far ones, each at the start and at the end of its half-edge, in the order
+/// that [`places`] tells.
+fn in_turn(owner: usize, near: [Option<Blend>; 2], far: [Option<Blend>; 2]) -> Feet {
+    if owner == 0 { [near[1], near[0], far[0], far[1]] } else { [far[0], far[1], near[1], near[0]] }
+}
+
 /// The places of the owner's corner and of the far one, at the start and at the end of its
 /// half-edge.
 fn places(owner: usize) -> [[usize; 2]; 2] {
@@ -217,18 +232,19 @@ fn places(owner: usize) -> [[usize; 2]; 2] {
 pub fn lay_strip(
     given: &Given,
     (edge, strip): (Edge, Parts),
-    (owner, band): (usize, Option<u8>),
+    (owner, band): (usize, Option<Band>),
     taken_at: &mut Vec<TakenAt>,
 ) -> Triangle {
     let Given { surface, placement, attributes, .. } = *given;
     let hard = &given.chamfers.edges.hard[edge];
-    let map = StripMap::new(surface, placement, attributes, hard, strip.triangles);
+    let map =
+        LazyCell::new(|| StripMap::new(surface, placement, attributes, hard, strip.triangles));
     let (mut taken, mut channels): (Feet, [u8; 4]) = ([None; 4], [0; 4]);
     for &channel in given.channels {
         // What the owner was chosen by need not be looked for again.
-        let known = band.filter(|_| map.first_seam() == channel && channels == [0; 4]);
+        let known = band.filter(|_| first_seam(hard) == channel && channels == [0; 4]);
         let feet = match known {
-            Some(band) => map.feet(channel, Some((BANDS[usize::from(band)], owner))),
+            Some(band) => in_turn(owner, [None; 2], band.far),
             None => map.lay(channel, owner, &taken),
         };
         for place in (0..4).filter(|&place| feet[place].is_some()) {
