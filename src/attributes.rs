@@ -193,16 +193,19 @@ fn fill(
 /// and in its chart.
 fn blends(view: &View, placement: &Placement, sector: Sector, corner: Corner) -> [Blend; 2] {
     let share = placement.share[sector];
-    let own = view.vertex_at(corner).0;
-    let chart = placement.chart_foot(sector, corner);
-    // Where the way begins at the vertex itself, that is the one to begin with.
-    let from_own = |blend: Blend| match chart.start {
-        [0.0, 0.0] => Blend { vertices: [own, blend.vertices[1], blend.vertices[2]], ..blend },
-        _ => blend,
+    let offset = placement.offset(sector);
+    let (on_surface, in_chart) = if offset.is_plain {
+        (offset.foot, offset.foot)
+    } else {
+        (placement.surface_foot(sector, corner), placement.chart_foot(sector, corner))
     };
-
-    let surface = placement.surface_foot(sector, corner).blend(view, share);
-    [surface, from_own(chart.blend(view, share))]
+    let surface = on_surface.blend(view, share);
+    let mut chart = if in_chart == on_surface { surface } else { in_chart.blend(view, share) };
+    // Where the way begins at the vertex itself, that is the one to begin with.
+    if in_chart.start == [0.0, 0.0] {
+        chart.vertices[0] = view.vertex_at(corner).0;
+    }
+    [surface, chart]
 }
 
 /// Moves the corners of collapsed triangles along.

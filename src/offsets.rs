@@ -59,9 +59,24 @@ pub struct Offset {
     pub is_capped: bool,
     /// How much of what was asked for the vector is for the sector's first and for its last edge.
     pub fronts: [f64; 2],
+    /// Whether the sector's corners are of one vertex, all on faces that have a plane and no hard edge
+    /// between them: then all streams are read at the foot.
+    pub is_plain: bool,
 }
 
 impl Offset {
+    /// For a corner that stays.
+    fn none(within: Corner) -> Offset {
+        Offset {
+            vector: DVec3::ZERO,
+            within,
+            foot: Foot::at(within),
+            is_capped: false,
+            fronts: [1.0; 2],
+            is_plain: false,
+        }
+    }
+
     pub fn moves(&self) -> bool {
         self.vector != DVec3::ZERO
     }
@@ -108,13 +123,8 @@ pub fn offsets(
         let fan = &sectors.fans[sector];
         let chosen = course(surface, chamfers.edges, fan, spread)
             .and_then(|course| place(view, faces, spread, &course));
-        chosen.unwrap_or(Offset {
-            vector: DVec3::ZERO,
-            within: fan.first,
-            foot: Foot::at(fan.first),
-            is_capped: false,
-            fronts: [1.0; 2],
-        })
+        let offset = chosen.unwrap_or(Offset::none(fan.first));
+        Offset { is_plain: !fan.holds_hard && is_plain(view, faces, spread), ..offset }
     })?;
     for followers in sectors.followers.chunk_by(|one, other| one.sector == other.sector) {
         let sector = followers[0].sector;
@@ -155,7 +165,7 @@ fn span(
     let is_level = |corner: &Corner| faces.normal[corner.triangle()].dot(normal) > LEVEL_COSINE;
     let within = |&corner: &Corner| {
         let foot = locate(view, corner, at, vector)?;
-        Some(Offset { vector, within: corner, foot, is_capped: false, fronts: [1.0; 2] })
+        Some(Offset { vector, foot, ..Offset::none(corner) })
     };
     let inside = |offset: &Offset| offset.foot.along[0].min(offset.foot.along[1]);
     let faces = fan.iter().filter(|corner| !faces.is_line(corner.triangle())).filter_map(within);
@@ -187,6 +197,17 @@ fn unfold(
         spread.push(Blade { corner, start, angle });
         start = start.plus(angle);
     }
+}
+
+/// Whether a fan has one vertex, and a plane on every face.
+fn is_plain(view: &View, faces: &Faces, spread: &[Blade]) -> bool {
+    let vertex = view.vertex_at(spread[0].corner);
+    spread.iter().all(|blade| {
+        let triangle = blade.corner.triangle();
+        view.vertex_at(blade.corner) == vertex
+            && faces.normal[triangle] != DVec3::ZERO
+            && !faces.is_line(triangle)
+    })
 }
 
 /// From a corner to the next and to the previous corner.
@@ -485,13 +506,8 @@ fn place(view: &View, faces: &Faces, spread: &[Blade], course: &Course) -> Optio
 fn sound(faces: &Faces, course: &Course, (vector, foot): (DVec3, Foot)) -> Option<Offset> {
     let within = course.corner;
     let is_sound = faces.normal[within.triangle()] != DVec3::ZERO && vector.is_finite();
-    is_sound.then_some(Offset {
-        vector,
-        within,
-        foot,
-        is_capped: course.is_capped,
-        fronts: [1.0; 2],
-    })
+    let Course { is_capped, .. } = *course;
+    is_sound.then(|| Offset { vector, foot, is_capped, ..Offset::none(within) })
 }
 
 /// Whether all planes in a fan that could be the corner's own lead to the same place.

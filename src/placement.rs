@@ -67,6 +67,18 @@ impl<'a> Placement<'a> {
         if sector.is_none() { self.surface.view.position_at(corner) } else { self.point[sector] }
     }
 
+    /// Where a corner stands now, and its normal there, if it is the first (0) or the last (1) one of its
+    /// sector.
+    #[inline]
+    pub fn stand_at(&self, corner: Corner, end: usize) -> (DVec3, DVec3) {
+        let sector = self.sectors.sector_of[corner];
+        if sector.is_none() {
+            let view = self.surface.view;
+            return (view.position_at(corner), view.normal_at(corner));
+        }
+        (self.point[sector], self.normals[sector][end])
+    }
+
     /// The normal at a corner; between the first and the last corner of a sector, the last one's.
     #[inline]
     pub fn normal_at(&self, corner: Corner) -> DVec3 {
@@ -100,19 +112,30 @@ impl<'a> Placement<'a> {
     /// The normals where a sector stands, at its first and at its last corner.
     fn normals_of(&self, sector: Sector) -> [DVec3; 2] {
         let (view, fan) = (self.surface.view, &self.sectors.fans[sector]);
-        let has_moved = self.has_moved(sector);
-        let at = |corner: Corner| {
-            // A move that rounding swallows leaves the vertex, and so its normal, as it was.
-            if !has_moved {
-                view.normal_at(corner)
-            } else {
-                let foot = self.surface_foot(sector, corner);
-                blended_normal(view, &foot.blend(view, self.share[sector]))
-            }
-        };
+        let ends = [fan.first, fan.last];
+        // A move that rounding swallows leaves the vertex, and so its normal, as it was.
+        if !self.has_moved(sector) {
+            return ends.map(|corner| view.normal_at(corner));
+        }
+        let offset = &self.offsets[sector];
+        if offset.is_plain {
+            return [self.normal_on(&offset.foot, sector); 2];
+        }
+        let at = |corner: Corner| self.normal_on(&self.surface_foot(sector, corner), sector);
         let first = at(fan.first);
         let is_one = view.vertex_at(fan.first) == view.vertex_at(fan.last);
         [first, if is_one { first } else { at(fan.last) }]
+    }
+
+    /// The normal at a sector's share of a way.
+    fn normal_on(&self, foot: &Foot, sector: Sector) -> DVec3 {
+        let view = self.surface.view;
+        let normals = foot.corner.triangle().corners().map(|corner| view.normal_at(corner));
+        // Most faces are flat: nothing is to be blended.
+        if normals[0] == normals[1] && normals[0] == normals[2] {
+            return normals[0];
+        }
+        blended_normal(view, &foot.blend(view, self.share[sector]))
     }
 }
 

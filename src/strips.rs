@@ -61,11 +61,11 @@ impl Cut {
 /// The strip of an edge where the sectors stand now.
 pub fn quad(placement: &Placement, edge: &HardEdge) -> Quad {
     let [b1, a1, a2, b2] = corners(edge);
-    let (point, normal) = (|at| placement.position_at(at), |at| placement.normal_at(at));
-    Quad {
-        points: [point(b1), point(a1), point(a2), point(b2)],
-        normals: [normal(b1), normal(a1), normal(a2), normal(b2)],
-    }
+    // A side starts at the first corner of a sector, and ends at the last one of another.
+    let (first, last) = (|at| placement.stand_at(at, 0), |at| placement.stand_at(at, 1));
+    let stands = [last(b1), first(a1), last(a2), first(b2)];
+    let [b1, a1, a2, b2] = stands;
+    Quad { points: [b1.0, a1.0, a2.0, b2.0], normals: [b1.1, a1.1, a2.1, b2.1] }
 }
 
 /// Cuts the strip by the diagonal that folds less.
@@ -76,7 +76,8 @@ pub fn cut(quad: &Quad) -> Cut {
         (true, false) => Cut::OpenAtB,
         (false, true) => Cut::OpenAtA,
         (false, false) => {
-            let (from_b1, from_a1) = (fold(quad, Cut::FromB1), fold(quad, Cut::FromA1));
+            let from_b1 = fold([b1, a1, a2], [b1, a2, b2]);
+            let from_a1 = fold([b1, a1, b2], [a1, a2, b2]);
             let is_longer = b1.distance_squared(a2) > a1.distance_squared(b2);
             let folds_more = from_b1 < from_a1 - EQUAL_FOLD;
             let folds_alike = (from_b1 - from_a1).abs() <= EQUAL_FOLD;
@@ -95,10 +96,10 @@ pub fn is_valid(quad: &Quad, cut: Cut, edge: DVec3, resolution: f64) -> bool {
     runs_along(a1, b1) && runs_along(a2, b2) && cut.triangles().iter().all(faces)
 }
 
-/// The cosine between the two triangles' normals.
-fn fold(quad: &Quad, cut: Cut) -> f64 {
-    let area = |triangle: [usize; 3]| area_vector(triangle.map(|k| quad.points[k]));
-    let [one, other] = [0, 1].map(|k| area(cut.triangles()[k]));
+/// The cosine between two triangles' normals.
+#[inline]
+fn fold(one: [DVec3; 3], other: [DVec3; 3]) -> f64 {
+    let (one, other) = (area_vector(one), area_vector(other));
     let sizes = one.length() * other.length();
     if sizes > 0.0 { one.dot(other) / sizes } else { 0.0 }
 }
@@ -142,7 +143,8 @@ mod tests {
         let [mut low_b1, a1_again] = [b1, a1];
         low_b1[2] = -0.5;
         let twisted = quad([low_b1, a1_again, a2, b2]);
-        let folds = [fold(&twisted, Cut::FromB1), fold(&twisted, Cut::FromA1)];
+        let [b1, a1, a2, b2] = twisted.points;
+        let folds = [fold([b1, a1, a2], [b1, a2, b2]), fold([b1, a1, b2], [a1, a2, b2])];
         assert_eq!(cut(&twisted) == Cut::FromA1, folds[1] >= folds[0]);
     }
 }

@@ -20,20 +20,24 @@ pub fn verdicts(
     (patches, rounding): (&Patches, Option<&Rounding>),
 ) -> (Vec<EdgeVerdict>, Totals) {
     let Chamfers { edges, sectors } = chamfers;
-    let of_edge = |edge| {
+    let mut verdicts = Vec::with_capacity(edges.hard.len());
+    let mut sum = Sum::default();
+    for edge in edges.hard.ids() {
         let is_open = !patches.strip(edge).triangles.is_empty();
         let segments = if is_open { segments(rounding, edge) } else { 0 };
-        let verdict = verdict(view, sectors, limits, (&edges.hard[edge], is_open));
-        EdgeVerdict { segments, ..verdict }
-    };
-    let verdicts: Vec<EdgeVerdict> = edges.hard.ids().map(of_edge).collect();
-    let totals = totals(view, chamfers, limits, &verdicts);
-    (verdicts, totals)
+        let edge = &edges.hard[edge];
+        let at = strips::corners(edge).map(|corner| sectors.sector_of[corner]);
+        let verdict = verdict(view, (sectors, at), limits, (edge, is_open));
+        sum.add(view, (edge, &verdict), counting_ends(limits, at, &verdict));
+        verdicts.push(EdgeVerdict { segments, ..verdict });
+    }
+    (verdicts, sum.totals())
 }
 
+/// The sectors at an edge stand in the order of [`strips::corners`].
 fn verdict(
     view: &View,
-    sectors: &Sectors,
+    (sectors, at): (&Sectors, [Sector; 4]),
     limits: &Limits,
     (edge, is_open): (&HardEdge, bool),
 ) -> EdgeVerdict {
@@ -42,7 +46,6 @@ fn verdict(
     let (outcome, reason, widths) = match edge.skipped {
         Some(reason) => left(reason),
         None => {
-            let at = strips::corners(edge).map(|corner| sectors.sector_of[corner]);
             let reason = worst_reason(limits, at);
             if !is_open {
                 let is_fine = edge.widest() <= view.resolution;
@@ -52,7 +55,7 @@ fn verdict(
                 left(if is_turned { Reason::Winding } else { reason })
             } else {
                 let outcome = if reason.is_some() { Outcome::Narrowed } else { Outcome::Full };
-                (outcome, reason.unwrap_or(Reason::None), widths(view, limits, edge))
+                (outcome, reason.unwrap_or(Reason::None), widths(view, limits, (edge, at)))
             }
         }
     };
@@ -85,41 +88,66 @@ fn unopened(sectors: &Sectors, at: [Sector; 4]) -> Reason {
     }
 }
 
-/// What limited the edge's side that got least; none if all got everything. The sectors stand in
-/// the order of [`strips::corners`].
-fn worst_reason(limits: &Limits, sectors: [Sector; 4]) -> Option<Reason> {
+/// What limited the edge's side that got least; none if all got everything.
+fn worst_reason(limits: &Limits, at: [Sector; 4]) -> Option<Reason> {
     // A side is the first edge of the sector where it starts, and the last one where it ends.
     let fronts = [1, 0, 1, 0];
-    let share = |&(sector, front): &(Sector, usize)| {
-        limits.placement.share[sector] * limits.placement.offset(sector).fronts[front]
-    };
-    let limited = sectors
-        .into_iter()
-        .zip(fronts)
-        .filter(|end| limits.placement.offset(end.0).moves() && share(end) < 1.0)
-        .min_by(|one, other| share(one).total_cmp(&share(other)));
-    let is_capped = sectors.into_iter().any(|sector| limits.placement.offset(sector).is_capped);
+    let (mut least, mut is_capped) = (None, false);
+    for (sector, front) in at.into_iter().zip(fronts) {
+        let offset = limits.placement.offset(sector);
+        let share = limits.placement.share[sector] * offset.fronts[front];
+        let is_least = least.is_none_or(|(least, _)| share < least);
+        if offset.moves() && share < 1.0 && is_least {
+            least = Some((share, sector));
+        }
+        is_capped |= offset.is_capped;
+    }
     let reason = |sector: Sector| match limits.reason[sector] {
         Reason::None => Reason::NoRoom,
         reason => reason,
     };
-    limited.map(|end| reason(end.0)).or(is_capped.then_some(Reason::Miter))
+    least.map(|(_, sector)| reason(sector)).or(is_capped.then_some(Reason::Miter))
 }
 
 /// At each end, the mean distance of the two pulled vertices from the line of the old edge.
-fn widths(view: &View, limits: &Limits, edge: &HardEdge) -> [f32; 2] {
+fn widths(view: &View, limits: &Limits, (edge, at): (&HardEdge, [Sector; 4])) -> [f32; 2] {
     let [from, to] = [edge.sides[0], edge.sides[0].next()].map(|c| view.position_at(c));
     let along = unit(to - from);
-    let corners = strips::corners(edge);
-    let [b1, a1, a2, b2] = corners.map(|corner| limits.placement.position_at(corner));
+    let [b1, a1, a2, b2] = at.map(|sector| limits.placement.point[sector]);
     let distance = |point: glam::DVec3| (point - from).cross(along).length();
     [(a1, a2), (b1, b2)].map(|(one, two)| ((distance(one) + distance(two)) / 2.0) as f32)
 }
 
-fn totals(view: &View, chamfers: Chamfers, limits: &Limits, verdicts: &[EdgeVerdict]) -> Totals {
-    let mut totals = Totals { hard_edges: verdicts.len() as u32, ..Totals::default() };
-    let (mut whole, mut got) = (0.0, 0.0);
-    for (verdict, edge) in verdicts.iter().zip(chamfers.edges.hard.iter()) {
+/// The ends of an edge at which a width was asked for: not those at which its chamfer tapers to a
+/// point because it ends there.
+fn counting_ends(limits: &Limits, at: [Sector; 4], verdict: &EdgeVerdict) -> [bool; 2] {
+    if verdict.reason == Reason::NotSelected {
+        return [false; 2];
+    }
+    if verdict.outcome == Outcome::Skipped {
+        return [true; 2];
+    }
+    let moves = at.map(|sector| limits.placement.offset(sector).moves());
+    [moves[1] || moves[2], moves[0] || moves[3]]
+}
+
+/// What is told of all edges, in the making.
+#[derive(Default)]
+struct Sum {
+    totals: Totals,
+    /// The lengths of edges by the widths that their ends got, in terms of those asked for.
+    got: f64,
+}
+
+impl Sum {
+    fn add(
+        &mut self,
+        view: &View,
+        (edge, verdict): (&HardEdge, &EdgeVerdict),
+        counting: [bool; 2],
+    ) {
+        let totals = &mut self.totals;
+        totals.hard_edges += 1;
         match verdict.outcome {
             Outcome::Full => totals.chamfered += 1,
             Outcome::Narrowed => totals.narrowed += 1,
@@ -127,33 +155,16 @@ fn totals(view: &View, chamfers: Chamfers, limits: &Limits, verdicts: &[EdgeVerd
         }
         let [from, to] = [edge.sides[0], edge.sides[0].next()].map(|c| view.position_at(c));
         let length = from.distance(to);
-        let counting = counting_ends(chamfers.sectors, limits, (verdict, edge));
         for end in (0..2).filter(|&end| counting[end]) {
-            whole += length;
-            got += length * (f64::from(verdict.widths[end]) / edge.widths[end]).min(1.0);
+            totals.counted += length;
+            self.got += length * (f64::from(verdict.widths[end]) / edge.widths[end]).min(1.0);
         }
     }
-    totals.counted = whole;
-    totals.mean_width = if whole > 0.0 { (got / whole) as f32 } else { 0.0 };
-    totals
-}
 
-/// The ends of an edge at which a width was asked for: not those at which its chamfer tapers to a
-/// point because it ends there.
-fn counting_ends(
-    sectors: &Sectors,
-    limits: &Limits,
-    (verdict, edge): (&EdgeVerdict, &HardEdge),
-) -> [bool; 2] {
-    let moves = strips::corners(edge).map(|corner| {
-        let sector = sectors.sector_of[corner];
-        sector.is_some() && limits.placement.offset(sector).moves()
-    });
-    if verdict.reason == Reason::NotSelected {
-        return [false; 2];
+    fn totals(self) -> Totals {
+        let (whole, got) = (self.totals.counted, self.got);
+        Totals { mean_width: if whole > 0.0 { (got / whole) as f32 } else { 0.0 }, ..self.totals }
     }
-    let is_skipped = verdict.outcome == Outcome::Skipped;
-    [moves[1] || moves[2], moves[0] || moves[3]].map(|moves| moves || is_skipped)
 }
 
 #[cfg(test)]

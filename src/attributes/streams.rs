@@ -354,9 +354,17 @@ impl Streams {
                 Stream::Uv(channel) if channels >> channel & 1 == 1 => {
                     let uv = &view.mesh.uvs[channel];
                     let [a, b, c] = place.vertices.map(|vertex| uv_at(uv, vertex as usize));
-                    let values = a.iter().zip(b).zip(c);
-                    for (value, ((a, b), c)) in row.of_mut(column).iter_mut().zip(values) {
-                        *value = blend_value(place, [*a, *b, *c]);
+                    match (a, b, c, row.of_mut(column)) {
+                        // Nearly all channels have two components.
+                        (&[a_u, a_v], &[b_u, b_v], &[c_u, c_v], [u, v]) => {
+                            *u = blend_value(place, [a_u, b_u, c_u]);
+                            *v = blend_value(place, [a_v, b_v, c_v]);
+                        }
+                        (a, b, c, values) => {
+                            for (k, value) in values.iter_mut().enumerate() {
+                                *value = blend_value(place, [a[k], b[k], c[k]]);
+                            }
+                        }
                     }
                 }
                 _ => {}

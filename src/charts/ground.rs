@@ -70,6 +70,38 @@ impl Face {
     }
 }
 
+/// Where a triangle on the texture is looked at, and which of these places lie on no face yet.
+struct Samples {
+    /// The corners first.
+    points: [DVec2; SAMPLES.len()],
+    is_left: [bool; SAMPLES.len()],
+    /// So near counts as on it.
+    near: f64,
+}
+
+impl Samples {
+    fn new(triangle: [DVec2; 3]) -> Samples {
+        let points = SAMPLES.map(|weights| (0..3).map(|k| triangle[k] * weights[k]).sum());
+        Samples { points, is_left: [true; SAMPLES.len()], near: nearness(triangle) }
+    }
+
+    /// Whether the triangle lies on a face, or all places lie on this one or one that was asked before.
+    fn lie_on(&mut self, face: &Face) -> bool {
+        let below = [0, 1, 2].map(|k| face.is_below(self.points[k], self.near));
+        if below == [true; 3] {
+            return true;
+        }
+        for k in 0..SAMPLES.len() {
+            if !self.is_left[k] {
+                continue;
+            }
+            let is_below = || face.is_below(self.points[k], self.near);
+            self.is_left[k] = !below.get(k).copied().unwrap_or_else(is_below);
+        }
+        self.is_left == [false; SAMPLES.len()]
+    }
+}
+
 /// The source triangles around some corners that lie in the corners' own chart of a channel, and
 /// what follows on these.
 pub struct Ground<'a> {
@@ -97,28 +129,16 @@ impl<'a> Ground<'a> {
 
     /// The same for one triangle, where the face at the first corner is known.
     fn covers_one(&self, own: &Face, triangle: [DVec2; 3]) -> bool {
-        let near = nearness(triangle);
-        let all_below = |face: &Face| triangle.iter().all(|&point| face.is_below(point, near));
-        if all_below(own) {
-            return true;
-        }
-        let around = |is_such: &mut dyn FnMut(&Face) -> bool| {
-            self.any_corner(|corner| is_such(&self.face(corner.triangle())))
-        };
-        if around(&mut |face| all_below(face)) {
-            return true;
-        }
-        let samples = SAMPLES.map(|weights| (0..3).map(|k| triangle[k] * weights[k]).sum());
-        // Whether all lie on some face, of faces one by one.
-        let mut is_left = [true; SAMPLES.len()];
-        let mut is_last = |face: &Face| {
-            for (is_left, &sample) in is_left.iter_mut().zip(&samples) {
-                *is_left = *is_left && !face.is_below(sample, near);
-            }
-            is_left == [false; SAMPLES.len()]
-        };
-        around(&mut is_last)
-            || self.below(triangle, near).into_iter().any(|face| is_last(&self.face(face)))
+        let mut samples = Samples::new(triangle);
+        let own_triangle = self.corners[0].triangle();
+        samples.lie_on(own)
+            || self.any_corner(|corner| {
+                corner.triangle() != own_triangle && samples.lie_on(&self.face(corner.triangle()))
+            })
+            || self
+                .below(triangle, samples.near)
+                .into_iter()
+                .any(|face| samples.lie_on(&self.face(face)))
     }
 
     /// The triangles of the chart that reach below one on the texture, as far as they follow on each

@@ -73,7 +73,12 @@ fn surface_is_valid(given: &Given, placement: &Placement, triangle: Triangle) ->
     } else if faces.normal[triangle] == DVec3::ZERO || faces.is_line(triangle) {
         let resolution = given.surface.view.resolution;
         stays_line(old, new, faces.normal[triangle], resolution)
-            && opens_along(old, new, facing(given, placement, triangle).map(unit), resolution)
+            && opens_along(
+                old,
+                new,
+                [facing_before(given, triangle), facing_after(placement, triangle)].map(unit),
+                resolution,
+            )
     } else {
         survives(old, new)
             && breadth::is_kept(given, triangle, [old, new])
@@ -88,16 +93,20 @@ fn still_faces_out(
     triangle: Triangle,
     [old, new]: [[DVec3; 3]; 2],
 ) -> bool {
-    let [before, after] = facing(given, placement, triangle);
-    area_vector(new).dot(after) > 0.0 || area_vector(old).dot(before) <= 0.0
+    area_vector(new).dot(facing_after(placement, triangle)) > 0.0
+        || area_vector(old).dot(facing_before(given, triangle)) <= 0.0
 }
 
-/// The sums of a triangle's vertex normals, before and after.
-fn facing(given: &Given, placement: &Placement, triangle: Triangle) -> [DVec3; 2] {
-    let sum = |normals: [DVec3; 3]| normals[0] + normals[1] + normals[2];
-    let corners = triangle.corners();
-    let before = corners.map(|corner| given.surface.view.normal_at(corner));
-    [sum(before), sum(corners.map(|corner| placement.normal_at(corner)))]
+/// The sum of a triangle's vertex normals in the source.
+fn facing_before(given: &Given, triangle: Triangle) -> DVec3 {
+    let [a, b, c] = triangle.corners().map(|corner| given.surface.view.normal_at(corner));
+    a + b + c
+}
+
+/// The same where the sectors stand now.
+fn facing_after(placement: &Placement, triangle: Triangle) -> DVec3 {
+    let [a, b, c] = triangle.corners().map(|corner| placement.normal_at(corner));
+    a + b + c
 }
 
 fn strip_is_valid(given: &Given, placement: &Placement, edge: Edge) -> bool {

@@ -127,7 +127,7 @@ pub fn follow(
         followers.iter().map(|follower| offsets[follower.leader].vector).collect();
     let vector = step(&paths, &leads, normal);
     let foot = locate(view, within, at, vector)?;
-    let offset = Offset { vector, within, foot, is_capped: false, fronts: [1.0; 2] };
+    let offset = Offset { vector, foot, ..Offset::none(within) };
     vector.is_finite().then_some(offset)
 }
 
