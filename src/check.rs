@@ -12,6 +12,7 @@ mod ground;
 mod hardness;
 mod intersections;
 mod junctions;
+mod loops;
 mod matching;
 mod nearest;
 mod origins;
@@ -169,7 +170,7 @@ fn check_geometry(
     values::check_normals(before, after, origins, findings);
     values::check_tangents(before, after, origins, findings);
     values::check_colors(before, after, findings);
-    borders::check_edges(source, result, findings);
+    borders::check_edges(source, result, origins, findings);
     borders::check_borders(source, result, origins, findings);
     let facing = Facing::new(extras.scale);
     triangles::check_triangles([source, result], origins, &facing, findings);

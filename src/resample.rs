@@ -6,6 +6,7 @@
 use glam::DVec3;
 
 use crate::breaks::{is_hard, same_chart};
+use crate::edges::seam_channels;
 use crate::foot::{Foot, locate};
 use crate::ids::{Corner, Few, Triangle, Vertex};
 use crate::math::unit;
@@ -41,7 +42,23 @@ pub fn surface_foot(surface: Surface, sectors: &Sectors, offset: &Offset, corner
 /// itself.
 pub fn chart_foot(surface: Surface, sectors: &Sectors, offset: &Offset, corner: Corner) -> Foot {
     let agree = |one, other| same_chart(surface.view, one, other);
-    foot(surface, sectors, offset, corner, agree).unwrap_or(Foot::at(corner))
+    let usual = foot(surface, sectors, offset, corner, agree).unwrap_or(Foot::at(corner));
+    let [vertex, carrier] = [corner, usual.corner].map(|at| surface.view.vertex_at(at));
+    if vertex == carrier || surface.view.mesh.uvs.iter().all(|uvs| uvs.components == 0) {
+        return usual;
+    }
+    // Two charts may have the same coordinates at the corner, and other ones around it.
+    let fan: Few<Corner> = sectors.corners(surface.topology, sectors.sector_of[corner]).collect();
+    let parts = || fan.chunk_by(|one, other| seam_channels(surface.view, *other, one.prev()) == 0);
+    let is_carried = |part: &[Corner]| part.contains(&usual.corner) || !fan.contains(&usual.corner);
+    match parts().find(|part| part.contains(&corner)) {
+        Some(part) if !is_carried(part) => {
+            let own = nearest(surface, &fan, offset, |own| part.contains(&own));
+            let way = |own| locate(surface.view, own, surface.view.position_at(own), offset.vector);
+            own.and_then(way).unwrap_or(Foot::at(corner))
+        }
+        _ => usual,
+    }
 }
 
 fn foot(

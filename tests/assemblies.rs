@@ -130,6 +130,23 @@ fn a_box_that_is_there_twice_is_chamfered_twice() {
     }
 }
 
+/// Copies that are open are two open boxes, however the faces of each are cut.
+#[test]
+fn an_open_box_that_is_there_twice_is_chamfered_twice() {
+    for diagonals in [0, 0o77, 0o7700] {
+        let open = Block { diagonals, without: 0b1000, ..Block::new([0.0; 3], [1.0; 3]) };
+        let mesh = assembly(&[open.with(Skin::Copied)], DMat3::IDENTITY, false);
+        let result = chamfered("box", &mesh, 0.02);
+        assert_eq!((result.totals.chamfered, result.totals.hard_edges), (16, 16), "{diagonals}");
+        let [first, second] = [0, 20].map(|start| {
+            let mut points = result.mesh.positions[start..start + 20].to_vec();
+            points.sort_by(|a, b| a.partial_cmp(b).unwrap());
+            points
+        });
+        assert_eq!(first, second, "both copies follow");
+    }
+}
+
 /// A folded sheet of two sides ends somewhere: it is a card, and keeps its shape.
 #[test]
 fn a_folded_card_of_two_sides_keeps_its_fold() {

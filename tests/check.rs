@@ -502,6 +502,34 @@ fn a_flat_normal_that_bends() {
 }
 
 /// A table whose one leg is bent so that its foot stands in another leg's.
+//  .-----------.      a square, and below its edge a triangle that is as high as is given, with normals
+//  |           |      of its own
+//  A-----------B
+//      `-M-'
+#[test]
+fn a_line_shows_no_normal_and_what_is_higher_does() {
+    let found = |heights: [f32; 2]| {
+        let line = |height: f32| [[0.0, 0.0, 0.0], [1.0, -height, 0.0], [2.0, 0.0, 0.0]];
+        let square = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 2.0, 0.0], [0.0, 2.0, 0.0]];
+        let mut mesh = MeshBuffers {
+            positions: [&square[..], &line(heights[0])].concat(),
+            normals: [vec![[0.0, 0.0, 1.0]; 4], vec![[0.0, 0.6, 0.8]; 3]].concat(),
+            indices: vec![0, 1, 2, 0, 2, 3, 4, 5, 6],
+            ..MeshBuffers::default()
+        };
+        mesh.submesh_index_counts = vec![9];
+        let rules = broken(&mesh, |after| {
+            after.mesh.positions[5] = line(heights[1])[1];
+            after.mesh.normals[4] = [0.0, 0.0, 1.0];
+        });
+        rules.contains(&Rule::FlatNormal)
+    };
+    // Sixteen roundings are 1.5e-5 here.
+    assert!(!found([1e-5, 1e-5]), "nobody sees it");
+    assert!(found([1e-5, 1e-4]), "it has opened");
+    assert!(found([1e-4, 1e-5]) && found([1e-4, 1e-4]));
+}
+
 fn bend_leg(mesh: &mut MeshBuffers) {
     let is_foot = |p: &[f32; 3]| p[1] == 0.0 && p[0] > 0.0 && p[2] > 0.0;
     for position in mesh.positions.iter_mut().filter(|position| is_foot(position)) {

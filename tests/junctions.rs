@@ -69,12 +69,13 @@ fn layout() -> impl Strategy<Value = Layout> {
         prop_oneof![2 => Just(1.0), 1 => (-6.0..6.0f64).prop_map(|power| 10f64.powf(power))];
     let off = prop_oneof![3 => Just(0.0), 1 => -20.0..20.0f64];
     let steps = prop_oneof![2 => Just(0u8), 3 => 1..4u8];
-    (angle, lean, scale, off, steps, any::<u32>(), any::<bool>()).prop_map(
-        |(angle, lean, scale, off, most_steps, seed, is_merged)| {
+    let is_overlaid = prop_oneof![2 => Just(false), 1 => Just(true)];
+    (angle, lean, scale, off, steps, any::<u32>(), any::<bool>(), is_overlaid).prop_map(
+        |(angle, lean, scale, off, most_steps, seed, is_merged, is_overlaid)| {
             let turn = DMat3::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), angle);
             let lean = DMat3::from_cols(DVec3::X, DVec3::new(lean, 1.0, 0.0), DVec3::Z);
             let offset = DVec3::new(off, -off / 3.0, 0.0) * scale;
-            Layout { turn: turn * lean * scale, offset, most_steps, seed, is_merged }
+            Layout { turn: turn * lean * scale, offset, most_steps, seed, is_merged, is_overlaid }
         },
     )
 }

@@ -766,3 +766,31 @@ fn a_face_that_is_not_shaded_flat_keeps_its_corners() {
     }
     assert_eq!(area(&result.mesh, &cap(&result.mesh, 1, 0.5)), 1.0);
 }
+
+/// Two faces have the same texture coordinates at a corner, and other ones along the edge between them,
+/// over which both slide: each follows its own.
+#[test]
+fn faces_that_agree_at_a_corner_alone_keep_their_own_textures() {
+    let mut cube = shapes::cube(1.0);
+    // From the corner (1, 1, 1), where all three have (0, 0), along the next axis and the one after.
+    let place = |(at, normal): (&[f32; 3], &[f32; 3])| {
+        let axis = (0..3).find(|&k| normal[k].abs() > 0.5).unwrap();
+        [1, 2].map(|k| 1.0 - at[(axis + k) % 3])
+    };
+    cube.uvs[0].components = 2;
+    cube.uvs[0].values = cube.positions.iter().zip(&cube.normals).flat_map(place).collect();
+    let triangles = cube.indices.as_chunks::<3>().0.iter();
+    let sides = triangles.flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
+    let is_along_z = |[a, b]: [u32; 2]| {
+        let [a, b] = [a, b].map(|vertex| cube.positions[vertex as usize]);
+        a[..2] == b[..2]
+    };
+    let across = sides.filter(|&side| !is_along_z(side));
+    let edges: Vec<EdgeFactor> =
+        across.map(|vertices| EdgeFactor { vertices, factor: 1.0 }).collect();
+    let factors = Factors { edges: &edges, ..Factors::default() };
+    let mesh = Mesh { factors, ..cube.as_mesh() };
+    let result = chamfer(&mesh, &Options::default().with_width(Width::Units(0.1))).unwrap();
+    assert_eq!((result.totals.chamfered, result.totals.skipped[Reason::NotSelected]), (8, 4));
+    assert_sound("cube", &mesh, &result);
+}

@@ -430,3 +430,130 @@ fn what_rests_on_a_part_of_a_long_edge_stays_covered() {
     let [verdict] = result.verdicts[..] else { panic!("{:?}", result.verdicts) };
     assert_eq!((verdict.outcome, verdict.reason), (Outcome::Narrowed, Reason::Contact));
 }
+
+//  .-----------.      of a wide round chamfer: M goes back as far as to the diagonal of the roof, so
+//  |      .-'  |      that it is on a side of its triangle again
+//  A--M--------B
+#[test]
+fn a_vertex_that_slides_onto_another_side_was_pulled_all_the_same() {
+    let mesh = roof_on_wall(&[0.0, 1.0, 4.0], &[[0.0, 4.0]], FRONT);
+    let options = Options::default().with_width(Width::Units(0.5)).with_segments(2);
+    let mut result = chamfer(&mesh.as_mesh(), &options).unwrap();
+    let places = |result: &Chamfered| {
+        let findings = check(&mesh.as_mesh(), result, Verify::Full);
+        let alone = compare(&mesh.as_mesh(), &result.mesh.as_mesh(), Verify::Full);
+        [findings, alone].map(|findings| findings.count(Rule::Place))
+    };
+    assert_eq!(places(&result), [0, 0]);
+    let is_rounded = |at: &Point| at[0] == 1.0 && at[1] < 0.0 && at[2] < 0.0 && at[1] > -0.5;
+    let middle = result.mesh.positions.iter().position(is_rounded).unwrap();
+    result.mesh.positions[middle] = [1.0, 1.0, 1.2];
+    assert_eq!(places(&result), [1, 1], "three widths away");
+}
+
+//  .--------.      a roof whose back leads down to the front, to where its edge will be cut off and
+//  |'.      |      through the wall; `reach` is how far it comes out there
+//  A--'.M---B
+fn roof_with_a_fin(reach: f32) -> MeshBuffers {
+    let mut mesh = roof_on_wall(&[0.0, 1.0, 4.0], &[[0.0, 4.0]], FRONT);
+    let first = mesh.positions.len() as u32;
+    let fin = [[0.5, 0.0, -2.0], [3.5, 0.0, -2.0], [3.5, -0.045, reach], [0.5, -0.045, reach]];
+    mesh.positions.extend(fin);
+    mesh.normals.extend([[0.0, -1.0, 0.0]; 4]);
+    // It shares the corners of the roof's back.
+    for (own, roof) in [(0, 3), (1, 2)] {
+        mesh.positions[(first + own) as usize] = mesh.positions[roof];
+    }
+    mesh.indices.extend([0, 1, 2, 0, 2, 3].map(|corner| first + corner));
+    mesh.submesh_index_counts = vec![mesh.indices.len() as u32];
+    mesh
+}
+
+/// What lies on each other becomes one solid: what cut each other before may do so then, and nothing
+/// else.
+#[test]
+fn of_parts_that_are_brought_together_only_those_may_cut_that_did() {
+    let options = Options::default().with_width(Width::Units(0.05));
+    let cuts = |mesh: &MeshBuffers, result: &Chamfered| {
+        let findings = check(&mesh.as_mesh(), result, Verify::Full);
+        let count = findings.after.self_intersections.unwrap();
+        (count > 0, findings.count(Rule::SelfIntersection) > 0)
+    };
+    let through = roof_with_a_fin(1.0);
+    let result = chamfer(&through.as_mesh(), &options).unwrap();
+    assert!(result.totals.chamfered + result.totals.narrowed > 0, "{:?}", result.totals);
+    assert_eq!(cuts(&through, &result), (true, false), "they cut each other before");
+
+    let behind = roof_with_a_fin(-0.5);
+    let mut result = chamfer(&behind.as_mesh(), &options).unwrap();
+    assert_eq!(cuts(&behind, &result), (false, false));
+    let ends = result.mesh.positions.iter_mut().filter(|at| at[1] == -0.045);
+    ends.for_each(|at| at[2] = 1.0);
+    assert_eq!(cuts(&behind, &result), (true, true));
+}
+
+//  A-------.---B       of edges that overlap, the end at x = 1 of the wall's stands in the middle of the
+//  .---.-------.       roof's, and what that is there nobody tells
+#[test]
+fn a_width_in_the_middle_of_another_edge_is_at_least_half_of_what_is_seen() {
+    let mesh = roof_on_wall(&[0.0, 1.0, 4.0], &[[0.0, 3.0], [3.0, 4.0]], FRONT);
+    let result = chamfered(&mesh);
+    let wide = |times: [f32; 2], edge: usize| {
+        let mut result = result.clone();
+        let widths = &mut result.verdicts[edge].widths;
+        *widths = [widths[0] * times[0], widths[1] * times[1]];
+        check(&mesh.as_mesh(), &result, Verify::Fast).count(Rule::Widths)
+    };
+    let x = |vertex: u32| mesh.positions[vertex as usize][0];
+    let lower = result.verdicts.iter().position(|v| v.vertices.map(x).contains(&1.0)).unwrap();
+    let within = result.verdicts[lower].vertices.map(x).iter().position(|&x| x == 1.0).unwrap();
+    let times = |at_end: f32| if within == 0 { [at_end, 1.0] } else { [1.0, at_end] };
+    let found = [1.0, 0.6, 2.0, 0.4].map(|by| wide(times(by), lower));
+    assert_eq!(found, [0, 0, 0, 1]);
+    let elsewhere = |by: f32| if within == 0 { [1.0, by] } else { [by, 1.0] };
+    assert_eq!(wide(elsewhere(0.9), lower), 1, "where both end");
+}
+
+/// What a verdict may leave open of an edge that shares no side: that its sides went along with others.
+#[test]
+fn an_edge_that_is_left_has_no_widths() {
+    let mut mesh = roof_on_wall(&[0.0, 1.0, 4.0], &[[0.0, 4.0]], FRONT);
+    let wall: Vec<u32> = mesh.indices[6..].to_vec();
+    mesh.indices.extend(wall);
+    mesh.submesh_index_counts = vec![mesh.indices.len() as u32];
+    let mut result = chamfered(&mesh);
+    assert_eq!(result.verdicts[0].reason, Reason::TJunction);
+    result.verdicts[0].widths = [0.0, 0.05];
+    assert_eq!(check(&mesh.as_mesh(), &result, Verify::Fast).count(Rule::Widths), 1);
+}
+
+/// A chamfer closes what is open along edges that lie on each other, and no other hole.
+#[test]
+fn a_hole_that_is_closed_beside_such_a_box_is_found() {
+    let mut mesh = box_of_uneven_faces();
+    let (first, open) = (mesh.positions.len() as u32, shapes::open_box());
+    mesh.positions.extend(open.positions.iter().map(|&[x, y, z]| [x + 8.0, y, z]));
+    mesh.normals.extend(&open.normals);
+    mesh.indices.extend(open.indices.iter().map(|index| first + index));
+    mesh.submesh_index_counts = vec![mesh.indices.len() as u32];
+    let mut result = chamfered(&mesh);
+    let found = |result: &Chamfered| {
+        let alone = compare(&mesh.as_mesh(), &result.mesh.as_mesh(), Verify::Fast);
+        [check(&mesh.as_mesh(), result, Verify::Fast), alone]
+            .map(|findings| findings.count(Rule::BorderLoops))
+    };
+    assert_eq!(found(&result), [0, 0]);
+    // As a fan over what the chamfers have left of its corners.
+    let at = |vertex: u32| result.mesh.positions[vertex as usize];
+    let is_rim = |vertex: &u32| at(*vertex)[0] > 6.0 && at(*vertex)[1] == 1.0;
+    let mut rim: Vec<u32> = (0..result.mesh.positions.len() as u32).filter(is_rim).collect();
+    let turn = |vertex: u32| (at(vertex)[0] - 8.0).atan2(at(vertex)[2]);
+    rim.sort_by(|&one, &other| turn(one).total_cmp(&turn(other)));
+    rim.dedup_by_key(|vertex| at(*vertex));
+    let lid: Vec<u32> = rim.windows(2).skip(1).flat_map(|w| [rim[0], w[0], w[1]]).collect();
+    result.mesh.indices.extend(&lid);
+    *result.mesh.submesh_index_counts.last_mut().unwrap() += lid.len() as u32;
+    let source = chamfer::TriangleSource { kind: chamfer::TriangleKind::Corner, index: 0 };
+    result.triangle_sources.extend(vec![source; lid.len() / 3]);
+    assert_eq!(found(&result), [1, 1]);
+}

@@ -1,13 +1,19 @@
 //! Does anything gape that was closed?
 
 use super::junctions::Borders;
+use super::loops::Loops;
 use super::origins::Origins;
 use super::rules::{Element, Findings, Rule};
 use super::surface::{HalfEdge, Surface};
 
 /// Balance and border loops, as in the source.
-pub(super) fn check_edges(before: &Surface, after: &Surface, findings: &mut Findings) {
-    let [source, result] = [findings.before, findings.after];
+pub(super) fn check_edges(
+    before: &Surface,
+    after: &Surface,
+    origins: &Origins,
+    findings: &mut Findings,
+) {
+    let source = findings.before;
     let element = |(a, b): (&[HalfEdge], &[HalfEdge])| {
         let clusters = a.first().or(b.first()).map_or([0; 2], |half_edge| half_edge.clusters);
         Element::Edge(clusters[0], clusters[1])
@@ -17,14 +23,35 @@ pub(super) fn check_edges(before: &Surface, after: &Surface, findings: &mut Find
             findings.note(Rule::Balance, element(edge));
         }
     }
-    // Elsewhere `Rule::Gapes` has to do: where borders lie on each other, a chamfer closes a part of
-    // what was open.
-    if before.has_clear_borders()
-        && source.border_loops != result.border_loops
-        && !Borders::new(before).meet_anywhere()
-    {
+    if before.has_clear_borders() && !keeps_loops(before, after, origins, findings) {
         findings.note(Rule::BorderLoops, Element::Mesh);
     }
+}
+
+/// Whether there are as many loops as before. Where borders lie on each other, a chamfer closes a part
+/// of what was open: there `Rule::Gapes` has to do, and of the loops those count that have no part in it.
+fn keeps_loops(before: &Surface, after: &Surface, origins: &Origins, findings: &Findings) -> bool {
+    let mut meets = vec![false; before.mesh.indices.len()];
+    for side in Borders::new(before).pairs().flatten() {
+        meets[side.corners[0] as usize] = true;
+    }
+    if meets.iter().all(|meets| !meets) {
+        return findings.before.border_loops == findings.after.border_loops;
+    }
+    let loops = Loops::new(before);
+    let mut may_close = vec![false; before.mesh.indices.len()];
+    for (border, &of) in loops.borders.iter().zip(&loops.of) {
+        may_close[of as usize] |= meets[border.corners[0] as usize];
+    }
+    let mut stays = vec![false; before.mesh.indices.len()];
+    for (border, &of) in loops.borders.iter().zip(&loops.of) {
+        stays[border.corners[0] as usize] = !may_close[of as usize];
+    }
+    let count = loops.count_with(|border| stays[border.corners[0] as usize]);
+    let source =
+        |corner: u32| origins.triangles[corner as usize / 3].map(|c| c[corner as usize % 3]);
+    let stayed = |border: &HalfEdge| source(border.corners[0]).is_some_and(|c| stays[c as usize]);
+    Loops::new(after).count_with(stayed) == count
 }
 
 /// Notes the edges that are open though they lie where the source was closed. An edge is open where

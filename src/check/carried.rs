@@ -9,6 +9,7 @@ use std::iter::empty;
 use glam::DVec3;
 
 use super::ground::{Foot, Ground, at};
+use super::junctions::Borders;
 use super::origins::Origins;
 use super::rules::{Element, Findings, Rule};
 use super::stored::normal_with_area;
@@ -95,12 +96,14 @@ fn largest_pull(surfaces: [&Surface; 2], origins: &Origins, ruler: &Ruler) -> f6
     pull_of_sides(surfaces[0], ruler).max(pull_of_cuts(surfaces, origins))
 }
 
-/// Of each side, whichever other one it is chamfered with: at an edge of many, who can tell?
+/// Of each side, whichever other one it is chamfered with: at an edge of many, who can tell? And of those
+/// that lie on each other though they share no edge.
 fn pull_of_sides(before: &Surface, ruler: &Ruler) -> f64 {
     let may_open =
         |edge: &(&[HalfEdge], &[HalfEdge])| edge.0.len() + edge.1.len() > 2 || before.is_hard(edge);
     let sides = before.edges().filter(may_open).flat_map(|(a, b)| a.iter().chain(b));
-    sides.map(|side| ruler.pull(side)).fold(0.0, f64::max)
+    let borders = Borders::new(before);
+    sides.chain(borders.pairs().flatten()).map(|side| ruler.pull(side)).fold(0.0, f64::max)
 }
 
 fn pull_of_cuts([before, after]: [&Surface; 2], origins: &Origins) -> f64 {

@@ -78,10 +78,20 @@ pub(super) fn check_flatness(
         }) {
             findings.note(Rule::FlatFace, Element::Triangle(triangle));
         }
-        if corners().any(|(fan, corner)| fan.bends(after.normal(corner))) {
+        // What is but a line, and stays one, shows no normal.
+        let shows =
+            |fan: &Fan| fan.plane.is_some() || !is_low(after.triangle(triangle), least_height);
+        if corners().any(|(fan, corner)| shows(&fan) && fan.bends(after.normal(corner))) {
             findings.note(Rule::FlatNormal, Element::Triangle(triangle));
         }
     }
+}
+
+/// Whether a triangle is less high than that.
+fn is_low(corners: [DVec3; 3], least_height: f64) -> bool {
+    let sides = [0, 1, 2].map(|k| corners[k].distance(corners[(k + 1) % 3]));
+    let area = normal_with_area(corners).map_or(0.0, |normal| normal.length());
+    area < least_height * sides.into_iter().fold(0.0, f64::max)
 }
 
 /// `#corners`: the first corner of the fan that each is in.
@@ -132,8 +142,7 @@ impl Fan {
     fn add_plane(&mut self, triangle: [DVec3; 3], least_height: f64) {
         let Some(normal) = normal_with_area(triangle) else { return };
         let area = normal.length();
-        let sides = [0, 1, 2].map(|k| triangle[k].distance(triangle[(k + 1) % 3]));
-        if area < least_height * sides.into_iter().fold(0.0, f64::max) {
+        if is_low(triangle, least_height) {
             return;
         }
         if self.plane.is_none_or(|(_, _, largest)| area > largest) {

@@ -42,11 +42,6 @@ impl<'a> Borders<'a> {
         let pairs = |side| self.along(side).take(MOST_ALONG).map(move |other| [side, other]);
         self.all.iter().flat_map(move |&side| pairs(side))
     }
-
-    /// Whether there are any.
-    pub fn meet_anywhere(&'a self) -> bool {
-        self.pairs().next().is_some()
-    }
 }
 
 fn around(surface: &Surface, side: &HalfEdge) -> Aabb {

@@ -87,7 +87,8 @@ pub fn crowd(
     Crowd { pairs: around.half_edges(&pairs), hidden, is_contact: airs.gaps != 1 }
 }
 
-/// The pairs that lie on another pair with both their faces: the two sides of a folded sheet.
+/// The pairs that lie back to back on another pair with both their faces: the two sides of a folded
+/// sheet. Copies that face the same way are none: each of them bounds its own solid.
 pub fn doubled(view: &View, pairs: &[[Corner; 2]]) -> Vec<[Corner; 2]> {
     if pairs.len() < 2 || pairs.len() > MOST_FACES {
         return Vec::new();
@@ -100,8 +101,7 @@ pub fn doubled(view: &View, pairs: &[[Corner; 2]]) -> Vec<[Corner; 2]> {
     let is_doubled = |place: usize| {
         let [one, two] = faces[place];
         faces.iter().enumerate().any(|(other, &[three, four])| {
-            let is_same = lies_on(one, three) && lies_on(two, four);
-            other != place && (is_same || lies_on(one, four) && lies_on(two, three))
+            other != place && lies_on(one, four) && lies_on(two, three)
         })
     };
     (0..pairs.len()).filter(|&place| is_doubled(place)).map(|place| pairs[place]).collect()

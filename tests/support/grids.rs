@@ -49,6 +49,9 @@ pub struct Layout {
     pub seed: u32,
     /// Whether equal vertices are one.
     pub is_merged: bool,
+    /// Whether all faces lie on one place of the texture, so that two may have the same coordinates at
+    /// a corner.
+    pub is_overlaid: bool,
 }
 
 /// The mesh of all boxes; a submesh each.
@@ -62,9 +65,9 @@ pub fn grids(boxes: &[Grid], layout: &Layout) -> MeshBuffers {
             for _ in 0..cells.copies {
                 add_face(&mut mesh, grid, face, cells, layout);
             }
-            // Each face has a place of its own in the texture.
+            let place = if layout.is_overlaid { 0 } else { 6 * number + face };
             let all = mesh.uvs[0].values[from..].iter_mut().step_by(2);
-            all.for_each(|u| *u += 1.5 * (6 * number + face) as f32);
+            all.for_each(|u| *u += 1.5 * place as f32);
         }
         mesh.submesh_index_counts.push((mesh.indices.len() - first) as u32);
     }
