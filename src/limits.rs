@@ -69,7 +69,7 @@ pub fn limits<'a>(
     let bad = bad_elements(given, &limits.placement, watch)?;
     shrink(given, &mut limits, bad, watch)?;
     for _ in 0..GROW_PASSES {
-        grow(given, room, &mut limits, watch)?;
+        grow(given, room, &mut limits, room.ids(), watch)?;
     }
     give_way(given, room, &mut limits, watch)?;
     if verify != Verify::Fast {
@@ -226,15 +226,16 @@ fn blame(
     }
 }
 
-/// Gives back to every sector that was shrunk, up to its room, as much as it can take with all
+/// Gives back to every one of some sectors that was shrunk, up to its room, as much as it can take with all
 /// others where they are.
 fn grow(
     given: &Given,
     room: &IdVec<Sector, f64>,
     limits: &mut Limits,
+    sectors: impl Iterator<Item = Sector>,
     watch: &dyn Watch,
 ) -> Result<(), Error> {
-    for sector in in_turn(given, room, &limits.placement) {
+    for sector in in_turn(given, room, &limits.placement, sectors) {
         watch.worked(STEPS_OF_GROWTH)?;
         let (mut good, mut bad) = (limits.placement.share[sector], room[sector]);
         let mut found = obstacle(given, &mut limits.placement, sector, bad, None);
@@ -271,8 +272,11 @@ fn give_way(
     let room = &mut room.clone();
     turned.retain(|&sector| turn(given, room, &mut limits.placement, sector));
     let bad = bad_around(given, &limits.placement, &turned, watch)?;
-    shrink(given, limits, bad, watch)?;
-    grow(given, room, limits, watch)?;
+    let mut near = shrink(given, limits, bad, watch)?;
+    near.extend(around(given, &turned).into_iter().flat_map(|element| sectors_of(given, element)));
+    near.sort_unstable();
+    near.dedup();
+    grow(given, room, limits, near.into_iter(), watch)?;
     turned.into_iter().for_each(|sector| limits.reason[sector] = Reason::Folds);
     Ok(())
 }
@@ -299,17 +303,22 @@ fn turn(
     true
 }
 
-/// The sectors that were shrunk, in the order in which they are asked: those first that lost most.
+/// Those of some sectors that were shrunk, in the order in which they are asked: those first that lost most.
 /// Whoever is asked first may take what another one could have had, so it goes by their shape and
 /// place, not by their numbers: the same mesh told otherwise gets the same. Rounded, as the last
 /// bits of sums depend on the order of what is added. Positive numbers sort as their bits do.
-fn in_turn(given: &Given, room: &IdVec<Sector, f64>, placement: &Placement) -> Vec<Sector> {
+fn in_turn(
+    given: &Given,
+    room: &IdVec<Sector, f64>,
+    placement: &Placement,
+    sectors: impl Iterator<Item = Sector>,
+) -> Vec<Sector> {
     let is_asked = |sector: &Sector| {
         let ring = given.chamfers.sectors.fans[*sector].ring;
         placement.share[*sector] != room[*sector]
             && given.chamfers.sectors.ring(ring).len() <= LONGEST_GROWN
     };
-    let mut sectors: Vec<Sector> = room.ids().filter(is_asked).collect();
+    let mut sectors: Vec<Sector> = sectors.filter(is_asked).collect();
     if sectors.len() > 1 {
         let center = given.surface.view.center();
         sectors.sort_by_cached_key(|&sector| {
