@@ -19,9 +19,10 @@ use crate::tolerance::CREASE_COSINE;
 use crate::watch::{Watch, stretches};
 
 /// At an evenness of a half, how much wider a chamfer may get along its edge for each unit of the
-/// way: from nothing to the whole width in two hundred widths. With twice as much an edge of ten
-/// widths may be a tenth wider at one end, which shows.
-const SLOPE: f64 = 0.005;
+/// way: from nothing to the whole width in four hundred widths. With four times as much an edge of ten
+/// widths may be a tenth wider at one end, which shows, and along a model's longest edges half as much
+/// still adds up.
+const SLOPE: f64 = 0.0025;
 
 /// A side that has less than this share of its width is not pulled at all, as where broken triangles
 /// are in the way: it has no say in the other one, of which nothing would be left.
@@ -257,13 +258,13 @@ mod tests {
     }
 
     // b2------------a2      an edge of a cube of ten widths: a1 has little room, a2 may be twice as
-    // |              |      wide; half a hundredth of the way more at the other end
+    // |              |      wide; a quarter of a hundredth of the way more at the other end
     // b1------------a1
     #[test]
     fn a_width_grows_along_its_edge_and_twice_across_it() {
         let cube = shapes::plain_cube(1.0);
         let stages = stages_of(&cube, 0.1);
-        assert_near(shares(&stages, Edge(0), 0.3, 0.5), [0.35, 0.3, 0.6, 0.65]);
+        assert_near(shares(&stages, Edge(0), 0.3, 0.5), [0.325, 0.3, 0.6, 0.625]);
         assert_near(shares(&stages, Edge(0), 0.3, 1.0), [0.3; 4]);
         assert_near(shares(&stages, Edge(0), 0.3, 0.0), [1.0, 0.3, 1.0, 1.0]);
     }
@@ -272,7 +273,7 @@ mod tests {
     fn a_side_that_is_not_pulled_at_all_has_no_say_in_the_other() {
         let cube = shapes::plain_cube(1.0);
         let stages = stages_of(&cube, 0.1);
-        assert_near(shares(&stages, Edge(0), 0.0, 0.5), [0.05, 0.0, 0.15, 0.1]);
+        assert_near(shares(&stages, Edge(0), 0.0, 0.5), [0.025, 0.0, 0.075, 0.05]);
     }
 
     // b------------a      at a corner of the cube edges are to be twice as wide: the slope is told by
@@ -289,7 +290,7 @@ mod tests {
         let stages = stages_of_mesh(Mesh { factors, ..cube.as_mesh() }, &options);
         let [one, other] = stages.edges.hard[Edge(0)].widths;
         assert!((one - 0.2).abs() < 1e-6 && (other - 0.1).abs() < 1e-6, "{one}, {other}");
-        assert_near(shares(&stages, Edge(0), 0.3, 0.5), [0.325, 0.3, 0.6, 0.625]);
+        assert_near(shares(&stages, Edge(0), 0.3, 0.5), [0.3125, 0.3, 0.6, 0.6125]);
     }
 
     /// A block whose front leans back on its right half, with the triangle between; its front edge on

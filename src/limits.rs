@@ -15,6 +15,7 @@ use std::cmp::{Ordering, Reverse};
 use crate::error::Error;
 use crate::given::Given;
 use crate::ids::{IdVec, Ring, Sector};
+use crate::offsets::narrow;
 use crate::options::Verify;
 use crate::placement::Placement;
 use crate::report::Reason;
@@ -68,8 +69,9 @@ pub fn limits<'a>(
     let bad = bad_elements(given, &limits.placement, watch)?;
     shrink(given, &mut limits, bad, watch)?;
     for _ in 0..GROW_PASSES {
-        grow(given, room, &mut limits, watch)?;
+        grow(given, room, &mut limits, room.ids(), watch)?;
     }
+    give_way(given, room, &mut limits, watch)?;
     if verify != Verify::Fast {
         collisions::resolve(given, &mut limits, watch)?;
     }
@@ -224,15 +226,16 @@ fn blame(
     }
 }
 
-/// Gives back to every sector that was shrunk, up to its room, as much as it can take with all
+/// Gives back to every one of some sectors that was shrunk, up to its room, as much as it can take with all
 /// others where they are.
 fn grow(
     given: &Given,
     room: &IdVec<Sector, f64>,
     limits: &mut Limits,
+    sectors: impl Iterator<Item = Sector>,
     watch: &dyn Watch,
 ) -> Result<(), Error> {
-    for sector in in_turn(given, room, &limits.placement) {
+    for sector in in_turn(given, room, &limits.placement, sectors) {
         watch.worked(STEPS_OF_GROWTH)?;
         let (mut good, mut bad) = (limits.placement.share[sector], room[sector]);
         let mut found = obstacle(given, &mut limits.placement, sector, bad, None);
@@ -252,17 +255,70 @@ fn grow(
     Ok(())
 }
 
-/// The sectors that were shrunk, in the order in which they are asked: those first that lost most.
+/// Of a sector that would fold, whose fronts are unlike, first the wider one gives way, down to where
+/// it is as wide as the other: else both would shrink, and the narrower one far below what its edge has
+/// elsewhere. Then all around is settled once more.
+fn give_way(
+    given: &Given,
+    room: &IdVec<Sector, f64>,
+    limits: &mut Limits,
+    watch: &dyn Watch,
+) -> Result<(), Error> {
+    let folds = |sector: &Sector| limits.reason[*sector] == Reason::Folds;
+    let mut turned: Vec<Sector> = room.ids().filter(folds).collect();
+    if turned.is_empty() {
+        return Ok(());
+    }
+    let room = &mut room.clone();
+    turned.retain(|&sector| turn(given, room, &mut limits.placement, sector));
+    let bad = bad_around(given, &limits.placement, &turned, watch)?;
+    let mut near = shrink(given, limits, bad, watch)?;
+    near.extend(around(given, &turned).into_iter().flat_map(|element| sectors_of(given, element)));
+    near.sort_unstable();
+    near.dedup();
+    grow(given, room, limits, near.into_iter(), watch)?;
+    turned.into_iter().for_each(|sector| limits.reason[sector] = Reason::Folds);
+    Ok(())
+}
+
+/// Turns a sector away from its wider front, to what it could take or as far as its narrower front
+/// goes; whether it has two such.
+fn turn(
+    given: &Given,
+    room: &mut IdVec<Sector, f64>,
+    placement: &mut Placement,
+    sector: Sector,
+) -> bool {
+    let (offset, whole) = (placement.offset(sector), room[sector]);
+    let narrower = whole * offset.fronts[0].min(offset.fronts[1]);
+    let share = placement.share[sector].max(narrower);
+    if share >= whole || narrower <= 0.0 {
+        return false;
+    }
+    let shares = offset.fronts.map(|front| if front < 1.0 { whole / share } else { 1.0 });
+    let sectors = given.chamfers.sectors;
+    let Some(offset) = narrow(given.surface, sectors, sector, offset, shares) else { return false };
+    placement.turn(sector, offset, share);
+    room[sector] = share;
+    true
+}
+
+/// Those of some sectors that were shrunk, in the order in which they are asked: those first that lost most.
 /// Whoever is asked first may take what another one could have had, so it goes by their shape and
 /// place, not by their numbers: the same mesh told otherwise gets the same. Rounded, as the last
 /// bits of sums depend on the order of what is added. Positive numbers sort as their bits do.
-fn in_turn(given: &Given, room: &IdVec<Sector, f64>, placement: &Placement) -> Vec<Sector> {
+fn in_turn(
+    given: &Given,
+    room: &IdVec<Sector, f64>,
+    placement: &Placement,
+    sectors: impl Iterator<Item = Sector>,
+) -> Vec<Sector> {
     let is_asked = |sector: &Sector| {
         let ring = given.chamfers.sectors.fans[*sector].ring;
         placement.share[*sector] != room[*sector]
             && given.chamfers.sectors.ring(ring).len() <= LONGEST_GROWN
     };
-    let mut sectors: Vec<Sector> = room.ids().filter(is_asked).collect();
+    let mut sectors: Vec<Sector> = sectors.filter(is_asked).collect();
     if sectors.len() > 1 {
         let center = given.surface.view.center();
         sectors.sort_by_cached_key(|&sector| {
@@ -295,8 +351,9 @@ mod tests {
     use super::*;
     use crate::given::tests::given_of;
     use crate::mesh::MeshBuffers;
+    use crate::options::{Options, Width};
     use crate::shapes;
-    use crate::stages::stages_of;
+    use crate::stages::{stages_of, stages_with};
     use crate::watch::Unwatched;
 
     /// The shares of all sectors that can move.
@@ -355,6 +412,40 @@ mod tests {
         apply(&given_of(&stages), &mut limits, SHRINK_ROUNDS + 1, &mut ring.clone());
         let none: Vec<f64> = shares(&limits);
         assert_eq!(none, [0.0; 3]);
+    }
+
+    /// How far a sector of a slab is pulled from its narrow and from its wide edge, as shares of the
+    /// width, where it took a share of what it has room for because it would fold.
+    fn pulled(taken: f64) -> [f64; 2] {
+        let mut slab = shapes::plain_cube(4.0);
+        slab.positions.iter_mut().for_each(|at| at[1] /= 4.0);
+        let options = Options { width: Width::Units(0.8), ..Options::default() };
+        let stages = stages_with(&slab, &options);
+        let given = Given { offsets: &stages.narrowed, ..given_of(&stages) };
+        let room = stages.room.shares();
+        let is_unlike = |sector: &Sector| stages.narrowed[*sector].fronts != [1.0; 2];
+        let sector = room.ids().find(is_unlike).unwrap();
+        let mut limits = bounded(&given, &room);
+        limits.placement.set(sector, taken * room[sector]);
+        limits.reason[sector] = Reason::Folds;
+        give_way(&given, &room, &mut limits, &Unwatched).unwrap();
+        assert_eq!(limits.reason[sector], Reason::Folds);
+        let way = limits.placement.point[sector] - limits.placement.base(sector);
+        let narrow = way.y.abs();
+        [narrow, way.reject_from(glam::DVec3::Y).length()].map(|length| length / 0.8)
+    }
+
+    // .------------     on the thin side of a slab the long edge has room for half of what the short
+    // |  .              one gets: where it folds, only the short one is lessened, until both are
+    // |                 alike
+    // '------------
+    #[test]
+    fn where_unlike_fronts_fold_the_wider_one_gives_way() {
+        for (taken, [narrow, wide]) in [(1.0, [0.5, 1.0]), (0.75, [0.5, 0.75]), (0.1, [0.5, 0.5])] {
+            let pulled = pulled(taken);
+            let is_near = |one: f64, other: f64| (one - other).abs() < 0.001;
+            assert!(is_near(pulled[0], narrow) && is_near(pulled[1], wide), "{taken}: {pulled:?}");
+        }
     }
 
     #[test]

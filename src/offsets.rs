@@ -30,7 +30,7 @@ use crate::view::View;
 use crate::watch::Watch;
 
 use fronts::follow;
-pub use fronts::{narrowed, parts};
+pub use fronts::{narrow, narrowed, parts};
 
 /// No vertex moves farther than this many widths: between edges that meet at less than 39 degrees
 /// the exact distance shoots out, and a tip would lose its point. The corners of ramps and

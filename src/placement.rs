@@ -1,5 +1,7 @@
 //! Placement: where every corner stands when each sector takes a share of its offset.
 
+use std::borrow::Cow;
+
 use glam::DVec3;
 
 use crate::foot::Foot;
@@ -15,7 +17,7 @@ use crate::threads::Threads;
 pub struct Placement<'a> {
     surface: Surface<'a>,
     sectors: &'a Sectors,
-    offsets: &'a IdVec<Sector, Offset>,
+    offsets: Cow<'a, IdVec<Sector, Offset>>,
     /// `#sectors`: 0 (stays) to 1 (full width).
     pub share: IdVec<Sector, f64>,
     /// `#sectors`: the position of the sector's vertices.
@@ -34,6 +36,7 @@ impl<'a> Placement<'a> {
         threads: &Threads,
     ) -> Placement<'a> {
         let (point, normals) = (IdVec::default(), IdVec::default());
+        let offsets = Cow::Borrowed(offsets);
         let mut placement = Placement { surface, sectors, offsets, share, point, normals };
         let count = placement.share.len();
         placement.point = threads.map(count, |s| placement.point_at(s, placement.share[s]));
@@ -46,6 +49,12 @@ impl<'a> Placement<'a> {
         self.share[sector] = share;
         self.point[sector] = self.point_at(sector, share);
         self.normals[sector] = self.normals_of(sector);
+    }
+
+    /// Moves a sector's vertex to a share of another offset.
+    pub fn turn(&mut self, sector: Sector, offset: Offset, share: f64) {
+        self.offsets.to_mut()[sector] = offset;
+        self.set(sector, share);
     }
 
     /// Whether the sector's vertices stand elsewhere than in the source.

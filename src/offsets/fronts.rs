@@ -80,16 +80,18 @@ pub fn narrowed<'a>(
     narrowed
 }
 
-fn narrow(
+/// An offset that pulls its sector's first and its last edge by some shares of what it did; none where
+/// these are not pulled each by itself.
+pub fn narrow(
     surface: Surface,
     sectors: &Sectors,
     sector: Sector,
     offset: &Offset,
-    fronts: [f64; 2],
+    shares: [f64; 2],
 ) -> Option<Offset> {
     let Surface { view, topology, faces } = surface;
     let [first, last] = parts(surface, sectors, sector, offset)?;
-    let sum = first * fronts[0] + last * fronts[1];
+    let sum = first * shares[0] + last * shares[1];
     let corners = sectors.corners(topology, sector);
     let feet = corners.filter(|corner| !faces.is_line(corner.triangle())).filter_map(|corner| {
         // Fans are never quite flat: it goes down onto the triangle that it leads over.
@@ -101,6 +103,7 @@ fn narrow(
     let inside = |foot: &Foot| foot.along[0].min(foot.along[1]);
     let (within, vector, foot) =
         feet.max_by(|one, other| inside(&one.2).total_cmp(&inside(&other.2)))?;
+    let fronts = [0, 1].map(|front| offset.fronts[front] * shares[front]);
     Some(Offset { vector, within, foot, fronts, ..*offset })
 }
 
