@@ -2,6 +2,7 @@
 
 use crate::chamfers::Chamfers;
 use crate::edges::HardEdge;
+use crate::error::Error;
 use crate::ids::{Edge, Sector};
 use crate::limits::Limits;
 use crate::math::{area_vector, unit};
@@ -11,14 +12,19 @@ use crate::rounding::Rounding;
 use crate::sectors::Sectors;
 use crate::strips;
 use crate::view::View;
+use crate::watch::{Watch, each};
 
 /// `#hard edges`, and their sum.
+///
+/// # Errors
+/// [`Error::Cancelled`] where the watch stops it.
 pub fn verdicts(
     view: &View,
     chamfers: Chamfers,
     limits: &Limits,
     (patches, rounding): (&Patches, Option<&Rounding>),
-) -> (Vec<EdgeVerdict>, Totals) {
+    watch: &dyn Watch,
+) -> Result<(Vec<EdgeVerdict>, Totals), Error> {
     let Chamfers { edges, sectors } = chamfers;
     let of_edge = |edge| {
         let is_open = !patches.strip(edge).triangles.is_empty();
@@ -26,9 +32,10 @@ pub fn verdicts(
         let verdict = verdict(view, sectors, limits, (&edges.hard[edge], is_open));
         EdgeVerdict { segments, ..verdict }
     };
-    let verdicts: Vec<EdgeVerdict> = edges.hard.ids().map(of_edge).collect();
+    let mut verdicts = Vec::with_capacity(edges.hard.len());
+    each(edges.hard.len(), watch, |edge| verdicts.push(of_edge(edge)))?;
     let totals = totals(view, chamfers, limits, &verdicts);
-    (verdicts, totals)
+    Ok((verdicts, totals))
 }
 
 fn verdict(
@@ -163,12 +170,13 @@ mod tests {
     use crate::options::Verify;
     use crate::shapes;
     use crate::stages::stages_of;
+    use crate::watch::Unwatched;
 
     fn judge(mesh: &MeshBuffers, width: f32) -> (Vec<EdgeVerdict>, Totals) {
         let stages = stages_of(mesh, width);
         let limits = stages.limits(Verify::Fast);
         let patches = stages.patches(&limits.placement);
-        verdicts(&stages.view, stages.chamfers(), &limits, (&patches, None))
+        verdicts(&stages.view, stages.chamfers(), &limits, (&patches, None), &Unwatched).unwrap()
     }
 
     #[test]
