@@ -12,7 +12,7 @@ use crate::error::Error;
 use crate::ids::{Id, IdVec};
 #[cfg(feature = "parallel")]
 use crate::watch::Flag;
-use crate::watch::{STEPS, Watch};
+use crate::watch::{STEPS, Watch, stretches};
 
 /// With less work than this in one stage, waking another thread takes longer than doing it.
 #[cfg(feature = "parallel")]
@@ -79,25 +79,6 @@ impl Threads {
         self.map_with(count, watch, || (), |(), id| value(id))
     }
 
-    /// The same at once.
-    fn map_some<I: Id, T: Send, S>(
-        &self,
-        count: usize,
-        scratch: impl Fn() -> S + Sync + Send,
-        value: impl Fn(&mut S, I) -> T + Sync + Send,
-    ) -> IdVec<I, T> {
-        let value = |scratch: &mut S, index| value(scratch, I::new(index));
-        #[cfg(feature = "parallel")]
-        if let Some(pool) = self.pool.as_ref().filter(|_| count >= LEAST_WORK) {
-            use rayon::prelude::*;
-            return IdVec::from_vec(
-                pool.install(|| (0..count).into_par_iter().map_init(scratch, value).collect()),
-            );
-        }
-        let mut scratch = scratch();
-        IdVec::from_vec((0..count).map(|index| value(&mut scratch, index)).collect())
-    }
-
     /// As [`Threads::map`], with a scratch value that each thread makes once.
     ///
     /// # Errors
@@ -109,17 +90,22 @@ impl Threads {
         scratch: impl Fn() -> S + Sync + Send,
         value: impl Fn(&mut S, I) -> T + Sync + Send,
     ) -> Result<IdVec<I, T>, Error> {
-        if count <= STEPS {
-            // Nothing is to be put together then.
-            watch.worked(count)?;
-            return Ok(self.map_some(count, scratch, value));
-        }
+        let value = |scratch: &mut S, index| value(scratch, I::new(index));
         let mut values = Vec::with_capacity(count);
-        for start in (0..count).step_by(STEPS) {
-            let some = STEPS.min(count - start);
-            let of = |scratch: &mut S, within: I| value(scratch, I::new(start + within.index()));
-            values.extend(self.map_some(some, &scratch, of));
-            watch.worked(some)?;
+        #[cfg(feature = "parallel")]
+        if let Some(pool) = self.pool.as_ref().filter(|_| count >= LEAST_WORK) {
+            use rayon::prelude::*;
+            for start in (0..count).step_by(STEPS) {
+                let some = start..count.min(start + STEPS);
+                let of_some = some.clone().into_par_iter().map_init(&scratch, &value);
+                pool.install(|| values.par_extend(of_some));
+                watch.worked(some.len())?;
+            }
+            return Ok(IdVec::from_vec(values));
+        }
+        let mut scratch = scratch();
+        for stretch in stretches(count, watch) {
+            values.extend(stretch?.map(|index| value(&mut scratch, index)));
         }
         Ok(IdVec::from_vec(values))
     }

@@ -318,35 +318,6 @@ fn a_ball_touches_a_corner_that_it_reaches() {
     assert!(touches(1.1) && !touches(1.3));
 }
 
-//   |___|/     the rim of an open box, and on one of its sides a flag that runs the same way: the
-//   |   |      flag moves with nothing of the box
-#[test]
-fn of_borders_at_one_place_each_is_asked_whose_it_is() {
-    let open = shapes::open_box();
-    let stages = crate::stages::stages_of(&open, 0.05);
-    let topology = &stages.topology;
-    let rim = topology.twin.ids().find(|&corner| topology.twin[corner].is_none()).unwrap();
-    let at = |corner: Corner| open.positions[stages.view.vertex_at(corner).index()];
-    let (a, b) = (at(rim), at(rim.next()));
-    // The upright edge that runs up to the rim.
-    let upright = [at(rim.next()), at(rim.next().next())];
-    let away = [0, 1, 2].map(|axis| a[axis] + 3.0 * (a[axis] - upright[1][axis]));
-    let beside = |mesh: &MeshBuffers| {
-        with_contacts(&mesh.as_mesh(), |contacts, view, topology, faces| {
-            let edge = side(view, upright);
-            let sides = [edge, topology.twin[edge]];
-            assert!(topology.twin[edge].is_some());
-            contacts.beside(view, topology, faces, (sides, 0.05)).len()
-        })
-    };
-    assert_eq!(beside(&open), 0, "its own rim");
-    assert_eq!(
-        beside(&with_triangles(open.clone(), &[[a, b, away]])),
-        2,
-        "where it lies on the rim, and where it ends"
-    );
-}
-
 #[test]
 fn around_a_vertex_without_border_there_is_none() {
     let (cube, open) = (cube(), shapes::open_box());
