@@ -21,6 +21,7 @@ use std::collections::BTreeMap;
 
 use crate::breaks::same_chart;
 use crate::chamfers::Chamfers;
+use crate::error::Error;
 use crate::ids::{Cluster, Corner, Few, Id, IdVec, Sector, Triangle, Vertex};
 use crate::placement::Placement;
 use crate::report::Blend;
@@ -30,6 +31,7 @@ use crate::sectors::Sectors;
 use crate::surface::Surface;
 use crate::topology::Topology;
 use crate::view::View;
+use crate::watch::{Watch, each};
 use crate::weld::{Weld, hash_of};
 
 use streams::Row;
@@ -43,13 +45,16 @@ pub struct Attributes {
     pub vertex_at: IdVec<Corner, u32>,
 }
 
+/// # Errors
+/// [`Error::Cancelled`] where the watch stops it.
 pub fn attributes(
     space: Space,
     surface: Surface,
     weld: &Weld,
     chamfers: Chamfers,
     placement: &Placement,
-) -> Attributes {
+    watch: &dyn Watch,
+) -> Result<Attributes, Error> {
     let vertex_at = surface.view.mesh.indices.to_vec();
     // At a seam both far vertices of a strip are copied.
     let copies = 2 * chamfers.edges.hard.iter().filter(|edge| edge.seams != 0).count();
@@ -57,26 +62,30 @@ pub fn attributes(
         streams: Streams::of_source(space.source, chamfers.sectors.fans.len(), copies),
         vertex_at: IdVec::from_vec(vertex_at),
     };
+    watch.worked(attributes.streams.vertices.positions.len())?;
     let sectors = chamfers.sectors.fans.ids();
     let has_moved: Vec<bool> = sectors.map(|sector| placement.has_moved(sector)).collect();
     let has_moved = IdVec::from_vec(has_moved);
-    let (mut taken, mut parted) = (staying(surface, chamfers.sectors, &has_moved), Vec::new());
-    for sector in has_moved.ids().filter(|&sector| has_moved[sector]) {
-        move_sector(
-            (space, surface),
-            chamfers.sectors,
-            placement,
-            sector,
-            (&mut taken, &mut parted),
-            &mut attributes,
-        );
-    }
+    let mut taken = staying(surface, chamfers.sectors, &has_moved, watch)?;
+    let mut parted = Vec::new();
+    each(has_moved.len(), watch, |sector: Sector| {
+        if has_moved[sector] {
+            move_sector(
+                (space, surface),
+                chamfers.sectors,
+                placement,
+                sector,
+                (&mut taken, &mut parted),
+                &mut attributes,
+            );
+        }
+    })?;
     attributes.streams.look_up(weld);
-    add_parted((space, surface), placement, &parted, &mut attributes);
+    add_parted((space, surface), placement, &parted, &mut attributes, watch)?;
     if has_moved.iter().any(|&has_moved| has_moved) {
         close_collapsed(surface.view, surface.topology, &mut attributes.vertex_at);
     }
-    attributes
+    Ok(attributes)
 }
 
 /// `#vertices`: whether some corner stays where it was, and so needs the source vertex.
@@ -84,17 +93,18 @@ fn staying(
     surface: Surface,
     sectors: &Sectors,
     has_moved: &IdVec<Sector, bool>,
-) -> IdVec<Vertex, bool> {
+    watch: &dyn Watch,
+) -> Result<IdVec<Vertex, bool>, Error> {
     let mut taken = IdVec::filled(false, surface.view.mesh.positions.len());
-    for corner in sectors.sector_of.ids() {
+    each(sectors.sector_of.len(), watch, |corner: Corner| {
         let sector = sectors.sector_of[corner];
         // Corners of collapsed triangles follow whatever else uses their vertex.
         let stays = sector.is_none() || !has_moved[sector];
         if stays && !surface.topology.is_collapsed(corner.triangle()) {
             taken[surface.view.vertex_at(corner)] = true;
         }
-    }
-    taken
+    })?;
+    Ok(taken)
 }
 
 /// A corner whose vertex another sector has taken, and its own sector.
@@ -160,19 +170,22 @@ fn add_parted(
     placement: &Placement,
     parted: &[Parted],
     attributes: &mut Attributes,
-) {
+    watch: &dyn Watch,
+) -> Result<(), Error> {
     let streams = &mut attributes.streams;
+    let mut added = Vec::with_capacity(parted.len());
     let mut row = Row::EMPTY;
-    let add = |&(sector, corner): &Parted| {
+    for &(sector, corner) in parted {
         let blends = blends(surface.view, placement, sector, corner);
         fill(space, placement, streams, (sector, blends), &mut row);
-        streams.add_moved(surface.topology.cluster_at[corner], &row, blends)
-    };
-    let added: Vec<u32> = parted.iter().map(add).collect();
+        added.push(streams.add_moved(surface.topology.cluster_at[corner], &row, blends));
+        watch.worked(1)?;
+    }
     let sources = surface.view.mesh.positions.len() as u32;
     for vertex in attributes.vertex_at.iter_mut().filter(|vertex| **vertex >= sources) {
         *vertex = added[(*vertex - sources) as usize];
     }
+    Ok(())
 }
 
 /// Fills a row with the values of a corner's vertex where its sector stands: the normal of the surface

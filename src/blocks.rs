@@ -18,6 +18,7 @@ use crate::memory;
 use crate::mesh::{MeshBuffers, Uv, UvBuffer};
 use crate::report::{Chamfered, EdgeVerdict, Piece, TriangleKind, TriangleSource, VertexSources};
 use crate::view::View;
+use crate::watch::{Watch, each};
 use crate::weld::Weld;
 
 /// Meshes of fewer triangles are done at once: threads within the stages do for these.
@@ -93,21 +94,23 @@ impl<I: Id> Shares<I> {
 /// The blocks of a mesh that is large enough and falls into many parts; none else.
 ///
 /// # Errors
-/// [`Error::OutOfMemory`] where what that needs is not to be had.
-pub fn blocks(view: &View, weld: &Weld) -> Result<Option<Blocks>, Error> {
+/// [`Error::OutOfMemory`] where what that needs is not to be had, and [`Error::Cancelled`] where the
+/// watch stops it.
+pub fn blocks(view: &View, weld: &Weld, watch: &dyn Watch) -> Result<Option<Blocks>, Error> {
     let (mesh, triangles) = (&view.mesh, view.corner_count() / 3);
     let is_plain = mesh.held.is_empty() && mesh.factors.vertices.is_empty();
     if triangles < LEAST_TRIANGLES || !is_plain || !mesh.factors.edges.is_empty() {
         return Ok(None);
     }
     memory::ask(memory::of_blocks(mesh))?;
-    Ok(if may_be_hard(view, weld) { parted(view, weld) } else { None })
+    if may_be_hard(view, weld) { parted(view, weld, watch) } else { Ok(None) }
 }
 
 /// The same, whatever the size of the mesh.
-fn parted(view: &View, weld: &Weld) -> Option<Blocks> {
+fn parted(view: &View, weld: &Weld, watch: &dyn Watch) -> Result<Option<Blocks>, Error> {
     let triangles = view.corner_count() / 3;
-    let part_of = together(view, weld, parts(view, weld))?;
+    let parts = parts(view, weld, watch)?;
+    let Some(part_of) = together(view, weld, parts, watch)? else { return Ok(None) };
     let mut sizes = IdVec::<Cluster, u32>::filled(0, part_of.len());
     view.triangles().for_each(|triangle| sizes[part_of[cluster_of(view, weld, triangle)]] += 1);
     // A part has the number of its first cluster, so those that follow each other are near.
@@ -119,10 +122,11 @@ fn parted(view: &View, weld: &Weld) -> Option<Blocks> {
         block_at[part] = count;
         own += sizes[part];
         if f64::from(own) > LARGEST_SHARE * triangles as f64 {
-            return None;
+            return Ok(None);
         }
     }
-    Some(shared_out(view, weld, count as usize + 1, |cluster| block_at[part_of[cluster]]))
+    watch.worked(triangles)?;
+    Ok(Some(shared_out(view, weld, count as usize + 1, |cluster| block_at[part_of[cluster]])))
 }
 
 /// That of the first corner of a triangle: the others are of the same part.
@@ -149,18 +153,23 @@ fn shared_out(
 
 /// `#clusters`: the first cluster of the part that each belongs to. Triangles that have a position
 /// in common are of one part.
-fn parts(view: &View, weld: &Weld) -> Groups {
+fn parts(view: &View, weld: &Weld, watch: &dyn Watch) -> Result<Groups, Error> {
     let mut parts = Groups::singles(weld.first_vertex.len());
-    for triangle in view.triangles() {
+    each(view.corner_count() / 3, watch, |triangle: Triangle| {
         let [a, b, c] = triangle.corners().map(|corner| weld.cluster_of[view.vertex_at(corner)].0);
         parts.join(a, b);
         parts.join(a, c);
-    }
-    parts
+    })?;
+    Ok(parts)
 }
 
 /// The same, where parts that come near each other are one; none if too many do.
-fn together(view: &View, weld: &Weld, parts: Groups) -> Option<IdVec<Cluster, Cluster>> {
+fn together(
+    view: &View,
+    weld: &Weld,
+    parts: Groups,
+    watch: &dyn Watch,
+) -> Result<Option<IdVec<Cluster, Cluster>>, Error> {
     let part_of = parts.labels();
     let mut number_of = vec![0; part_of.len()];
     let (mut first, mut boxes): (Vec<u32>, Vec<Aabb>) = Default::default();
@@ -177,18 +186,19 @@ fn together(view: &View, weld: &Weld, parts: Groups) -> Option<IdVec<Cluster, Cl
     let widest = view.mesh.factors.submeshes.iter().fold(1.0_f32, |most, &factor| most.max(factor));
     let reach = NEAR_WIDTHS * view.width * f64::from(widest);
     let boxes: Vec<Aabb> = boxes.iter().map(|own| own.grown(reach as f32)).collect();
-    let tree = Tree::new(&boxes, &[]);
+    let tree = Tree::watched(&boxes, &[], watch)?;
     let mut near = Groups::singles(boxes.len());
     let all = tree.open_leaves(|_| true);
     for (count, (one, other)) in tree.pairs(&all).enumerate() {
         if count > MOST_PAIRS * boxes.len() {
-            return None;
+            return Ok(None);
         }
+        watch.worked(1)?;
         near.join(tree.number(one), tree.number(other));
     }
     let near = near.labels();
     let together = |&part: &u32| Cluster(first[near[number_of[part as usize]] as usize]);
-    Some(IdVec::from_vec(part_of.iter().map(together).collect()))
+    Ok(Some(IdVec::from_vec(part_of.iter().map(together).collect())))
 }
 
 /// A block of a mesh, with all submeshes that the mesh has.
@@ -239,12 +249,21 @@ fn values_of(values: &[f32], components: usize, vertices: &[Vertex]) -> Vec<f32>
 }
 
 /// The results of all blocks in their order (`results: #blocks`), put together.
-pub fn join(view: &View, blocks: &Blocks, results: Vec<Chamfered>) -> Chamfered {
+///
+/// # Errors
+/// [`Error::Cancelled`] where the watch stops it.
+pub fn join(
+    view: &View,
+    blocks: &Blocks,
+    results: Vec<Chamfered>,
+    watch: &dyn Watch,
+) -> Result<Chamfered, Error> {
     let vertices = VertexPlaces::new(view, blocks, &results);
     let triangles = TrianglePlaces::new(view, blocks, &results);
     let mut joined = empty(view, &vertices, &triangles, &results);
     for (block, result) in results.into_iter().enumerate() {
         let own = (blocks.vertices.of(block), blocks.triangles.of(block));
+        watch.worked(result.triangle_sources.len())?;
         let places = (vertices.of(block, own.0, &result), triangles.of(block, own.1));
         put_vertices(&mut joined.mesh, &result.mesh, &places.0);
         put_triangles(&mut joined, &result, own, (&places.0, &places.1));
@@ -254,7 +273,7 @@ pub fn join(view: &View, blocks: &Blocks, results: Vec<Chamfered>) -> Chamfered 
             .put_part(result.vertex_sources, &places.0, |vertex| own.0[vertex as usize].0);
     }
     joined.pieces.sort_unstable_by_key(|piece| piece.triangle);
-    joined
+    Ok(joined)
 }
 
 /// The triangles of a block's result, before its verdicts.

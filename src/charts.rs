@@ -23,6 +23,7 @@ use glam::DVec2;
 
 use crate::attributes::{Attributes, Taken};
 use crate::chamfers::Chamfers;
+use crate::error::Error;
 use crate::ids::{Few, Id, Patch, Triangle};
 use crate::mesh::UV_CHANNELS;
 use crate::patches::Patches;
@@ -31,6 +32,7 @@ use crate::report::Blend;
 use crate::surface::Surface;
 use crate::threads::Threads;
 use crate::view::View;
+use crate::watch::Watch;
 
 use fill_map::lay_fill;
 use ground::uv_point;
@@ -84,17 +86,20 @@ impl Chart<'_> {
 
 /// Lays each patch into the chart of its owner, where its own is another, or folds or ends under
 /// the chamfer.
+///
+/// # Errors
+/// [`Error::Cancelled`] where the watch stops it.
 pub fn charts(
     surface: Surface,
     chamfers: Chamfers,
     placement: &Placement,
     patches: &Patches,
     attributes: &Attributes,
-    threads: &Threads,
-) -> Charts {
+    (threads, watch): (&Threads, &dyn Watch),
+) -> Result<Charts, Error> {
     let channels: Few<usize> = channels_of(surface.view).collect();
     let given = Given { surface, chamfers, placement, attributes, channels: &channels };
-    let owners = owners(&given, patches, threads);
+    let owners = owners(&given, patches, (threads, watch))?;
     let lay = |_: &Charts, patch: Patch, charts: &mut Charts| {
         let parts = patches.parts(patch);
         let (mut face, mut begin) = (Triangle::NONE, 0);
@@ -115,8 +120,8 @@ pub fn charts(
         // At a seam both far vertices of a strip, and of fills about as many.
         taken: Vec::with_capacity(4 * seamed),
     };
-    threads.blocks_then(patches.len(), &mut charts, lay, Charts::append);
-    charts
+    threads.blocks_then((patches.len(), watch), &mut charts, lay, Charts::append)?;
+    Ok(charts)
 }
 
 /// What patches are laid by: the arguments of [`charts`], for the files of this stage alone.

@@ -23,7 +23,7 @@ use crate::threads::Threads;
 use crate::tolerance::{BACK_TO_BACK_COSINE, LINE_HEIGHT, TOUCHING, TOUCHING_STEPS};
 use crate::topology::{Topology, topology};
 use crate::view::{View, view, wide};
-use crate::watch::Watch;
+use crate::watch::{Unwatched, Watch};
 use crate::weld::weld;
 
 use crowds::{Crowds, Search, crowds};
@@ -93,6 +93,7 @@ pub fn contacts(
         border: Corner::NONE,
     });
     let (rims, starts) = side_by_side(topology, borders.chain(outside).collect());
+    watch.worked(rims.len() * ASKED)?;
     let tolerance = if rims.is_empty() { 0.0 } else { tolerance(view) };
     let places = || starts[..starts.len() - 1].iter().map(|&start| &rims[start as usize]);
     let boxes: Vec<Aabb> =
@@ -101,6 +102,7 @@ pub fn contacts(
     let reach = view.resolution * LINE_HEIGHT;
     let kin = |rim: &Rim| crowds.kin(rim, rim.is_of_sheet(topology), reach);
     let kin: Vec<Kin> = if crowds.is_empty() { Vec::new() } else { places().map(kin).collect() };
+    watch.worked(rims.len() * ASKED)?;
     let tree = Tree::watched(&boxes, &kin, watch)?.into();
     Ok(Contacts { rims, starts: starts.into(), tree, crowds, tolerance })
 }
@@ -130,9 +132,13 @@ fn side_by_side(topology: &Topology, rims: Vec<Rim>) -> (Vec<Rim>, Vec<u32>) {
 pub fn border_lines(mesh: &Mesh) -> Vec<[DVec3; 2]> {
     let none = Options { width: Width::Units(0.0), threads: 1, ..Options::default() };
     let Ok(view) = view(mesh, &none) else { return Vec::new() };
-    let topology = topology(&view, &weld(&view.mesh));
+    let all = weld(&view.mesh, &Unwatched).and_then(|weld| {
+        let topology = topology(&view, &weld, &Unwatched)?;
+        let faces = faces(&view, &topology, (&Threads::default(), &Unwatched))?;
+        Ok((topology, faces))
+    });
+    let Ok((topology, faces)) = all else { return Vec::new() };
     let line = |border: Corner| [border, border.next()].map(|corner| view.position_at(corner));
-    let faces = faces(&view, &topology, &Threads::default());
     open_borders(&topology).chain(sheet_rims(&topology, &faces)).map(line).collect()
 }
 

@@ -241,9 +241,9 @@ mod tests {
             ..Mesh::default()
         };
         let view = view(&mesh, &Options::default()).unwrap();
-        let weld = weld(&mesh);
-        let topology = topology(&view, &weld);
-        let faces = faces(&view, &topology, &Threads::default());
+        let weld = weld(&mesh, &Unwatched).unwrap();
+        let topology = topology(&view, &weld, &Unwatched).unwrap();
+        let faces = faces(&view, &topology, (&Threads::default(), &Unwatched)).unwrap();
         let contacts = contacts(&view, &topology, &faces, &Unwatched).unwrap();
         let selection = selection(&view, &weld, &Options::default());
         let edges = edges(&view, (&topology, &faces), &contacts, &selection, &Unwatched).unwrap();

@@ -317,6 +317,56 @@ mod tests {
         split(&points, &indices)
     }
 
+    /// The sectors of its front at 1, on the left and on the right half.
+    fn in_front(stages: &Stages) -> [Sector; 2] {
+        let at = |corner: Corner| stages.view.mesh.positions[stages.view.vertex_at(corner).index()];
+        let side = |from: [f32; 3], to: [f32; 3]| {
+            let mut sides = stages.topology.twin.ids();
+            sides.find(|&side| [at(side), at(side.next())] == [from, to]).unwrap()
+        };
+        let right = side([2.0, 1.0, 1.0], [0.0, 1.0, 1.0]).next();
+        [side([0.0, 1.0, 1.0], [-2.0, 1.0, 1.0]), right].map(|c| stages.sectors.sector_of[c])
+    }
+
+    // 0------1------2     without the triangle between there is a gap, and nothing runs on over it
+    // | left | right|
+    // 5------6 7----8
+    #[test]
+    fn an_edge_does_not_run_on_over_a_gap() {
+        let mut block = leaning_block();
+        let is_between =
+            |corners: &[u32]| corners.iter().all(|&c| block.positions[c as usize][0] == 0.0);
+        let kept: Vec<u32> =
+            block.indices.chunks(3).filter(|c| !is_between(c)).flatten().copied().collect();
+        assert_eq!(kept.len() + 3, block.indices.len());
+        block.submesh_index_counts = vec![kept.len() as u32];
+        block.indices = kept;
+        let stages = stages_of(&block, 0.05);
+        let given = given_of(&stages);
+        let [left, right] = in_front(&stages);
+        let mut room = room(&given);
+        room.fronts[left] = [0.3, 1.0];
+        let before = room.fronts[right][1];
+        assert_eq!(evened(&given, room, 0.5).fronts[right][1], before);
+    }
+
+    #[test]
+    fn what_is_not_pulled_at_all_has_no_say_in_what_it_runs_on_into() {
+        let block = leaning_block();
+        let stages = stages_of(&block, 0.05);
+        let given = given_of(&stages);
+        let [left, right] = in_front(&stages);
+        let mut room = room(&given);
+        room.fronts[left] = [LEAST_SHARE / 2.0, 1.0];
+        assert_eq!(evened(&given, room, 0.5).fronts[right][1], 1.0);
+    }
+
+    #[test]
+    fn what_runs_back_does_not_run_on() {
+        assert!(runs_on(DVec3::X, -DVec3::X) && !runs_on(DVec3::X, DVec3::X));
+        assert!(!runs_on(DVec3::X, DVec3::Y) && !runs_on(DVec3::X, DVec3::new(-1.0, 0.5, 0.0)));
+    }
+
     // 0------1------2     seen from the front: at 1 two edges go down. What narrows 1-0 on this side
     // | left |\     |     narrows 1-2 here too, over the sector between, and not what goes down
     // 5------6-7----8
@@ -325,18 +375,7 @@ mod tests {
         let block = leaning_block();
         let stages = stages_of(&block, 0.05);
         let given = given_of(&stages);
-        let side = |from: [f32; 3], to: [f32; 3]| {
-            let at =
-                |corner: Corner| stages.view.mesh.positions[stages.view.vertex_at(corner).index()];
-            stages
-                .topology
-                .twin
-                .ids()
-                .find(|&side| [at(side), at(side.next())] == [from, to])
-                .unwrap()
-        };
-        let left = stages.sectors.sector_of[side([0.0, 1.0, 1.0], [-2.0, 1.0, 1.0])];
-        let right = stages.sectors.sector_of[side([2.0, 1.0, 1.0], [0.0, 1.0, 1.0]).next()];
+        let [left, right] = in_front(&stages);
         let mut room = room(&given);
         assert_eq!([room.fronts[left], room.fronts[right]], [[1.0; 2]; 2]);
         room.fronts[left] = [0.3, 1.0];

@@ -7,12 +7,14 @@
 use glam::DVec3;
 
 use crate::breaks::is_hard;
+use crate::error::Error;
 use crate::ids::{Corner, IdVec, Triangle};
 use crate::math::{area_vector, unit};
 use crate::threads::Threads;
 use crate::tolerance::LINE_HEIGHT;
 use crate::topology::Topology;
 use crate::view::{View, resolution_of};
+use crate::watch::Watch;
 
 /// Lines lie next to lines where an edge meets several others; more than so many in a row are
 /// broken geometry.
@@ -32,10 +34,16 @@ impl Faces {
     }
 }
 
-pub fn faces(view: &View, topology: &Topology, threads: &Threads) -> Faces {
+/// # Errors
+/// [`Error::Cancelled`] where the watch stops it.
+pub fn faces(
+    view: &View,
+    topology: &Topology,
+    (threads, watch): (&Threads, &dyn Watch),
+) -> Result<Faces, Error> {
     let triangles = view.corner_count() / 3;
     let mut faces = Faces {
-        normal: threads.map(triangles, |triangle| own_normal(view, triangle)),
+        normal: threads.map(triangles, watch, |triangle| own_normal(view, triangle))?,
         lender: IdVec::filled(Corner::NONE, triangles),
     };
     let is_unknown = |&triangle: &Triangle| faces.normal[triangle] == DVec3::ZERO;
@@ -50,8 +58,9 @@ pub fn faces(view: &View, topology: &Topology, threads: &Threads) -> Faces {
             faces.normal[line] = faces.normal[lender.triangle()];
         }
         lines.retain(|&line| faces.normal[line] == DVec3::ZERO);
+        watch.worked(found.len())?;
     }
-    faces
+    Ok(faces)
 }
 
 /// Zero for a line.
@@ -98,6 +107,7 @@ mod tests {
     use crate::options::Options;
     use crate::topology::topology;
     use crate::view::view;
+    use crate::watch::Unwatched;
     use crate::weld::weld;
 
     // 3-------2
@@ -116,7 +126,12 @@ mod tests {
             ..Mesh::default()
         };
         let view = view(&mesh, &Options::default()).unwrap();
-        let faces = faces(&view, &topology(&view, &weld(&mesh)), &Threads::default());
+        let faces = faces(
+            &view,
+            &topology(&view, &weld(&mesh, &Unwatched).unwrap(), &Unwatched).unwrap(),
+            (&Threads::default(), &Unwatched),
+        )
+        .unwrap();
         assert_eq!(faces.normal[Triangle(2)], DVec3::Z);
         assert_eq!(faces.lender[Triangle(2)], Corner(0));
         assert!(!faces.is_line(Triangle(0)));

@@ -1,6 +1,7 @@
 //! Given: what room and limits are found from.
 
 use crate::chamfers::Chamfers;
+use crate::error::Error;
 use crate::ids::{Cluster, IdVec, Sector, Triangle};
 use crate::offsets::Offset;
 use crate::placement::Placement;
@@ -9,6 +10,7 @@ use crate::sectors::Sectors;
 use crate::surface::Surface;
 use crate::threads::Threads;
 use crate::topology::Topology;
+use crate::watch::{Watch, each};
 
 /// The arguments of the stages that tell how far sectors may go.
 #[derive(Clone, Copy)]
@@ -26,22 +28,37 @@ pub struct Given<'a> {
 
 impl<'a> Given<'a> {
     /// The sectors at some shares of their offsets; `share: #sectors`.
-    pub fn placement(&self, share: IdVec<Sector, f64>) -> Placement<'a> {
-        Placement::new(self.surface, self.chamfers.sectors, self.offsets, share, self.threads)
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`] where the watch stops it.
+    pub fn placement(
+        &self,
+        share: IdVec<Sector, f64>,
+        watch: &dyn Watch,
+    ) -> Result<Placement<'a>, Error> {
+        let (sectors, work) = (self.chamfers.sectors, (self.threads, watch));
+        Placement::new(self.surface, sectors, self.offsets, share, work)
     }
 }
 
 /// `#clusters`: whether a face goes on for at least a row of triangles behind a vertex inside of
 /// it. No chamfer reaches these, so the first row may be given away.
-pub fn deep(topology: &Topology, sectors: &Sectors) -> IdVec<Cluster, bool> {
+///
+/// # Errors
+/// [`Error::Cancelled`] where the watch stops it.
+pub fn deep(
+    topology: &Topology,
+    sectors: &Sectors,
+    watch: &dyn Watch,
+) -> Result<IdVec<Cluster, bool>, Error> {
     let mut deep = IdVec::filled(false, topology.clusters);
-    for triangle in (0..topology.twin.len() / 3).map(|triangle| Triangle(triangle as u32)) {
+    each(topology.twin.len() / 3, watch, |triangle: Triangle| {
         let corners = triangle.corners();
         if corners.iter().all(|&corner| sectors.sector_of[corner].is_none()) {
             corners.iter().for_each(|&corner| deep[topology.cluster_at[corner]] = true);
         }
-    }
-    deep
+    })?;
+    Ok(deep)
 }
 
 #[cfg(test)]

@@ -91,7 +91,7 @@ pub(crate) fn cutting_pairs<Open: Fn(u32) -> bool, Pair: Fn(u32, u32) -> bool>(
     let mut pairs = match cutting_within(&tree, triangles, asked, few, watch)? {
         Some(pairs) => pairs,
         None => {
-            let eyes = Eyes::of(&[&source(), triangles].concat());
+            let eyes = Eyes::of(&[&source(), triangles].concat(), watch)?;
             let tree = tree.with_views(&eyes.views(triangles, watch)?);
             watch.worked(triangles.len())?;
             cutting_within(&tree, triangles, asked, usize::MAX, watch)?.unwrap_or_default()
@@ -462,7 +462,9 @@ mod tests {
         let few = triangles.len() * CROWDED;
         let tree = Tree::new(&boxes, &[]);
         assert!(within(&tree, &triangles, few).is_none(), "boxes do not tell");
-        let tree = tree.with_views(&Eyes::of(&triangles).views(&triangles, &Unwatched).unwrap());
+        let tree = tree.with_views(
+            &Eyes::of(&triangles, &Unwatched).unwrap().views(&triangles, &Unwatched).unwrap(),
+        );
         assert!(within(&tree, &triangles, few).is_some(), "eyes do");
     }
 
@@ -482,8 +484,9 @@ mod tests {
             .collect();
         assert!(expected.len() > 20, "{}", expected.len());
         let boxes: Vec<Aabb> = triangles.iter().map(bounds).collect();
-        let tree = Tree::new(&boxes, &[])
-            .with_views(&Eyes::of(&triangles).views(&triangles, &Unwatched).unwrap());
+        let tree = Tree::new(&boxes, &[]).with_views(
+            &Eyes::of(&triangles, &Unwatched).unwrap().views(&triangles, &Unwatched).unwrap(),
+        );
         let mut found = within(&tree, &triangles, usize::MAX).unwrap();
         found.sort_unstable();
         assert_eq!(found, expected);

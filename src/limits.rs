@@ -64,8 +64,7 @@ pub fn limits<'a>(
     verify: Verify,
     watch: &dyn Watch,
 ) -> Result<Limits<'a>, Error> {
-    let mut limits = bounded(given, room);
-    watch.worked(room.len())?;
+    let mut limits = bounded(given, room, watch)?;
     let bad = bad_elements(given, &limits.placement, watch)?;
     shrink(given, &mut limits, bad, watch)?;
     for _ in 0..GROW_PASSES {
@@ -88,21 +87,25 @@ pub fn lessen_cuts<S: Sync>(
     placement: &Placement,
     (state, rounded): (&mut S, &collisions::Rounded<S>),
     watch: &dyn Watch,
-    lessen: impl FnMut(&mut S, &[Element]) -> bool,
+    lessen: impl FnMut(&mut S, &[Element]) -> Result<bool, Error>,
 ) -> Result<(), Error> {
     collisions::lessen_cuts(given, placement, state, rounded, watch, lessen)
 }
 
 /// Every sector at the width that its own triangles leave room for.
-fn bounded<'a>(given: &Given<'a>, shares: &IdVec<Sector, f64>) -> Limits<'a> {
+fn bounded<'a>(
+    given: &Given<'a>,
+    shares: &IdVec<Sector, f64>,
+    watch: &dyn Watch,
+) -> Result<Limits<'a>, Error> {
     let reason = |sector: Sector| {
         let is_narrow = given.offsets[sector].moves() && shares[sector] < 1.0;
         if is_narrow { Reason::NoRoom } else { Reason::None }
     };
-    Limits {
-        placement: given.placement(shares.clone()),
-        reason: given.threads.map(shares.len(), reason),
-    }
+    Ok(Limits {
+        placement: given.placement(shares.clone(), watch)?,
+        reason: given.threads.map(shares.len(), watch, reason)?,
+    })
 }
 
 /// Shrinks what is bad, and then what is bad around what has shrunk; tells all that has.
@@ -425,7 +428,7 @@ mod tests {
         let room = stages.room.shares();
         let is_unlike = |sector: &Sector| stages.narrowed[*sector].fronts != [1.0; 2];
         let sector = room.ids().find(is_unlike).unwrap();
-        let mut limits = bounded(&given, &room);
+        let mut limits = bounded(&given, &room, &Unwatched).unwrap();
         limits.placement.set(sector, taken * room[sector]);
         limits.reason[sector] = Reason::Folds;
         give_way(&given, &room, &mut limits, &Unwatched).unwrap();

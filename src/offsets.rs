@@ -115,7 +115,7 @@ pub fn offsets(
 ) -> Result<IdVec<Sector, Offset>, Error> {
     let (Surface { view, topology, faces }, Chamfers { sectors, .. }) = (surface, chamfers);
     let count = sectors.fans.len();
-    let mut offsets = threads.map_with_watched(count, watch, Vec::new, |spread, sector| {
+    let mut offsets = threads.map_with(count, watch, Vec::new, |spread, sector| {
         if let Some(offset) = known.and_then(|known| known.of(topology, sectors, sector)) {
             return offset;
         }

@@ -11,8 +11,9 @@ use std::ops::Range;
 
 use crate::attributes::Attributes;
 use crate::charts::{Chart, Charts};
+use crate::error::Error;
 use crate::flaps::Flap;
-use crate::ids::{Cluster, Corner, Id, Patch, Triangle};
+use crate::ids::{Cluster, Corner, Patch, Triangle};
 use crate::mesh::MeshBuffers;
 use crate::options::ChamferSubmesh;
 use crate::patches::{Parts, Patches};
@@ -21,6 +22,7 @@ use crate::resample::blended_normal;
 use crate::rounding::{Rounded, Rounding};
 use crate::scale::Space;
 use crate::view::{View, wide};
+use crate::watch::{Times, Watch, each};
 use crate::weld::Weld;
 
 /// The source as it is, for want of hard edges.
@@ -41,6 +43,9 @@ pub fn unchanged(view: &View, target: ChamferSubmesh) -> Chamfered {
 }
 
 /// The source with its moved vertices, and all patches; without verdicts.
+///
+/// # Errors
+/// [`Error::Cancelled`] where the watch stops it.
 pub fn output(
     space: Space,
     weld: &Weld,
@@ -48,13 +53,15 @@ pub fn output(
     (charts, flaps): (&Charts, &[Flap]),
     attributes: Attributes,
     target: ChamferSubmesh,
-) -> Chamfered {
+    watch: &dyn Watch,
+) -> Result<Chamfered, Error> {
     let count = rounding
         .map_or_else(|| patches.triangle_count(), |rounding| rounding.triangle_count(patches));
     let room = count + flaps.len();
     let submeshes = Submeshes::of_source(space.source, target, &attributes, room);
-    let mut result = Result { space, weld, attributes, submeshes, rounding, vertices: Vec::new() };
-    for patch in (0..patches.len()).map(Patch::new) {
+    let mut result = Made { space, weld, attributes, submeshes, rounding, vertices: Vec::new() };
+    let watch = &Times(1 + room / patches.len().max(1), watch);
+    each(patches.len(), watch, |patch: Patch| {
         let parts = patches.parts(patch);
         if !parts.triangles.is_empty() {
             let (kind, index) = match patches.edge_or_ring(patch) {
@@ -63,13 +70,13 @@ pub fn output(
             };
             result.add((patch, parts), charts.of(patch), TriangleSource { kind, index });
         }
-    }
+    })?;
     flaps.iter().for_each(|flap| result.add_flap(flap));
-    result.finish()
+    Ok(result.finish())
 }
 
 /// The result in the making.
-struct Result<'a> {
+struct Made<'a> {
     space: Space<'a>,
     weld: &'a Weld,
     attributes: Attributes,
@@ -79,7 +86,7 @@ struct Result<'a> {
     vertices: Vec<u32>,
 }
 
-impl Result<'_> {
+impl Made<'_> {
     fn add(&mut self, (patch, parts): (Patch, Parts), chart: Chart, source: TriangleSource) {
         let rounded = self.rounding.and_then(|rounding| rounding.of(patch));
         self.find_vertices(rounded, parts, chart);

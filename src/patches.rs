@@ -6,6 +6,7 @@
 use glam::DVec3;
 
 use crate::chamfers::Chamfers;
+use crate::error::Error;
 use crate::fills::{has_fill, middle, ring_fill};
 use crate::ids::{Corner, Edge, Few, Id, Patch, Ring, Sector, Vertex};
 use crate::math::unit;
@@ -16,6 +17,7 @@ use crate::strips::{self, cut, quad};
 use crate::threads::Threads;
 use crate::tolerance::EQUALLY_NEAR;
 use crate::view::View;
+use crate::watch::Watch;
 
 /// All strips in the order of their edges, then all fills in the order of their rings. What does
 /// not open has no triangles.
@@ -48,12 +50,15 @@ pub struct Parts<'a> {
 }
 
 /// Where the sectors stand now.
+///
+/// # Errors
+/// [`Error::Cancelled`] where the watch stops it.
 pub fn patches(
     view: &View,
     chamfers: Chamfers,
     placement: &Placement,
-    threads: &Threads,
-) -> Patches {
+    (threads, watch): (&Threads, &dyn Watch),
+) -> Result<Patches, Error> {
     let Chamfers { edges, sectors } = chamfers;
     let mut patches = Patches::with_room(edges.hard.len(), sectors);
     let add_strip = |_: &Patches, edge: Edge, strips: &mut Patches| {
@@ -67,13 +72,13 @@ pub fn patches(
         }
         strips.end();
     };
-    threads.blocks_then(edges.hard.len(), &mut patches, add_strip, Patches::append);
+    threads.blocks_then((edges.hard.len(), watch), &mut patches, add_strip, Patches::append)?;
     let add_fill = |_: &Patches, ring: Ring, fills: &mut Patches| {
         fills.add_fill(view, placement, sectors.ring(ring), |s| sectors.fans[s].first);
         fills.end();
     };
-    threads.blocks_then(sectors.rings.len(), &mut patches, add_fill, Patches::append);
-    patches
+    threads.blocks_then((sectors.rings.len(), watch), &mut patches, add_fill, Patches::append)?;
+    Ok(patches)
 }
 
 impl Patches {
@@ -243,7 +248,7 @@ mod tests {
         let pyramid = shapes::pyramid(5);
         let stages = stages_of(&pyramid, width);
         let placement = stages.placement();
-        let patches = patches(&stages.view, stages.chamfers(), &placement, &stages.threads);
+        let patches = stages.patches(&placement);
         let ids = (0..patches.len()).map(Patch::new);
         let parts = ids.map(|patch| patches.parts(patch));
         parts.map(|p| [p.joints.len(), p.middles.len(), p.triangles.len()]).collect()

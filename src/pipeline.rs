@@ -138,9 +138,11 @@ fn chamfer_by_blocks(
     progress: &mut dyn FnMut(f32) -> ControlFlow<()>,
 ) -> Result<Chamfered, Error> {
     turned_right(mesh, options, |view| {
-        let weld = weld(&view.mesh);
+        let ask = &mut || told(progress(0.0));
+        let watch = Caller::new(ask);
+        let weld = weld(&view.mesh, &watch)?;
         let is_scaled = Scale::new(options)?.is_some();
-        let blocks = if is_scaled { None } else { blocks(&view, &weld)? };
+        let blocks = if is_scaled { None } else { blocks(&view, &weld, &watch)? };
         match blocks {
             Some(blocks) => {
                 drop(weld);
@@ -170,7 +172,7 @@ fn each_block(
         let own = cut(view, blocks, block);
         let mesh = Mesh { factors: view.mesh.factors, ..own.as_mesh() };
         let view = View { mesh, ..*view };
-        let weld = weld(&view.mesh);
+        let weld = weld(&view.mesh, watch)?;
         chamfer_welded(view, weld, alone, &mut |_| watch.worked(STEPS))
     };
     let mut results = Vec::with_capacity(blocks.len());
@@ -187,7 +189,8 @@ fn each_block(
     let (vertices, triangles) =
         (counts(|part| part.mesh.positions.len()), counts(|part| part.triangle_sources.len()));
     memory::ask(memory::of_joined(&view.mesh, vertices, triangles))?;
-    let joined = join(view, blocks, results);
+    let ask = &mut || told(progress(SHARE_OF_BLOCKS));
+    let joined = join(view, blocks, results, &Caller::new(ask))?;
     told(progress(1.0))?;
     Ok(joined)
 }
@@ -217,7 +220,7 @@ pub fn chamfer_by_stages(
     let done = &mut |stage: Option<Stage>| stage.map_or(Ok(()), |stage| told(after(stage)));
     turned_right(mesh, options, |view| {
         done(Some(Stage::View))?;
-        let weld = weld(&view.mesh);
+        let weld = weld(&view.mesh, &Caller::new(&mut || done(None)))?;
         chamfer_welded(view, weld, options, done)
     })
 }
@@ -284,7 +287,7 @@ fn chamfer_hard(
     let view = space.measured;
     let threads = &Threads::new(options.threads, view.corner_count());
     let shape = shape(view, weld, options, threads, done)?;
-    let unpaired = unpaired(view, &shape);
+    let unpaired = unpaired(view, &shape, &Caller::new(&mut || done(None)))?;
     let mut stitches = stitches(view, &shape, &unpaired);
     for _ in 0..MOST_STITCHED {
         let Some(finer) = stitch(&mut stitches, space, &shape)? else { break };
@@ -313,12 +316,13 @@ fn chamfer_stitched(
     in_space(fine, options, |space| {
         let view = space.measured;
         // These stages were told of.
-        let shape = shape(view, weld(&fine.mesh), options, threads, &mut |_| done(None))?;
+        let weld = weld(&fine.mesh, &Caller::new(&mut || done(None)))?;
+        let shape = shape(view, weld, options, threads, &mut |_| done(None))?;
         let idle = finer.idle(coarse, &shape.edges);
         if !idle.is_empty() {
             return Ok(Err(idle));
         }
-        let unpaired = unpaired(view, &shape);
+        let unpaired = unpaired(view, &shape, &Caller::new(&mut || done(None)))?;
         let hard = shape.edges.hard.iter().map(|edge| edge.sides);
         let sides: Vec<_> = hard.chain(unpaired.iter().map(|&(side, _)| [side; 2])).collect();
         let chamfered = chamfer_found(space, shape, &unpaired, options, (threads, done))?;
@@ -359,9 +363,9 @@ pub(crate) fn shape(
     done: &mut Done,
 ) -> Result<Shape, Error> {
     memory::ask(memory::up_to_edges(&view.mesh))?;
-    let topology = topology(view, &weld);
+    let topology = topology(view, &weld, &Caller::new(&mut || done(None)))?;
     done(Some(Stage::Topology))?;
-    let faces = faces(view, &topology, threads);
+    let faces = faces(view, &topology, (threads, &Caller::new(&mut || done(None))))?;
     done(Some(Stage::Faces))?;
     let contacts = contacts(view, &topology, &faces, &Caller::new(&mut || done(None)))?;
     done(Some(Stage::Contacts))?;
@@ -370,7 +374,8 @@ pub(crate) fn shape(
     let edges = edges(view, (&topology, &faces), &contacts, &selection, &Caller::new(ask))?;
     done(Some(Stage::Edges))?;
     memory::ask(memory::of_sectors(edges.hard.len()))?;
-    let sectors = sectors(view, &topology, &edges, &contacts);
+    let ask = &mut || done(None);
+    let sectors = sectors(view, &topology, &edges, &contacts, &Caller::new(ask))?;
     done(Some(Stage::Sectors))?;
     Ok(Shape { weld, topology, faces, contacts, edges, sectors })
 }
@@ -389,7 +394,8 @@ fn chamfer_refined(
     let view = space.measured;
     let fine = &View { mesh: refined.as_mesh(&view.mesh), ..*view };
     let threads = &Threads::new(options.threads, fine.corner_count());
-    let Some(finer) = finer_shape(fine, refined, &shape) else {
+    let ask = &mut || done(None);
+    let Some(finer) = finer_shape(fine, refined, &shape, &Caller::new(ask))? else {
         done(Some(Stage::Offsets))?;
         return chamfer_shape(space, (shape, offsets), options, (threads, done));
     };
@@ -421,7 +427,9 @@ fn chamfer_shape(
     drop((offsets, topology, faces, contacts, edges, sectors));
     let patches = (&patches, rounding.as_ref());
     let laid = (&charts, &flaps[..]);
-    let output = output(space, &weld, patches, laid, attributes, options.chamfer_submesh);
+    let (target, ask) = (options.chamfer_submesh, &mut || done(None));
+    let watch = &Caller::new(ask);
+    let output = output(space, &weld, patches, laid, attributes, target, watch)?;
     let scale = space.scale.map(|_| options.scale);
     Ok(Chamfered { verdicts, totals, largest_width, scale, ..output })
 }
@@ -449,17 +457,17 @@ fn make(
     let mut ask = || done(None);
     let watch = Caller::new(&mut ask);
     let rests = rests(view, topology, faces, edges, contacts, &watch)?;
-    let deep = &deep(topology, chamfers.sectors);
+    let deep = &deep(topology, chamfers.sectors, &watch)?;
     let asked = &Given { surface, chamfers, offsets, rests: &rests, deep, threads };
     let room = evenness(asked, room(asked, &watch)?, options.evenness.into(), &watch)?;
-    let offsets = &*narrowed(surface, chamfers.sectors, offsets, &room.fronts);
+    let offsets = &*narrowed(surface, chamfers.sectors, offsets, &room.fronts, &watch)?;
     let given = &Given { offsets, ..*asked };
     let limits = limits(given, &room.shares(), options.verify, &watch)?;
     let placement = &limits.placement;
     done(Some(Stage::Limits))?;
     let mut ask = || done(None);
     let watch = Caller::new(&mut ask);
-    let patches = patches(view, chamfers, placement, threads);
+    let patches = patches(view, chamfers, placement, (threads, &watch))?;
     let search = |rows: &mut Rows, triangles: &Triangles, lessen: &mut Lessen| {
         let patch = |element: Element| match element {
             Element::Surface(_) | Element::Flap(_) => None,
@@ -475,12 +483,15 @@ fn make(
     let profile = options.profile.into();
     let round = Rounds { view, chamfers, placement, profile };
     let search: Option<&Search> = (options.verify != Verify::Fast).then_some(&search);
-    let rounding = rounding(round, &patches, options.segments, threads, search)?;
-    let verdicts = verdicts(view, chamfers, &limits, (&patches, rounding.as_ref()));
+    let rounding = rounding(round, &patches, options.segments, (threads, &watch), search)?;
+    let verdicts = verdicts(view, chamfers, &limits, (&patches, rounding.as_ref()), &watch)?;
     done(Some(Stage::Patches))?;
-    let attributes = attributes(space, surface, weld, chamfers, placement);
+    let ask = &mut || done(None);
+    let attributes = attributes(space, surface, weld, chamfers, placement, &Caller::new(ask))?;
     done(Some(Stage::Attributes))?;
-    let charts = charts(surface, chamfers, placement, &patches, &attributes, threads);
+    let ask = &mut || done(None);
+    let work = (threads, &Caller::new(ask) as &dyn Watch);
+    let charts = charts(surface, chamfers, placement, &patches, &attributes, work)?;
     done(Some(Stage::Charts))?;
     let flaps = flaps(surface, chamfers, placement);
     Ok(Made { patches, rounding, charts, flaps, attributes, verdicts })

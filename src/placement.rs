@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use glam::DVec3;
 
+use crate::error::Error;
 use crate::foot::Foot;
 use crate::ids::{Corner, IdVec, Sector};
 use crate::offsets::Offset;
@@ -11,6 +12,7 @@ use crate::resample::{blended_normal, chart_foot, surface_foot};
 use crate::sectors::Sectors;
 use crate::surface::Surface;
 use crate::threads::Threads;
+use crate::watch::Watch;
 
 /// Positions as they will be stored, so that what is checked is what comes out.
 #[derive(Clone)]
@@ -33,15 +35,16 @@ impl<'a> Placement<'a> {
         sectors: &'a Sectors,
         offsets: &'a IdVec<Sector, Offset>,
         share: IdVec<Sector, f64>,
-        threads: &Threads,
-    ) -> Placement<'a> {
+        (threads, watch): (&Threads, &dyn Watch),
+    ) -> Result<Placement<'a>, Error> {
         let (point, normals) = (IdVec::default(), IdVec::default());
         let offsets = Cow::Borrowed(offsets);
         let mut placement = Placement { surface, sectors, offsets, share, point, normals };
         let count = placement.share.len();
-        placement.point = threads.map(count, |s| placement.point_at(s, placement.share[s]));
-        placement.normals = threads.map(count, |sector| placement.normals_of(sector));
-        placement
+        placement.point =
+            threads.map(count, watch, |s| placement.point_at(s, placement.share[s]))?;
+        placement.normals = threads.map(count, watch, |sector| placement.normals_of(sector))?;
+        Ok(placement)
     }
 
     /// Moves a sector's vertex to a share of its offset.

@@ -82,7 +82,7 @@ impl KnownParts {
 /// [`Error::Cancelled`] where the watch stops it.
 pub fn room(given: &Given, watch: &dyn Watch) -> Result<Room, Error> {
     let share = |sector: Sector| [if given.offsets[sector].moves() { GROWING } else { 0.0 }; 2];
-    let fronts = given.threads.map(given.offsets.len(), share);
+    let fronts = given.threads.map(given.offsets.len(), watch, share)?;
     let parts = KnownParts::new(fronts.len());
     let due = IdVec::filled(GROWING, given.surface.faces.normal.len());
     let (first, later) = (Vec::new(), BinaryHeap::new());

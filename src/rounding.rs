@@ -21,6 +21,7 @@ use crate::placement::Placement;
 use crate::report::Blend;
 use crate::threads::Threads;
 use crate::view::View;
+use crate::watch::{Times, Watch};
 
 use ends::{End, ends_of, near};
 pub use ends::{Rows, joined};
@@ -63,7 +64,7 @@ pub struct Rounded<'a> {
 pub type Triangles<'a> = dyn Fn(&Rows, Patch) -> Option<Vec<[DVec3; 3]>> + Sync + 'a;
 
 /// Takes rows from patches that cut; false where none had any to give.
-pub type Lessen<'a> = dyn FnMut(&mut Rows, &[Patch]) -> bool + 'a;
+pub type Lessen<'a> = dyn FnMut(&mut Rows, &[Patch]) -> Result<bool, Error> + 'a;
 
 /// Lessens rows until nothing cuts.
 pub type Search<'a> = dyn Fn(&mut Rows, &Triangles, &mut Lessen) -> Result<(), Error> + 'a;
@@ -72,32 +73,35 @@ pub type Search<'a> = dyn Fn(&mut Rows, &Triangles, &mut Lessen) -> Result<(), E
 /// for patches that would cut something, and lessens their rows until none does.
 ///
 /// # Errors
-/// [`Error::OutOfMemory`] and [`Error::TooLarge`] where the points cannot be had.
+/// [`Error::OutOfMemory`] and [`Error::TooLarge`] where the points cannot be had, and
+/// [`Error::Cancelled`] where the watch stops it.
 pub fn rounding(
     given: Given,
     patches: &Patches,
     segments: u32,
-    threads: &Threads,
+    (threads, watch): (&Threads, &dyn Watch),
     search: Option<&Search>,
 ) -> Result<Option<Rounding>, Error> {
     if segments < 2 {
         return Ok(None);
     }
+    // Fills have about so many points.
+    let work = (threads, &Times((segments * segments) as usize, watch) as &dyn Watch);
     let mut rows = first_rows(given, patches, segments as u8);
     let all: Vec<Patch> = (0..patches.len()).map(Patch::new).collect();
-    settle(given, patches, &mut rows, all, threads);
+    settle(given, patches, &mut rows, all, work)?;
     if let Some(search) = search {
         let rounded = |rows: &Rows, patch: Patch| triangles_of(given, patches, rows, patch);
         let mut lessen = |rows: &mut Rows, cutting: &[Patch]| {
             let fewer = fewer_rows(given, patches, rows, cutting);
             let is_less = !fewer.is_empty();
-            settle(given, patches, rows, fewer, threads);
-            is_less
+            settle(given, patches, rows, fewer, work)?;
+            Ok(is_less)
         };
         search(&mut rows, &rounded, &mut lessen)?;
     }
     ask_for_memory(given, patches, &rows)?;
-    Ok(Some(made(given, patches, rows, threads)))
+    Ok(Some(made(given, patches, rows, work)?))
 }
 
 impl Rounding {
@@ -168,18 +172,19 @@ fn settle(
     patches: &Patches,
     rows: &mut Rows,
     mut suspects: Vec<Patch>,
-    threads: &Threads,
-) {
+    (threads, watch): (&Threads, &dyn Watch),
+) -> Result<(), Error> {
     while !suspects.is_empty() {
         let is_bad = |&patch: &Patch| {
             let mut lay = Lay::default();
             lay_patch(given, patches, rows, patch, &mut lay) && !lay.is_valid(given.view.resolution)
         };
-        let bad = threads.map_each(&suspects, is_bad);
+        let bad = threads.map_each(&suspects, watch, is_bad)?;
         let bad: Vec<Patch> =
             suspects.iter().zip(bad).filter(|(_, bad)| *bad).map(|(&patch, _)| patch).collect();
         suspects = fewer_rows(given, patches, rows, &bad);
     }
+    Ok(())
 }
 
 /// Halves the rows of the ends that some patches have; tells all patches that have one of these.
@@ -244,7 +249,12 @@ fn triangles_of(
 }
 
 /// All points and triangles, with what they come from.
-fn made(given: Given, patches: &Patches, rows: Rows, threads: &Threads) -> Rounding {
+fn made(
+    given: Given,
+    patches: &Patches,
+    rows: Rows,
+    (threads, watch): (&Threads, &dyn Watch),
+) -> Result<Rounding, Error> {
     let mut rounding = Rounding::default();
     let add = |_: &Rounding, patch: Patch, block: &mut Rounding| {
         let mut lay = Lay::default();
@@ -253,8 +263,8 @@ fn made(given: Given, patches: &Patches, rows: Rows, threads: &Threads) -> Round
         }
         block.end();
     };
-    threads.blocks_then(patches.len(), &mut rounding, add, Rounding::append);
-    Rounding { rows, ..rounding }
+    threads.blocks_then((patches.len(), watch), &mut rounding, add, Rounding::append)?;
+    Ok(Rounding { rows, ..rounding })
 }
 
 impl Rounding {

@@ -7,9 +7,11 @@
 use crate::breaks::is_hard;
 use crate::contacts::Contacts;
 use crate::edges::Edges;
-use crate::ids::{Cluster, Corner, Id, IdVec, Ring, Sector};
+use crate::error::Error;
+use crate::ids::{Cluster, Corner, Edge, Id, IdVec, Ring, Sector};
 use crate::topology::{Hidden, Topology};
 use crate::view::View;
+use crate::watch::{Watch, each};
 
 /// An ordered fan of corners, counter-clockwise seen from outside.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -105,7 +107,15 @@ impl Sectors {
     }
 }
 
-pub fn sectors(view: &View, topology: &Topology, edges: &Edges, contacts: &Contacts) -> Sectors {
+/// # Errors
+/// [`Error::Cancelled`] where the watch stops it.
+pub fn sectors(
+    view: &View,
+    topology: &Topology,
+    edges: &Edges,
+    contacts: &Contacts,
+    watch: &dyn Watch,
+) -> Result<Sectors, Error> {
     let mut sectors = Sectors {
         sector_of: IdVec::filled(Sector::NONE, topology.twin.len()),
         fans: IdVec::default(),
@@ -114,12 +124,13 @@ pub fn sectors(view: &View, topology: &Topology, edges: &Edges, contacts: &Conta
         spanned: Vec::new(),
         members: Vec::new(),
     };
-    for edge in edges.hard.iter().filter(|edge| edge.skipped.is_none()) {
-        for side in edge.sides {
+    each(edges.hard.len(), watch, |edge: Edge| {
+        let edge = &edges.hard[edge];
+        for side in edge.sides.into_iter().filter(|_| edge.skipped.is_none()) {
             add_fan(topology, edges, &mut sectors, side);
             add_fan(topology, edges, &mut sectors, side.next());
         }
-    }
+    })?;
     for parted in &edges.parted {
         add_fan(topology, edges, &mut sectors, parted.corner);
     }
@@ -131,9 +142,9 @@ pub fn sectors(view: &View, topology: &Topology, edges: &Edges, contacts: &Conta
         add_whole(view, topology, &mut sectors, corner);
     }
     mark_kept(edges, &mut sectors);
-    join_rings(topology, &mut sectors);
-    mark_meeting_borders(view, topology, contacts, &mut sectors);
-    sectors
+    join_rings(topology, &mut sectors, watch)?;
+    mark_meeting_borders(view, topology, contacts, &mut sectors, watch)?;
+    Ok(sectors)
 }
 
 /// Adds the fans at both ends of a hidden face's border, where the face in front of it may move.
@@ -230,22 +241,24 @@ fn mark_kept(edges: &Edges, sectors: &mut Sectors) {
     }
 }
 
-fn join_rings(topology: &Topology, sectors: &mut Sectors) {
-    for sector in sectors.fans.ids() {
+fn join_rings(topology: &Topology, sectors: &mut Sectors, watch: &dyn Watch) -> Result<(), Error> {
+    let count = sectors.fans.len();
+    each(count, watch, |sector: Sector| {
         let across = topology.twin[sectors.fans[sector].last.prev()];
         if across.is_some() {
             sectors.fans[sector].next = sectors.sector_of[across];
         }
-    }
+    })?;
     // Open rings first, from their borders; whatever is left then is closed.
     for starts_at_border in [true, false] {
-        for sector in sectors.fans.ids() {
+        each(count, watch, |sector: Sector| {
             let fan = sectors.fans[sector];
             if fan.ring.is_none() && (fan.starts_at_border || !starts_at_border) {
                 add_ring(sectors, sector);
             }
-        }
+        })?;
     }
+    Ok(())
 }
 
 fn mark_meeting_borders(
@@ -253,19 +266,20 @@ fn mark_meeting_borders(
     topology: &Topology,
     contacts: &Contacts,
     sectors: &mut Sectors,
-) {
+    watch: &dyn Watch,
+) -> Result<(), Error> {
     let is_at_border = |fan: &Fan| fan.starts_at_border || fan.ends_at_border();
     if !sectors.fans.iter().any(is_at_border) {
-        return;
+        return Ok(());
     }
     let meeting = meeting_borders(topology);
-    for sector in sectors.fans.ids() {
+    each(sectors.fans.len(), watch, |sector: Sector| {
         let fan = sectors.fans[sector];
         let cluster = topology.cluster_at[fan.first];
         let meets = meeting.binary_search(&cluster).is_ok()
             || is_at_border(&fan) && contacts.touch_corner(view, topology, fan.first);
         sectors.fans[sector].borders_meet = meets;
-    }
+    })
 }
 
 /// The clusters, sorted, that several borders run through, but for those of hidden faces: nobody

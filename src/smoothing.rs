@@ -16,6 +16,7 @@ use crate::options::Options;
 use crate::threads::Threads;
 use crate::topology::{Topology, topology};
 use crate::view::{View, check_finite, check_indices, wide};
+use crate::watch::Unwatched;
 use crate::weld::weld;
 
 /// What errors call the angle.
@@ -58,11 +59,16 @@ pub fn split_by_angle(
     check_indices(&mesh)?;
     check_finite(&mesh)?;
     memory::ask(memory::of_normals(&mesh))?;
-    Ok(split(positions, indices, &counts, angle_degrees))
+    split(positions, indices, &counts, angle_degrees)
 }
 
 /// All rules are kept here.
-fn split(positions: &[[f32; 3]], indices: &[u32], counts: &[u32], angle_degrees: f32) -> Smoothed {
+fn split(
+    positions: &[[f32; 3]],
+    indices: &[u32],
+    counts: &[u32],
+    angle_degrees: f32,
+) -> Result<Smoothed, Error> {
     let mut smoothed = Smoothed {
         source_of: (0..positions.len() as u32).collect(),
         normals: vec![UNSET; positions.len()],
@@ -78,8 +84,8 @@ fn split(positions: &[[f32; 3]], indices: &[u32], counts: &[u32], angle_degrees:
         ..Mesh::default()
     };
     let view = View::new(mesh, Options::default().hard_angle);
-    let topology = topology(&view, &weld(&mesh));
-    let faces = faces(&view, &topology, &Threads::default()).normal;
+    let topology = topology(&view, &weld(&mesh, &Unwatched)?, &Unwatched)?;
+    let faces = faces(&view, &topology, (&Threads::default(), &Unwatched))?.normal;
     let cosine = libm::cos(f64::from(angle_degrees).to_radians());
     let is_smooth = |side: Corner| {
         let twin = topology.twin[side];
@@ -102,7 +108,7 @@ fn split(positions: &[[f32; 3]], indices: &[u32], counts: &[u32], angle_degrees:
     for normal in smoothed.normals.iter_mut().filter(|normal| **normal == UNSET) {
         *normal = [0.0, 0.0, 1.0];
     }
-    smoothed
+    Ok(smoothed)
 }
 
 /// With more normals at one vertex than this, as at the tip of a huge cone, not all are compared:

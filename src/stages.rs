@@ -58,24 +58,25 @@ pub fn stages_with<'a>(mesh: &'a MeshBuffers, options: &Options) -> Stages<'a> {
 pub fn stages_of_mesh<'a>(mesh: Mesh<'a>, options: &Options) -> Stages<'a> {
     let threads = Threads::default();
     let view = view(&mesh, options).unwrap();
-    let weld = weld(&view.mesh);
-    let topology = topology(&view, &weld);
-    let faces = faces(&view, &topology, &threads);
+    let weld = weld(&view.mesh, &Unwatched).unwrap();
+    let topology = topology(&view, &weld, &Unwatched).unwrap();
+    let faces = faces(&view, &topology, (&threads, &Unwatched)).unwrap();
     let contacts = contacts(&view, &topology, &faces, &Unwatched).unwrap();
     let selection = selection(&view, &weld, options);
     let edges = edges(&view, (&topology, &faces), &contacts, &selection, &Unwatched).unwrap();
-    let sectors = sectors(&view, &topology, &edges, &contacts);
+    let sectors = sectors(&view, &topology, &edges, &contacts, &Unwatched).unwrap();
     let surface = Surface { view: &view, topology: &topology, faces: &faces };
     let chamfers = Chamfers { edges: &edges, sectors: &sectors };
     let offsets = offsets(surface, chamfers, None, (&threads, &Unwatched)).unwrap();
     let rests = rests(&view, &topology, &faces, &edges, &contacts, &Unwatched).unwrap();
-    let deep = deep(&topology, &sectors);
+    let deep = deep(&topology, &sectors, &Unwatched).unwrap();
     let (room, narrowed) = {
         let (offsets, rests, deep, threads) = (&offsets, &rests, &deep, &threads);
         let given = &Given { surface, chamfers, offsets, rests, deep, threads };
         let room = room(given, &Unwatched).unwrap();
         let room = evenness(given, room, options.evenness.into(), &Unwatched).unwrap();
-        let narrowed = narrowed(surface, &sectors, offsets, &room.fronts).into_owned();
+        let narrowed =
+            narrowed(surface, &sectors, offsets, &room.fronts, &Unwatched).unwrap().into_owned();
         (room, narrowed)
     };
     Stages {
@@ -106,7 +107,14 @@ impl Stages<'_> {
     /// All sectors at one share of their offsets, whether there is room or not.
     pub fn placed(&self, share: f64) -> Placement<'_> {
         let share = IdVec::filled(share, self.sectors.fans.len());
-        Placement::new(self.surface(), &self.sectors, &self.offsets, share, &self.threads)
+        Placement::new(
+            self.surface(),
+            &self.sectors,
+            &self.offsets,
+            share,
+            (&self.threads, &Unwatched),
+        )
+        .unwrap()
     }
 
     pub fn limits(&self, verify: Verify) -> Limits<'_> {
@@ -121,17 +129,19 @@ impl Stages<'_> {
     }
 
     pub fn patches(&self, placement: &Placement) -> Patches {
-        patches(&self.view, self.chamfers(), placement, &self.threads)
+        patches(&self.view, self.chamfers(), placement, (&self.threads, &Unwatched)).unwrap()
     }
 
     pub fn attributes(&self, placement: &Placement) -> Attributes {
-        attributes(self.space(), self.surface(), &self.weld, self.chamfers(), placement)
+        attributes(self.space(), self.surface(), &self.weld, self.chamfers(), placement, &Unwatched)
+            .unwrap()
     }
 
     pub fn charts(&self, placement: &Placement) -> Charts {
         let (patches, attributes) = (self.patches(placement), self.attributes(placement));
         let (surface, chamfers) = (self.surface(), self.chamfers());
-        charts(surface, chamfers, placement, &patches, &attributes, &self.threads)
+        charts(surface, chamfers, placement, &patches, &attributes, (&self.threads, &Unwatched))
+            .unwrap()
     }
 
     /// All sectors where the limits leave them.

@@ -3,7 +3,6 @@
 //! Every value is computed by itself and put at its own place, so the result is the same for any
 //! number of threads.
 
-use std::ops::Range;
 #[cfg(feature = "parallel")]
 use std::sync::mpsc::{RecvTimeoutError, channel};
 #[cfg(feature = "parallel")]
@@ -13,11 +12,14 @@ use crate::error::Error;
 use crate::ids::{Id, IdVec};
 #[cfg(feature = "parallel")]
 use crate::watch::Flag;
-use crate::watch::{STEPS, Watch};
+use crate::watch::{STEPS, Watch, stretches};
 
 /// With less work than this in one stage, waking another thread takes longer than doing it.
 #[cfg(feature = "parallel")]
 const LEAST_WORK: usize = 4096;
+
+/// So many steps it takes to make a patch or to lay it out, as a watch counts them.
+const STEPS_OF_PATCH: usize = 4;
 
 /// So many ids make notes that stay in the nearest caches.
 const BLOCK: usize = 256;
@@ -65,64 +67,61 @@ impl Threads {
     }
 
     /// `#ids`: the value for each.
-    pub fn map<I: Id, T: Send>(
+    ///
+    /// # Errors
+    /// What `watch` gives, which is told again and again.
+    pub fn map<I: Id + Send, T: Send>(
         &self,
         count: usize,
+        watch: &dyn Watch,
         value: impl Fn(I) -> T + Sync + Send,
-    ) -> IdVec<I, T> {
-        let mut values = Vec::with_capacity(count);
-        self.append_with(&mut values, 0..count, &|| (), &|(), id| value(id));
-        IdVec::from_vec(values)
+    ) -> Result<IdVec<I, T>, Error> {
+        self.map_with(count, watch, || (), |(), id| value(id))
     }
 
-    /// Appends the value for each of some ids, with a scratch value that each thread makes once.
-    fn append_with<I: Id, T: Send, S>(
-        &self,
-        values: &mut Vec<T>,
-        ids: Range<usize>,
-        scratch: &(impl Fn() -> S + Sync + Send),
-        value: &(impl Fn(&mut S, I) -> T + Sync + Send),
-    ) {
-        let value = |scratch: &mut S, index| value(scratch, I::new(index));
-        #[cfg(feature = "parallel")]
-        if let Some(pool) = self.pool.as_ref().filter(|_| ids.len() >= LEAST_WORK) {
-            use rayon::prelude::*;
-            pool.install(|| values.par_extend(ids.into_par_iter().map_init(scratch, value)));
-            return;
-        }
-        let mut scratch = scratch();
-        values.extend(ids.map(|index| value(&mut scratch, index)));
-    }
-
-    /// As [`Threads::map`], telling a watch again and again, with a scratch value that each thread makes.
+    /// As [`Threads::map`], with a scratch value that each thread makes once.
     ///
     /// # Errors
     /// What `watch` gives.
-    pub fn map_with_watched<I: Id + Send, T: Send, S>(
+    pub fn map_with<I: Id + Send, T: Send, S>(
         &self,
         count: usize,
         watch: &dyn Watch,
         scratch: impl Fn() -> S + Sync + Send,
         value: impl Fn(&mut S, I) -> T + Sync + Send,
     ) -> Result<IdVec<I, T>, Error> {
+        let value = |scratch: &mut S, index| value(scratch, I::new(index));
         let mut values = Vec::with_capacity(count);
-        for start in (0..count).step_by(STEPS) {
-            let end = count.min(start + STEPS);
-            self.append_with(&mut values, start..end, &scratch, &value);
-            watch.worked(end - start)?;
+        #[cfg(feature = "parallel")]
+        if let Some(pool) = self.pool.as_ref().filter(|_| count >= LEAST_WORK) {
+            use rayon::prelude::*;
+            for start in (0..count).step_by(STEPS) {
+                let some = start..count.min(start + STEPS);
+                let of_some = some.clone().into_par_iter().map_init(&scratch, &value);
+                pool.install(|| values.par_extend(of_some));
+                watch.worked(some.len())?;
+            }
+            return Ok(IdVec::from_vec(values));
+        }
+        let mut scratch = scratch();
+        for stretch in stretches(count, watch) {
+            values.extend(stretch?.map(|index| value(&mut scratch, index)));
         }
         Ok(IdVec::from_vec(values))
     }
 
     /// Looks at each id in the light of a state, block by block, and takes what was noted of the
     /// blocks into the state, in ascending order.
+    ///
+    /// # Errors
+    /// What `watch` gives, which is told again and again.
     pub fn blocks_then<I: Id, S: Sync, T: Default + Send>(
         &self,
-        count: usize,
+        (count, watch): (usize, &dyn Watch),
         state: &mut S,
         note: impl Fn(&S, I, &mut T) + Sync + Send,
         take: impl Fn(&mut S, &mut T),
-    ) {
+    ) -> Result<(), Error> {
         let note_block = |state: &S, start: usize, notes: &mut T| {
             let block = start..count.min(start + BLOCK);
             block.map(I::new).for_each(|id| note(state, id, notes));
@@ -137,24 +136,44 @@ impl Threads {
                 let note = |(k, notes)| note_block(state, start + k * BLOCK, notes);
                 pool.install(|| work.for_each(note));
                 blocks.iter_mut().for_each(|notes| take(state, notes));
+                watch.worked(LEAST_WORK * STEPS_OF_PATCH)?;
             }
-            return;
+            return Ok(());
         }
         let mut notes = T::default();
         for start in (0..count).step_by(BLOCK) {
             note_block(state, start, &mut notes);
             take(state, &mut notes);
+            watch.worked(BLOCK * STEPS_OF_PATCH)?;
         }
+        Ok(())
     }
 
-    /// The value for each item, in their order.
+    /// The value for each item, in their order, where each is some work.
+    ///
+    /// # Errors
+    /// What `watch` gives, which is told again and again.
     pub fn map_each<I: Sync, T: Send>(
+        &self,
+        items: &[I],
+        watch: &dyn Watch,
+        value: impl Fn(&I) -> T + Sync + Send,
+    ) -> Result<Vec<T>, Error> {
+        let mut values = Vec::with_capacity(items.len());
+        for some in items.chunks(BLOCK) {
+            values.append(&mut self.map_block(some, &value));
+            watch.worked(some.len() * STEPS_OF_PATCH)?;
+        }
+        Ok(values)
+    }
+
+    fn map_block<I: Sync, T: Send>(
         &self,
         items: &[I],
         value: impl Fn(&I) -> T + Sync + Send,
     ) -> Vec<T> {
         #[cfg(feature = "parallel")]
-        if let Some(pool) = self.pool.as_ref().filter(|_| items.len() >= LEAST_WORK) {
+        if let Some(pool) = self.pool.as_ref().filter(|_| items.len() == BLOCK) {
             use rayon::prelude::*;
             return pool.install(|| items.par_iter().map(value).collect());
         }
@@ -274,10 +293,12 @@ mod tests {
     fn each_value_is_at_its_place_whatever_the_threads() {
         for threads in [0, 1, 2, 5] {
             let threads = Threads::new(threads, 100_000);
-            let squares = threads.map(10_000, |vertex: Vertex| vertex.0 * vertex.0);
+            let squares =
+                threads.map(10_000, &Unwatched, |vertex: Vertex| vertex.0 * vertex.0).unwrap();
             assert!(squares.iter().copied().eq((0..10_000).map(|number| number * number)));
             let numbers: Vec<u32> = (0..10_000).collect();
-            assert_eq!(threads.map_each(&numbers, |number| number + 1)[9_999], 10_000);
+            let next = threads.map_each(&numbers, &Unwatched, |number| number + 1).unwrap();
+            assert_eq!(next[9_999], 10_000);
             let counted = threads.map_large(&numbers[..9], || 0, |_, number| number + 1);
             assert_eq!(counted, (1..10).collect::<Vec<u32>>());
             let odd = threads.filter(10_000, |vertex: Vertex| vertex.0 % 2 == 1);
@@ -323,12 +344,34 @@ mod tests {
                     notes.push(vertex);
                 }
             };
-            threads.blocks_then(10_000, &mut taken, note, |taken, notes| taken.append(notes));
+            let all = (10_000, &Unwatched as &dyn Watch);
+            let take = |taken: &mut Vec<Vertex>, notes: &mut Vec<Vertex>| taken.append(notes);
+            threads.blocks_then(all, &mut taken, note, take).unwrap();
             assert!(
                 taken
                     .into_iter()
                     .eq((0..10_000).filter(|k: &u32| !k.is_multiple_of(3)).map(Vertex))
             );
+        }
+    }
+
+    #[test]
+    fn large_counts_are_told_again_and_again() {
+        for threads in [1, 2] {
+            let threads = &Threads::new(threads, 100_000);
+            let told = |work: &dyn Fn(&dyn Watch) -> Result<(), Error>| {
+                let watch = Impatient(Cell::new(0));
+                assert!(matches!(work(&watch), Err(Error::Cancelled)));
+                assert_eq!(watch.0.get(), 3, "it ends when it is stopped");
+            };
+            let (many, items) = (3 * STEPS, &vec![0_u8; 3 * BLOCK][..]);
+            told(&|watch| threads.map(many, watch, |vertex: Vertex| vertex).map(|_| ()));
+            told(&|watch| threads.filter_watched(many, watch, |_: Vertex| true).map(|_| ()));
+            told(&|watch| threads.map_each(items, watch, |item| *item).map(|_| ()));
+            told(&|watch| {
+                let note = |_: &(), _: Vertex, _: &mut ()| ();
+                threads.blocks_then((many, watch), &mut (), note, |_, _| ())
+            });
         }
     }
 }

@@ -10,9 +10,11 @@ mod solids;
 pub use crowded::Hidden;
 pub use solids::solids;
 
+use crate::error::Error;
 use crate::groups::Groups;
 use crate::ids::{Cluster, Corner, Id, IdVec, Triangle};
 use crate::view::View;
+use crate::watch::{Watch, each};
 use crate::weld::Weld;
 use crowded::Crowd;
 
@@ -86,7 +88,9 @@ impl Topology {
     }
 }
 
-pub fn topology(view: &View, weld: &Weld) -> Topology {
+/// # Errors
+/// [`Error::Cancelled`] where the watch stops it.
+pub fn topology(view: &View, weld: &Weld, watch: &dyn Watch) -> Result<Topology, Error> {
     let corners = (0..view.corner_count()).map(Corner::new);
     let cluster_at = IdVec::from_vec(
         corners.map(|corner| weld.cluster_of[view.vertex_at(corner)]).collect::<Vec<_>>(),
@@ -100,10 +104,10 @@ pub fn topology(view: &View, weld: &Weld) -> Topology {
         contacts: Vec::new(),
         touching: Vec::new(),
     };
-    join_all(view, &mut joined);
+    join_all(view, &mut joined, watch)?;
     joined.sort();
     solids::keep_sheets(view, &mut joined);
-    joined
+    Ok(joined)
 }
 
 fn is_collapsed(cluster_at: &IdVec<Corner, Cluster>, triangle: Triangle) -> bool {
@@ -119,13 +123,13 @@ struct Spoke {
     half_edge: Corner,
 }
 
-fn join_all(view: &View, joined: &mut Topology) {
-    let (starts, mut spokes) = buckets(view, joined);
+fn join_all(view: &View, joined: &mut Topology, watch: &dyn Watch) -> Result<(), Error> {
+    let (starts, mut spokes) = buckets(view, joined, watch)?;
     let mut crowds = Vec::new();
-    for bounds in starts.windows(2) {
-        let bucket = &mut spokes[bounds[0] as usize..bounds[1] as usize];
+    each(joined.clusters, watch, |near: Cluster| {
+        let [mut start, end] = [0, 1].map(|k| starts[near.index() + k] as usize);
+        let bucket = &mut spokes[start..end];
         bucket.sort_unstable_by_key(|spoke| (spoke.far, spoke.half_edge));
-        let mut start = bounds[0] as usize;
         for edge in bucket.chunk_by(|one, other| one.far == other.far) {
             match *edge {
                 [_] => {}
@@ -134,15 +138,19 @@ fn join_all(view: &View, joined: &mut Topology) {
             }
             start += edge.len();
         }
-    }
+    })?;
     if !crowds.is_empty() {
         let mut parts = parts(joined);
         // What is left over depends on which faces are of one part: those edges come last.
         let (even, uneven): (Vec<_>, Vec<_>) =
             crowds.into_iter().partition(|crowd| is_even(&spokes[crowd.clone()], joined));
         let all = even.into_iter().chain(uneven);
-        all.for_each(|crowd| join_crowd(view, &spokes[crowd], &mut parts, joined));
+        for crowd in all {
+            watch.worked(crowd.len())?;
+            join_crowd(view, &spokes[crowd], &mut parts, joined);
+        }
     }
+    Ok(())
 }
 
 /// `#triangles`: what is connected across edges of two sides.
@@ -155,17 +163,24 @@ fn parts(joined: &Topology) -> Groups {
 }
 
 /// All half-edges, sorted by the lower of their two clusters (counting sort).
-fn buckets(view: &View, joined: &Topology) -> (Vec<u32>, Vec<Spoke>) {
+fn buckets(
+    view: &View,
+    joined: &Topology,
+    watch: &dyn Watch,
+) -> Result<(Vec<u32>, Vec<Spoke>), Error> {
     let cluster_at = &joined.cluster_at;
-    let half_edges = || {
-        let whole = view.triangles().filter(|&triangle| !is_collapsed(cluster_at, triangle));
-        whole.flat_map(|triangle| triangle.corners()).map(|corner| {
+    let triangles = view.corner_count() / 3;
+    let half_edges = |triangle: Triangle| {
+        let whole = Some(triangle).filter(|&triangle| !is_collapsed(cluster_at, triangle));
+        whole.into_iter().flat_map(Triangle::corners).map(|corner| {
             let (from, to) = (cluster_at[corner], cluster_at[corner.next()]);
             (from.min(to), Spoke { far: from.max(to), half_edge: corner })
         })
     };
     let mut starts = vec![0_u32; joined.clusters + 1];
-    half_edges().for_each(|(near, _)| starts[near.index()] += 1);
+    each(triangles, watch, |triangle| {
+        half_edges(triangle).for_each(|(near, _)| starts[near.index()] += 1);
+    })?;
     let mut total = 0;
     for start in &mut starts {
         total += *start;
@@ -173,11 +188,13 @@ fn buckets(view: &View, joined: &Topology) -> (Vec<u32>, Vec<Spoke>) {
     }
     // Filled from the back of each bucket: afterwards every start is where its bucket begins.
     let mut spokes = vec![Spoke { far: Cluster::NONE, half_edge: Corner::NONE }; total as usize];
-    half_edges().for_each(|(near, spoke)| {
-        starts[near.index()] -= 1;
-        spokes[starts[near.index()] as usize] = spoke;
-    });
-    (starts, spokes)
+    each(triangles, watch, |triangle| {
+        for (near, spoke) in half_edges(triangle) {
+            starts[near.index()] -= 1;
+            spokes[starts[near.index()] as usize] = spoke;
+        }
+    })?;
+    Ok((starts, spokes))
 }
 
 /// Whether as many half-edges of an edge run forth as run back.
@@ -224,6 +241,7 @@ mod tests {
     use crate::mesh::Mesh;
     use crate::options::Options;
     use crate::view::view;
+    use crate::watch::Unwatched;
     use crate::weld::weld;
 
     fn twins_of(positions: &[[f32; 3]], normals: &[[f32; 3]], indices: &[u32]) -> Vec<Option<u32>> {
@@ -235,7 +253,7 @@ mod tests {
             ..Mesh::default()
         };
         let view = view(&mesh, &Options::default()).unwrap();
-        let topology = topology(&view, &weld(&mesh));
+        let topology = topology(&view, &weld(&mesh, &Unwatched).unwrap(), &Unwatched).unwrap();
         topology.twin.iter().map(|twin| twin.is_some().then_some(twin.0)).collect()
     }
 

@@ -4,7 +4,8 @@
 //! or the edge of one face has a vertex of the other side in its middle (a *T-junction*). Both look
 //! like any hard edge, so each has a verdict that says why it stays.
 
-use crate::contacts::Contacts;
+use crate::contacts::{ASKED, Contacts};
+use crate::error::Error;
 use crate::ids::Corner;
 use crate::line::Line;
 use crate::report::{Chamfered, EdgeVerdict, Outcome, Reason};
@@ -12,16 +13,20 @@ use crate::shape::Shape;
 use crate::tolerance::LINE_HEIGHT;
 use crate::topology::Topology;
 use crate::view::View;
+use crate::watch::Watch;
 
 /// A half-edge whose other side is no twin, and why.
 pub type Unpaired = (Corner, Reason);
 
 /// All such edges, those of faces that run the same way first.
-pub fn unpaired(view: &View, shape: &Shape) -> Vec<Unpaired> {
+///
+/// # Errors
+/// [`Error::Cancelled`] where the watch stops it.
+pub fn unpaired(view: &View, shape: &Shape, watch: &dyn Watch) -> Result<Vec<Unpaired>, Error> {
     let Shape { topology, contacts, .. } = shape;
     let turned = turned(view, topology).into_iter().map(|side| (side, Reason::Winding));
-    let junctions = junctions(view, topology, contacts).into_iter();
-    turned.chain(junctions.map(|side| (side, Reason::TJunction))).collect()
+    let junctions = junctions(view, topology, contacts, watch)?.into_iter();
+    Ok(turned.chain(junctions.map(|side| (side, Reason::TJunction))).collect())
 }
 
 /// A result with the verdicts of these edges, too.
@@ -58,24 +63,30 @@ fn turned(view: &View, topology: &Topology) -> Vec<Corner> {
 }
 
 /// The open borders on which shorter ones lie, of other faces that meet theirs at a hard edge.
-fn junctions(view: &View, topology: &Topology, contacts: &Contacts) -> Vec<Corner> {
-    let mut junctions: Vec<Corner> = contacts
-        .borders()
-        .filter(|&border| topology.twin[border].is_none())
-        .filter(|&border| {
-            let line = Line::new(view, border);
-            let ends = [border, border.next()].map(|corner| view.position_at(corner));
-            contacts.borders_along(ends).any(|place| {
-                // At one place all are the same line, and only one's number and normals differ.
-                let mut place = place.filter(|&other| topology.twin[other].is_none()).peekable();
-                let first = place.peek().copied();
-                first.is_some_and(|first| is_along(view, topology, &line, first))
-                    && place.any(|other| meets_shorter(view, topology, &line, other))
-            })
-        })
-        .collect();
+fn junctions(
+    view: &View,
+    topology: &Topology,
+    contacts: &Contacts,
+    watch: &dyn Watch,
+) -> Result<Vec<Corner>, Error> {
+    let mut junctions = Vec::new();
+    for border in contacts.borders().filter(|&border| topology.twin[border].is_none()) {
+        let line = Line::new(view, border);
+        let ends = [border, border.next()].map(|corner| view.position_at(corner));
+        let mut asked = ASKED;
+        let is_one = contacts.borders_along(ends).any(|place| {
+            asked += 1;
+            // At one place all are the same line, and only one's number and normals differ.
+            let mut place = place.filter(|&other| topology.twin[other].is_none()).peekable();
+            let first = place.peek().copied();
+            first.is_some_and(|first| is_along(view, topology, &line, first))
+                && place.any(|other| meets_shorter(view, topology, &line, other))
+        });
+        junctions.extend(is_one.then_some(border));
+        watch.worked(asked)?;
+    }
     junctions.sort_unstable();
-    junctions
+    Ok(junctions)
 }
 
 /// Whether another border runs back beside a line, and is no longer.

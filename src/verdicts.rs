@@ -2,6 +2,7 @@
 
 use crate::chamfers::Chamfers;
 use crate::edges::HardEdge;
+use crate::error::Error;
 use crate::ids::{Edge, Sector};
 use crate::limits::Limits;
 use crate::math::{area_vector, unit};
@@ -11,18 +12,23 @@ use crate::rounding::Rounding;
 use crate::sectors::Sectors;
 use crate::strips;
 use crate::view::View;
+use crate::watch::{Watch, each};
 
 /// `#hard edges`, and their sum.
+///
+/// # Errors
+/// [`Error::Cancelled`] where the watch stops it.
 pub fn verdicts(
     view: &View,
     chamfers: Chamfers,
     limits: &Limits,
     (patches, rounding): (&Patches, Option<&Rounding>),
-) -> (Vec<EdgeVerdict>, Totals) {
+    watch: &dyn Watch,
+) -> Result<(Vec<EdgeVerdict>, Totals), Error> {
     let Chamfers { edges, sectors } = chamfers;
     let mut verdicts = Vec::with_capacity(edges.hard.len());
     let mut sum = Sum::default();
-    for edge in edges.hard.ids() {
+    each(edges.hard.len(), watch, |edge: Edge| {
         let is_open = !patches.strip(edge).triangles.is_empty();
         let segments = if is_open { segments(rounding, edge) } else { 0 };
         let edge = &edges.hard[edge];
@@ -30,8 +36,8 @@ pub fn verdicts(
         let verdict = verdict(view, (sectors, at), limits, (edge, is_open));
         sum.add(view, (edge, &verdict), counting_ends(limits, at, &verdict));
         verdicts.push(EdgeVerdict { segments, ..verdict });
-    }
-    (verdicts, sum.totals())
+    })?;
+    Ok((verdicts, sum.totals()))
 }
 
 /// The sectors at an edge stand in the order of [`strips::corners`].
@@ -174,12 +180,13 @@ mod tests {
     use crate::options::Verify;
     use crate::shapes;
     use crate::stages::stages_of;
+    use crate::watch::Unwatched;
 
     fn judge(mesh: &MeshBuffers, width: f32) -> (Vec<EdgeVerdict>, Totals) {
         let stages = stages_of(mesh, width);
         let limits = stages.limits(Verify::Fast);
         let patches = stages.patches(&limits.placement);
-        verdicts(&stages.view, stages.chamfers(), &limits, (&patches, None))
+        verdicts(&stages.view, stages.chamfers(), &limits, (&patches, None), &Unwatched).unwrap()
     }
 
     #[test]

@@ -6,6 +6,7 @@ use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::error::Error;
+use crate::ids::Id;
 
 /// After so many steps the caller is told. The longest, two triangles compared exactly, takes two
 /// millionths of a second; so this is well below the twentieth that a caller waits.
@@ -59,6 +60,26 @@ pub fn stretches(
     })
 }
 
+/// Does something with each of so many ids, and tells the watch of each stretch of them.
+///
+/// # Errors
+/// What `watch` gives.
+pub fn each<I: Id>(count: usize, watch: &dyn Watch, mut act: impl FnMut(I)) -> Result<(), Error> {
+    for stretch in stretches(count, watch) {
+        stretch?.map(I::new).for_each(&mut act);
+    }
+    Ok(())
+}
+
+/// Another watch, for which each step counts so many times.
+pub struct Times<'a>(pub usize, pub &'a dyn Watch);
+
+impl Watch for Times<'_> {
+    fn worked(&self, steps: usize) -> Result<(), Error> {
+        self.1.worked(steps.saturating_mul(self.0))
+    }
+}
+
 /// Stops nothing.
 pub struct Unwatched;
 
@@ -90,6 +111,7 @@ impl Watch for Flag {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ids::Triangle;
 
     #[test]
     fn the_caller_is_asked_after_so_many_steps() {
@@ -104,5 +126,33 @@ mod tests {
         assert!(caller.worked(usize::MAX).is_ok() && asked.get() == 2);
         assert!(caller.worked(1).is_ok() && asked.get() == 2);
         assert!(matches!(caller.worked(STEPS), Err(Error::Cancelled)));
+    }
+
+    /// Adds up what it is told, and how often.
+    #[derive(Default)]
+    struct Sum(Cell<[usize; 2]>);
+
+    impl Watch for Sum {
+        fn worked(&self, steps: usize) -> Result<(), Error> {
+            let [sum, times] = self.0.get();
+            self.0.set([sum + steps, times + 1]);
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn of_many_ids_each_has_its_turn_and_is_told() {
+        let (sum, mut seen) = (Sum::default(), Vec::new());
+        each(1000, &sum, |triangle: Triangle| seen.push(triangle.0)).unwrap();
+        assert_eq!(seen, (0..1000).collect::<Vec<u32>>());
+        assert_eq!(sum.0.get(), [1000, 4]);
+    }
+
+    #[test]
+    fn a_step_may_count_as_many() {
+        let sum = Sum::default();
+        Times(3, &sum).worked(5).unwrap();
+        assert_eq!(sum.0.get(), [15, 1]);
+        assert!(Times(usize::MAX, &Unwatched).worked(usize::MAX).is_ok());
     }
 }

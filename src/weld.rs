@@ -3,8 +3,10 @@
 //! Positions are equal when their bits are, with -0 taken as +0. There is no tolerance: a vertex
 //! that is merely close is another vertex, and guessing otherwise would close gaps on purpose.
 
+use crate::error::Error;
 use crate::ids::{Cluster, Id, IdVec, Vertex};
 use crate::mesh::Mesh;
+use crate::watch::{Watch, each};
 
 /// Clusters in the order in which their first vertices stand.
 pub struct Weld {
@@ -14,23 +16,26 @@ pub struct Weld {
     pub first_vertex: IdVec<Cluster, Vertex>,
 }
 
-pub fn weld(mesh: &Mesh) -> Weld {
+/// # Errors
+/// [`Error::Cancelled`] where the watch stops it.
+pub fn weld(mesh: &Mesh, watch: &dyn Watch) -> Result<Weld, Error> {
     let positions = mesh.positions;
     let mut table = vec![Cluster::NONE; (positions.len() * 2).next_power_of_two()];
     let mut cluster_of = Vec::with_capacity(positions.len());
     let mut first_vertex: IdVec<Cluster, Vertex> = IdVec::default();
-    for (vertex, position) in positions.iter().enumerate() {
+    each(positions.len(), watch, |vertex: Vertex| {
+        let position = positions[vertex.index()];
         let slot = slot_of(
             &table,
-            |cluster| key(positions[first_vertex[cluster].index()]) == key(*position),
-            hash_of(*position),
+            |cluster| key(positions[first_vertex[cluster].index()]) == key(position),
+            hash_of(position),
         );
         if table[slot].is_none() {
-            table[slot] = first_vertex.push(Vertex::new(vertex));
+            table[slot] = first_vertex.push(vertex);
         }
         cluster_of.push(table[slot]);
-    }
-    Weld { cluster_of: IdVec::from_vec(cluster_of), first_vertex }
+    })?;
+    Ok(Weld { cluster_of: IdVec::from_vec(cluster_of), first_vertex })
 }
 
 /// The slot that holds the wanted cluster, or the empty one where it belongs.
@@ -67,10 +72,11 @@ fn hash([x, y, z]: [u32; 3]) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::watch::Unwatched;
 
     fn clusters(positions: &[[f32; 3]]) -> Vec<u32> {
         let mesh = Mesh { positions, ..Mesh::default() };
-        weld(&mesh).cluster_of.iter().map(|cluster| cluster.0).collect()
+        weld(&mesh, &Unwatched).unwrap().cluster_of.iter().map(|cluster| cluster.0).collect()
     }
 
     #[test]

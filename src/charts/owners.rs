@@ -5,11 +5,13 @@ use super::strip_map::{Band, StripMap};
 use super::{Given, Spread, Way};
 use crate::chamfers::Chamfers;
 use crate::edges::Edges;
+use crate::error::Error;
 use crate::ids::{Corner, Edge, IdVec, Triangle};
 use crate::patches::Patches;
 use crate::report::Blend;
 use crate::surface::Surface;
 use crate::threads::Threads;
+use crate::watch::Watch;
 
 /// Who owns the chamfers.
 pub struct Owners {
@@ -45,7 +47,14 @@ const UNDECIDED: u8 = u8::MAX;
 /// A whole chain of edges between two smooth regions has one owner, so that the texture does not
 /// zigzag: the region whose band fits more of the strips, or else the one that comes first in the
 /// mesh. Where its band does not fit at all but the other side's does, an edge has the other.
-pub fn owners(given: &Given, patches: &Patches, threads: &Threads) -> Owners {
+///
+/// # Errors
+/// [`Error::Cancelled`] where the watch stops it.
+pub fn owners(
+    given: &Given,
+    patches: &Patches,
+    (threads, watch): (&Threads, &dyn Watch),
+) -> Result<Owners, Error> {
     let Given { surface, chamfers, placement, attributes, .. } = *given;
     let band = |edge: Edge, side: u8| {
         let hard = &chamfers.edges.hard[edge];
@@ -55,19 +64,19 @@ pub fn owners(given: &Given, patches: &Patches, threads: &Threads) -> Owners {
         let triangles = patches.strip(edge).triangles;
         StripMap::new(surface, placement, attributes, hard, triangles).band(side.into())
     };
-    let region = regions(surface, chamfers.edges);
+    let region = regions(surface, chamfers.edges, watch)?;
     let side = sides_in_order(chamfers, &region);
-    let own = threads.map(side.len(), |edge| band(edge, side[edge]));
+    let own = threads.map(side.len(), watch, |edge| band(edge, side[edge]))?;
     let mut owners = Owners { side, band: own };
     let contested = contested(chamfers.edges, &region, &owners.band);
-    let claims = threads.map_each(&contested, |&(between, edge)| Claim {
+    let claims = threads.map_each(&contested, watch, |&(between, edge)| Claim {
         between,
         edge,
         own: owners.band[edge],
         other: band(edge, 1 - owners.side[edge]),
-    });
+    })?;
     settle(&claims, &mut owners);
-    owners
+    Ok(owners)
 }
 
 /// The region that comes first in the mesh, or the side that the chain keeps to.
@@ -171,7 +180,11 @@ fn follow_chain(
 }
 
 /// `#triangles`: the first triangle that can be reached without crossing a chamfered edge.
-fn regions(surface: Surface, edges: &Edges) -> IdVec<Triangle, Triangle> {
+fn regions(
+    surface: Surface,
+    edges: &Edges,
+    watch: &dyn Watch,
+) -> Result<IdVec<Triangle, Triangle>, Error> {
     let mut region = IdVec::filled(Triangle::NONE, surface.view.corner_count() / 3);
     let mut front = Vec::new();
     for seed in surface.view.triangles() {
@@ -181,6 +194,7 @@ fn regions(surface: Surface, edges: &Edges) -> IdVec<Triangle, Triangle> {
         region[seed] = seed;
         front.push(seed);
         while let Some(triangle) = front.pop() {
+            watch.worked(1)?;
             for side in triangle.corners() {
                 let twin = surface.topology.twin[side];
                 let is_crossed = edges.chamfered_at[side].is_none() && twin.is_some();
@@ -191,7 +205,7 @@ fn regions(surface: Surface, edges: &Edges) -> IdVec<Triangle, Triangle> {
             }
         }
     }
-    region
+    Ok(region)
 }
 
 #[cfg(test)]
@@ -199,13 +213,14 @@ mod tests {
     use super::*;
     use crate::shapes;
     use crate::stages::stages_of;
+    use crate::watch::Unwatched;
 
     #[test]
     fn a_region_ends_at_hard_edges() {
         let cube = shapes::plain_cube(1.0);
         let region = {
             let stages = stages_of(&cube, 0.1);
-            regions(stages.surface(), &stages.edges)
+            regions(stages.surface(), &stages.edges, &Unwatched).unwrap()
         };
         let expected = (0..12).map(|triangle| Triangle(triangle - triangle % 2));
         assert!(region.iter().copied().eq(expected));

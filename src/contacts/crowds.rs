@@ -221,4 +221,33 @@ mod tests {
         assert_eq!(found(false, Search::Along([shorter, TIP])), [7]);
         assert_eq!(found(false, Search::Along([shorter, foot(7) * 2.0 - TIP])), [7]);
     }
+
+    #[test]
+    fn what_runs_through_a_point_may_miss_it_by_the_tolerance() {
+        let beside = (foot(7) + TIP) / 2.0 + DVec3::new(0.0, 5e-6, 0.0);
+        assert_eq!(found(false, Search::Through(beside)), [7]);
+    }
+
+    #[test]
+    fn a_line_of_a_crowd_is_as_thick_as_its_reach() {
+        let crowds = Crowds([TIP].into());
+        let rim = Rim { ends: [TIP, foot(7)], radius: 0.0, border: Corner(7) };
+        let beside = seen(TIP, [TIP, foot(7) + DVec3::Y * 0.02]);
+        let is_within = |reach: f64| crowds.kin(&rim, false, reach).bounds().overlaps(&beside);
+        assert!(is_within(0.05) && !is_within(1e-6));
+    }
+
+    #[test]
+    fn each_crowd_is_seen_from_its_own_place() {
+        let far = TIP + DVec3::X * 10.0;
+        let crowds = Crowds([TIP, far].into());
+        let kin = |tip: DVec3, along: DVec3| {
+            let rim = Rim { ends: [tip, tip + along], radius: 0.0, border: Corner(0) };
+            crowds.kin(&rim, false, 1e-6)
+        };
+        // Right above the far tip: of the near one only what points there comes near.
+        let is_apart = crowds.apart(Search::Through(far + DVec3::Y), 1e-5);
+        assert!(is_apart(&kin(TIP, DVec3::Y)) && !is_apart(&kin(far, DVec3::Y)));
+        assert!(is_apart(&kin(TIP, DVec3::Y)) && is_apart(&kin(far, DVec3::X)));
+    }
 }

@@ -1,6 +1,7 @@
 //! What rests on what.
 
 use super::*;
+use crate::ids::{Id, Triangle};
 use crate::mesh::{Held, MeshBuffers};
 use crate::options::Verify;
 use crate::pipeline::chamfer;
@@ -113,7 +114,7 @@ fn a_concave_edge_loses_nothing() {
     let is_concave = |v: &&EdgeVerdict| {
         let topology = topology_of(&steps);
         let view = view(&steps.as_mesh(), &Options::default()).unwrap();
-        let faces = faces(&view, &topology, &Threads::default());
+        let faces = faces(&view, &topology, (&Threads::default(), &Unwatched)).unwrap();
         let ends = v.vertices.map(at);
         let side = topology.twin.ids().find(|&corner| {
             let [from, to] =
@@ -130,7 +131,7 @@ fn a_concave_edge_loses_nothing() {
 fn topology_of(mesh: &MeshBuffers) -> Topology {
     let mesh = mesh.as_mesh();
     let view = view(&mesh, &Options::default()).unwrap();
-    topology(&view, &weld(&mesh))
+    topology(&view, &weld(&mesh, &Unwatched).unwrap(), &Unwatched).unwrap()
 }
 
 #[test]
@@ -155,8 +156,8 @@ fn lines_that_are_alike_are_one_place_in_the_order_of_the_first() {
     let (mesh, held) = (cube(), [thin, back, thin, thick, thin]);
     let mesh = Mesh { held: &held, ..mesh.as_mesh() };
     let view = view(&mesh, &Options::default()).unwrap();
-    let topology = topology(&view, &weld(&mesh));
-    let faces = faces(&view, &topology, &Threads::default());
+    let topology = topology(&view, &weld(&mesh, &Unwatched).unwrap(), &Unwatched).unwrap();
+    let faces = faces(&view, &topology, (&Threads::default(), &Unwatched)).unwrap();
     let contacts = contacts(&view, &topology, &faces, &Unwatched).unwrap();
     assert_eq!(contacts.starts[..], [0, 3, 4, 5]);
     let near: Vec<_> = contacts.beside_edge(EDGE.map(wide), 0.0).map(<[Rim]>::len).collect();
@@ -200,4 +201,203 @@ fn one_of_a_crowd_of_sheets_rests_on_an_edge() {
     }
     let mesh = cube_and_petals(0.01);
     assert_eq!(verdict(&mesh, &chamfered(&mesh, &[]), EDGE).outcome, Outcome::Full);
+}
+
+/// A mesh with more triangles, each flat and with vertices of its own.
+fn with_triangles(mut mesh: MeshBuffers, triangles: &[[[f32; 3]; 3]]) -> MeshBuffers {
+    for corners in triangles {
+        let [a, b, c] = corners.map(wide);
+        let normal = (b - a).cross(c - a).normalize_or_zero().as_vec3().to_array();
+        let first = mesh.positions.len() as u32;
+        mesh.positions.extend(corners);
+        mesh.normals.extend([normal; 3]);
+        mesh.indices.extend([first, first + 1, first + 2]);
+    }
+    let submesh_index_counts = vec![mesh.indices.len() as u32];
+    let (tangents, uvs) = Default::default();
+    MeshBuffers { submesh_index_counts, tangents, uvs, ..mesh }
+}
+
+/// Does something with what rests on a mesh, and with what that is found from.
+fn with_contacts<T>(mesh: &Mesh, act: impl FnOnce(&Contacts, &View, &Topology, &Faces) -> T) -> T {
+    let view = view(mesh, &Options::default()).unwrap();
+    let topology = topology(&view, &weld(mesh, &Unwatched).unwrap(), &Unwatched).unwrap();
+    let faces = faces(&view, &topology, (&Threads::default(), &Unwatched)).unwrap();
+    let contacts = contacts(&view, &topology, &faces, &Unwatched).unwrap();
+    act(&contacts, &view, &topology, &faces)
+}
+
+/// The half-edge from one place to another.
+fn side(view: &View, ends: [[f32; 3]; 2]) -> Corner {
+    let at = |corner: Corner| view.mesh.positions[view.vertex_at(corner).index()];
+    let mut corners = view.triangles().flat_map(Triangle::corners);
+    corners.find(|&side| [at(side), at(side.next())] == ends).unwrap()
+}
+
+//       ._/_.
+//   +==/=/====+ ==      a sheet of two sides stands with its rim on the edge
+//  /         /|
+// +---------+ |
+#[test]
+fn the_rim_of_a_sheet_of_two_sides_rests_on_an_edge() {
+    let [a, b, c] = [[-2.0, 1.0, 1.0], [2.0, 1.0, 1.0], [0.0, 3.0, 1.0]];
+    let mesh = with_triangles(cube(), &[[a, b, c], [a, c, b]]);
+    assert_eq!(verdict(&mesh, &chamfered(&mesh, &[]), EDGE).reason, Reason::Contact);
+}
+
+//   /|      a blade: its sharp edge, a sheet's rim, ends where edges of the blunt end begin
+//  / |
+// /__|
+#[test]
+fn a_sharp_edge_does_not_rest_on_those_that_it_meets() {
+    let blade = [-1.0, 1.0].map(|x| [[x, 1.0, 0.0], [x, -1.0, 5e-4], [x, -1.0, -5e-4]]);
+    let points = blade.concat();
+    let indices = [0, 2, 1, 3, 4, 5, 0, 1, 4, 0, 4, 3, 2, 0, 3, 2, 3, 5, 1, 2, 5, 1, 5, 4];
+    let mesh = crate::stages::split(&points, &indices);
+    with_contacts(&mesh.as_mesh(), |contacts, view, topology, faces| {
+        assert_eq!(contacts.len(), 1);
+        let blunt = side(view, [points[0], points[2]]);
+        let sides = [blunt, topology.twin[blunt]];
+        assert!(contacts.beside(view, topology, faces, (sides, 0.01)).is_empty());
+    });
+}
+
+//   +=========+
+//  /:\       /|      a wall within the cube hangs on the edge, and is cut off with it
+// +---:-----+ |
+//  \..:
+#[test]
+fn a_hidden_wall_goes_back_with_the_edge_that_it_hangs_on() {
+    let [a, b] = EDGE;
+    let [c, d] = [[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]];
+    let mesh = with_triangles(cube(), &[[a, b, c], [a, c, d]]);
+    with_contacts(&mesh.as_mesh(), |contacts, view, topology, _| {
+        assert_eq!(topology.hidden.len(), 1);
+        let left: Vec<Corner> = contacts.borders().collect();
+        assert_eq!(left, [side(view, [c, d])], "the border at its other end");
+    });
+}
+
+#[test]
+fn a_triangle_that_is_a_line_rests_on_nothing() {
+    let [a, b] = [[-2.0, 1.0, 1.0], [2.0, 1.0, 1.0]];
+    let mesh = with_triangles(cube(), &[[a, b, b]]);
+    assert_eq!(verdict(&mesh, &chamfered(&mesh, &[]), EDGE).outcome, Outcome::Full);
+}
+
+//  o         near the middle of the edge, above it
+//  =====
+#[test]
+fn a_ball_holds_the_edge_that_it_reaches_for_as_long_as_it_does() {
+    let at = [0.4, 1.1, 1.0];
+    let (mesh, held) = (cube(), [Held { from: at, to: at, radius: 0.2 }]);
+    with_contacts(&Mesh { held: &held, ..mesh.as_mesh() }, |contacts, view, topology, faces| {
+        let edge = side(view, [EDGE[1], EDGE[0]]);
+        assert!(contacts.holds(view, topology, faces, edge));
+        let other = side(view, [[1.0, -1.0, 1.0], [-1.0, -1.0, 1.0]]);
+        assert!(!contacts.holds(view, topology, faces, other));
+        let stretches = contacts.stretches(view, topology, faces, edge);
+        let [[from, to]] = stretches[..] else { panic!("{stretches:?}") };
+        // The edge runs from x = 1 to -1, and the ball reaches so far along it.
+        let (middle, reach) = (0.6, f64::from(0.04_f32 - 0.01).sqrt());
+        let slack = contacts.tolerance();
+        assert!(from < middle - reach - slack && from > middle - reach - 10.0 * slack, "{from}");
+        assert!(to > middle + reach + slack && to < middle + reach + 10.0 * slack, "{to}");
+    });
+}
+
+#[test]
+fn a_ball_touches_a_corner_that_it_reaches() {
+    let touches = |x: f32| {
+        let at = [x, 1.0, 1.0];
+        let (mesh, held) = (cube(), [Held { from: at, to: at, radius: 0.2 }]);
+        with_contacts(&Mesh { held: &held, ..mesh.as_mesh() }, |contacts, view, topology, _| {
+            contacts.touch_corner(view, topology, side(view, [EDGE[1], EDGE[0]]))
+        })
+    };
+    assert!(touches(1.1) && !touches(1.3));
+}
+
+#[test]
+fn around_a_vertex_without_border_there_is_none() {
+    let (cube, open) = (cube(), shapes::open_box());
+    let topology = topology_of(&cube);
+    assert!(!topology.twin.ids().any(|corner| is_around(&topology, Corner(0), corner)));
+    let topology = topology_of(&open);
+    let rim = topology.twin.ids().find(|&corner| topology.twin[corner].is_none()).unwrap();
+    assert!(is_around(&topology, rim, rim));
+}
+
+#[test]
+fn far_from_the_origin_touches_what_is_two_roundings_off() {
+    let mut far = cube();
+    far.positions.iter_mut().for_each(|at| at[0] += 131_072.0);
+    let mesh = far.as_mesh();
+    let view = view(&mesh, &Options::default()).unwrap();
+    assert!(view.extent < 3.0 && tolerance(&view) >= 2.0 / 64.0, "{}", tolerance(&view));
+}
+
+#[test]
+fn other_names_are_those_of_all_borders() {
+    with_contacts(&shapes::open_box().as_mesh(), |contacts, _, _, _| {
+        let names = |contacts: &Contacts| contacts.borders().map(|c| c.0).collect::<Vec<_>>();
+        let next: Vec<u32> = names(contacts).into_iter().map(|name| name + 100).collect();
+        assert_eq!(names(&contacts.renamed(|corner| Corner(corner.0 + 100))), next);
+    });
+}
+
+#[test]
+fn many_that_end_at_one_place_are_a_crowd_at_whichever_end() {
+    let tip = [0.0, 1.0, 0.0];
+    let petal = |k: u32| {
+        let at = |turn: u32| {
+            let (sin, cos) = (f64::from(turn) / 40.0 * std::f64::consts::TAU).sin_cos();
+            [cos as f32, 0.0, sin as f32]
+        };
+        [tip, at(2 * k), at(2 * k + 1)]
+    };
+    let crowds = |petals: u32| {
+        let petals: Vec<_> = (0..petals).map(petal).collect();
+        with_contacts(
+            &with_triangles(MeshBuffers::default(), &petals).as_mesh(),
+            |contacts, _, _, _| !contacts.crowds.is_empty(),
+        )
+    };
+    assert!(crowds(16) && !crowds(15), "two ends of each petal");
+}
+
+//        /\
+//    x  /  \ x      what lies below the chamfer is not cut off, though it is near both faces' edge
+//      /----\
+#[test]
+fn a_wedge_ends_at_the_chamfer() {
+    let mesh = cube();
+    with_contacts(&mesh.as_mesh(), |_, view, topology, faces| {
+        let edge = side(view, [EDGE[1], EDGE[0]]);
+        let wedge = Wedge::new(view, faces, [edge, topology.twin[edge]]).unwrap();
+        let clipped = |depth: f64| {
+            let line = EDGE.map(|at| wide(at) - DVec3::new(0.0, depth, depth));
+            wedge.clip(line, 0.1, 1e-6).is_some()
+        };
+        assert!(clipped(0.049) && !clipped(0.051));
+    });
+}
+
+#[test]
+fn what_lies_on_the_chamfer_but_for_rounding_is_covered() {
+    let mesh = cube();
+    with_contacts(&mesh.as_mesh(), |_, view, topology, faces| {
+        let edge = side(view, [EDGE[1], EDGE[0]]);
+        let wedge = Wedge::new(view, faces, [edge, topology.twin[edge]]).unwrap();
+        let along = |by: DVec3| [EDGE[1], EDGE[0]].map(|at| wide(at) - by);
+        let sides = [along(DVec3::Y * 0.1), along(DVec3::Z * 0.1)];
+        // In front the face goes down, on top it goes back.
+        let front = faces.normal[edge.triangle()] == DVec3::Z;
+        let cut = Cut::new(&wedge, if front { sides } else { [sides[1], sides[0]] });
+        let uncovers = |depth: f64| {
+            let place = wedge.place(DVec3::new(0.0, 1.0 - depth, 1.0 - depth));
+            cut.uncovers(&place, 1e-6)
+        };
+        assert!(uncovers(0.049) && !uncovers(0.05 - 1e-8) && !uncovers(0.051));
+    });
 }

@@ -11,6 +11,7 @@ use crate::shapes::{self, Touch};
 use crate::stages::Stages;
 use crate::stages::stages_of;
 use crate::view::wide;
+use crate::watch::Unwatched;
 use crate::{view as stage_view, weld as stage_weld};
 
 pub fn view() -> Drawing {
@@ -67,7 +68,7 @@ fn number_vertices(drawing: &mut Drawing, scene: &Scene, mesh: &MeshBuffers) {
 pub fn weld() -> Drawing {
     let mut drawing = Drawing::new(720, 300);
     let cube = shapes::plain_cube(2.0);
-    let weld = stage_weld::weld(&cube.as_mesh());
+    let weld = stage_weld::weld(&cube.as_mesh(), &Unwatched).unwrap();
     let color = |vertex: usize| PALETTE[weld.cluster_of[Vertex::new(vertex)].index()];
     let apart = exploded(&cube, 0.4);
     let left = Scene::of_fronts(Camera::new(FRONT, [0.0; 3], 60.0, [180.0, 165.0]), &apart);

@@ -23,22 +23,30 @@ use crate::watch::Watch;
 /// The tip of a cone, the middle of its floor, and the middle of the fill that its tip becomes.
 const MOST: usize = 3;
 
+/// So many steps it takes for each triangle to find where they crowd, as a watch counts them.
+const STEPS_OF_CROWDS: usize = 2;
+
 /// What a part is seen from.
 pub struct Eyes(SmallVec<[Around; 8]>);
 
 impl Eyes {
     /// Around what the triangles of a part meet at, before or after they are pulled apart.
-    pub fn of(triangles: &[Triangle]) -> Eyes {
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`] where the watch stops it.
+    pub fn of(triangles: &[Triangle], watch: &dyn Watch) -> Result<Eyes, Error> {
         let middle = mean(triangles);
         let mut eyes = Eyes(SmallVec::new());
         eyes.0.push(Around::point(middle));
         let crowded = crowded_places(triangles);
+        watch.worked(STEPS_OF_CROWDS * triangles.len())?;
         for (number, &at) in crowded.iter().enumerate() {
             eyes.0.push(Around::point(at));
             eyes.0.extend(axis([at, if number == 0 { middle } else { crowded[0] }]));
         }
         eyes.0.extend(crowded_side(triangles).and_then(axis));
-        eyes
+        watch.worked(STEPS_OF_CROWDS * triangles.len())?;
+        Ok(eyes)
     }
 
     /// For each eye, a box around the directions of each triangle.
@@ -181,6 +189,7 @@ fn largest(vector: DVec3) -> f64 {
 mod tests {
     use super::*;
     use crate::intersect::cut_each_other;
+    use crate::watch::Unwatched;
 
     /// A cone over a star of so many points.
     fn cone(points: u32) -> Vec<Triangle> {
@@ -192,10 +201,14 @@ mod tests {
         (0..2 * points).map(|step| [[0.0, 1.0, 0.0], rim(step), rim(step + 1)]).collect()
     }
 
+    fn eyes(triangles: &[Triangle]) -> SmallVec<[Around; 8]> {
+        Eyes::of(triangles, &Unwatched).unwrap().0
+    }
+
     #[test]
     fn a_cone_is_seen_from_its_middle_its_tip_and_its_axis() {
         let middle = [0.0, 1.0 / 3.0, 0.0];
-        let Eyes(eyes) = Eyes::of(&cone(40));
+        let eyes = eyes(&cone(40));
         assert_eq!(eyes.len(), 3);
         let near =
             |one: [f32; 3], other: [f32; 3]| (0..3).all(|k| (one[k] - other[k]).abs() < 1e-6);
@@ -206,8 +219,8 @@ mod tests {
 
     #[test]
     fn without_a_crowd_there_is_the_middle() {
-        assert_eq!(Eyes::of(&cone(4)).0.len(), 1);
-        assert_eq!(Eyes::of(&[]).0.len(), 1);
+        assert_eq!(eyes(&cone(4)).len(), 1);
+        assert_eq!(eyes(&[]).len(), 1);
     }
 
     #[test]
@@ -243,5 +256,83 @@ mod tests {
         let through = [FLOOR[0], [2.0, 2.0, 1.0], [2.0, 2.0, -1.0]];
         assert!(!are_apart_but_for_corner(&FLOOR, &through));
         assert!(cut_each_other(&FLOOR, &through));
+    }
+
+    /// So many triangles on the side from one point to another.
+    fn book(pages: u32, [from, to]: [[f32; 3]; 2]) -> Vec<Triangle> {
+        let outer = |page: u32| {
+            let (sin, cos) = (f64::from(page) / f64::from(pages) * std::f64::consts::TAU).sin_cos();
+            [from[0] + cos as f32, from[1] + 0.5, from[2] + sin as f32]
+        };
+        (0..pages).map(|page| [from, to, outer(page)]).collect()
+    }
+
+    // Three tips with more at each than the spine of the book has.
+    #[test]
+    fn many_on_one_side_are_seen_from_it() {
+        let spine = [[9.0, 0.0, 0.0], [9.0, 2.0, 0.0]];
+        let tips = (0..3).flat_map(|tip| {
+            cone(40)
+                .into_iter()
+                .map(move |triangle| triangle.map(|[x, y, z]| [x, y + 3.0 * tip as f32, z]))
+        });
+        let all: Vec<Triangle> = tips.chain(book(40, spine)).collect();
+        assert!(eyes(&all).contains(&Around::line(spine)));
+    }
+
+    //   .'.   50
+    //  -----      the second tip is seen along the way from the first, the first from the middle
+    //    '    40
+    #[test]
+    fn two_tips_have_an_axis() {
+        let down = cone(20).into_iter().map(|triangle| triangle.map(|[x, y, z]| [x + 1.0, -y, z]));
+        let all: Vec<Triangle> = cone(25).into_iter().chain(down).collect();
+        let eyes = eyes(&all);
+        assert_eq!(eyes.len(), 5);
+        assert_eq!(eyes[2].points()[0], [0.0, 1.0, 0.0]);
+        assert_eq!(eyes[4], Around::line([[1.0, -1.0, 0.0], [0.0, 1.0, 0.0]]));
+    }
+
+    #[test]
+    fn looking_is_told_triangle_by_triangle() {
+        struct Count(std::cell::Cell<usize>);
+        impl Watch for Count {
+            fn worked(&self, steps: usize) -> Result<(), Error> {
+                self.0.set(self.0.get() + steps);
+                Ok(())
+            }
+        }
+        let (cone, count) = (cone(40), Count(std::cell::Cell::new(0)));
+        let eyes = Eyes::of(&cone, &Unwatched).unwrap();
+        eyes.views(&cone, &count).unwrap();
+        assert_eq!(count.0.get(), 3 * 80);
+    }
+
+    //     ____
+    //    |___/    a triangle upright below the floor, whose own sides keep nothing off
+    //     / \
+    #[test]
+    fn one_plane_is_enough_above_or_below() {
+        for up in [1.0, -1.0] {
+            let upright = [[1.0, 1.0, 0.1], [4.0, 4.0, 3.0], [-2.0, -2.0, 3.0]];
+            let upright = upright.map(|[x, y, z]| [x, y, z * up]);
+            assert!(are_apart(&FLOOR, &upright) && are_apart(&upright, &FLOOR), "{up}");
+        }
+    }
+
+    #[test]
+    fn rounding_tells_nothing_apart() {
+        let mut seed = 1_u32;
+        let mut next = || {
+            seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            // Few enough digits that the middle of two is exact.
+            (seed >> 12) as f32 / 4096.0 - 128.0
+        };
+        for _ in 0..300 {
+            let floor = [0; 3].map(|_| [0; 3].map(|_| next()));
+            let middle = [0, 1, 2].map(|axis| (floor[0][axis] + floor[1][axis]) / 2.0);
+            let touching = [middle, [0; 3].map(|_| next()), [0; 3].map(|_| next())];
+            assert!(!are_apart(&floor, &touching), "{floor:?} {touching:?}");
+        }
     }
 }

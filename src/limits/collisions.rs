@@ -66,7 +66,7 @@ pub fn lessen_cuts<S: Sync>(
     state: &mut S,
     rounded: &Rounded<S>,
     watch: &dyn Watch,
-    mut lessen: impl FnMut(&mut S, &[Element]) -> bool,
+    mut lessen: impl FnMut(&mut S, &[Element]) -> Result<bool, Error>,
 ) -> Result<(), Error> {
     let parts = parts(given, watch)?;
     let mut left: Vec<&Part> = parts.iter().collect();
@@ -81,7 +81,7 @@ pub fn lessen_cuts<S: Sync>(
         };
         let cuts = given.threads.map_watched(&left, watch, cuts)?;
         left = left.into_iter().zip(&cuts).filter(|(_, c)| !c.is_empty()).map(|(p, _)| p).collect();
-        if left.is_empty() || !lessen(state, &cuts.concat()) {
+        if left.is_empty() || !lessen(state, &cuts.concat())? {
             return Ok(());
         }
     }

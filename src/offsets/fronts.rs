@@ -9,6 +9,7 @@ use glam::DVec3;
 
 use super::{CREASE_COSINE, Offset, arms};
 use crate::breaks::same_chart;
+use crate::error::Error;
 use crate::faces::Faces;
 use crate::foot::{Foot, locate};
 use crate::ids::{Corner, Few, IdVec, Sector};
@@ -17,6 +18,7 @@ use crate::sectors::{Follower, Sectors};
 use crate::surface::Surface;
 use crate::tolerance::LEVEL_COSINE;
 use crate::view::View;
+use crate::watch::{Watch, each};
 
 /// Edges that meet at less than this (as a sine, 30 degrees), or run on so nearly straight, are
 /// pulled together: a little less width of one of them alone would take the vertex far along the
@@ -63,21 +65,29 @@ pub fn parts(
 
 /// The offsets, of which some have unlike shares for their two edges (`fronts: #sectors by 2`): the
 /// one that has less goes less far.
+///
+/// # Errors
+/// [`Error::Cancelled`] where the watch stops it.
 pub fn narrowed<'a>(
     surface: Surface,
     sectors: &Sectors,
     offsets: &'a IdVec<Sector, Offset>,
     fronts: &IdVec<Sector, [f64; 2]>,
-) -> Cow<'a, IdVec<Sector, Offset>> {
+    watch: &dyn Watch,
+) -> Result<Cow<'a, IdVec<Sector, Offset>>, Error> {
     let mut narrowed = Cow::Borrowed(offsets);
-    for sector in fronts.ids().filter(|&sector| fronts[sector][0] != fronts[sector][1]) {
-        let most = fronts[sector][0].max(fronts[sector][1]);
-        let fronts = fronts[sector].map(|share| share / most);
+    each(fronts.len(), watch, |sector: Sector| {
+        let fronts = fronts[sector];
+        if fronts[0] == fronts[1] {
+            return;
+        }
+        let most = fronts[0].max(fronts[1]);
+        let fronts = fronts.map(|share| share / most);
         if let Some(offset) = narrow(surface, sectors, sector, &offsets[sector], fronts) {
             narrowed.to_mut()[sector] = offset;
         }
-    }
-    narrowed
+    })?;
+    Ok(narrowed)
 }
 
 /// An offset that pulls its sector's first and its last edge by some shares of what it did; none where

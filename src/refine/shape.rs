@@ -6,6 +6,7 @@ use super::Refined;
 use super::WHOLE;
 use crate::contacts::Contacts;
 use crate::edges::{Edges, HardEdge, parted, seam_channels};
+use crate::error::Error;
 use crate::faces::{Faces, own_normal};
 use crate::ids::Few;
 use crate::ids::{Cluster, Corner, Edge, Id, IdVec, Triangle};
@@ -14,18 +15,29 @@ use crate::sectors::sectors;
 use crate::shape::Shape;
 use crate::topology::Topology;
 use crate::view::View;
+use crate::watch::Watch;
 use crate::weld::Weld;
 
 /// The same as the stages would find on the finer mesh, but for the numbers of clusters and edges.
 /// None where two triangles share so much that it cannot be told which pieces belong together.
-pub fn shape(fine: &View, refined: &Refined, coarse: &Shape) -> Option<Shape> {
+///
+/// # Errors
+/// [`Error::Cancelled`] where the watch stops it.
+pub fn shape(
+    fine: &View,
+    refined: &Refined,
+    coarse: &Shape,
+    watch: &dyn Watch,
+) -> Result<Option<Shape>, Error> {
     let weld = weld(refined, &coarse.weld);
-    let topology = topology(fine, refined, &coarse.topology, &weld)?;
+    let Some(topology) = topology(fine, refined, &coarse.topology, &weld) else {
+        return Ok(None);
+    };
     let faces = faces(fine, refined, &coarse.faces);
     let contacts = coarse.contacts.renamed(|border| refined.whole_side(border));
     let edges = edges(fine, refined, (&topology, &faces, &contacts), &coarse.edges);
-    let sectors = sectors(fine, &topology, &edges, &contacts);
-    Some(Shape { weld, topology, faces, contacts, edges, sectors })
+    let sectors = sectors(fine, &topology, &edges, &contacts, watch)?;
+    Ok(Some(Shape { weld, topology, faces, contacts, edges, sectors }))
 }
 
 /// Each new site is a cluster.

@@ -214,8 +214,14 @@ fn without_need_nothing_is_cut() {
 
 fn shape_of(view: &View) -> Shape {
     let options = Options::default();
-    crate::pipeline::shape(view, weld(&view.mesh), &options, &Threads::default(), &mut |_| Ok(()))
-        .unwrap()
+    crate::pipeline::shape(
+        view,
+        weld(&view.mesh, &Unwatched).unwrap(),
+        &options,
+        &Threads::default(),
+        &mut |_| Ok(()),
+    )
+    .unwrap()
 }
 
 /// What is known of the bar before the limits, for a chamfer of 0.1.
@@ -269,7 +275,7 @@ fn the_shape_of_a_finer_mesh_is_what_the_stages_find() {
             let mesh = refined.as_mesh(&view.mesh);
             let options = Options { width: Width::Units(0.1), ..Options::default() };
             let fine = self::view(&mesh, &options).unwrap();
-            let told = shape(&fine, &refined, coarse).unwrap();
+            let told = shape(&fine, &refined, coarse, &Unwatched).unwrap().unwrap();
             let found = shape_of(&fine);
             assert_eq!(told.topology.twin, found.topology.twin, "{name}");
             let same =
