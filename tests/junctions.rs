@@ -110,8 +110,9 @@ fn asked() -> impl Strategy<Value = Asked> {
         1 => vec(factor(), 1..9).prop_map(Asked::Mask),
         1 => (1..5usize, factor()).prop_map(|(every, factor)| Asked::Edges(every, factor)),
         2 => (any::<usize>(), any::<usize>(), radius).prop_map(|(a, b, r)| Asked::Held(a, b, r)),
-        // Rounding moves nothing there: else it decides which cells of one face overlap.
+        // Where rounding moves nothing, and where it does.
         1 => [-3..4i32, -3..4, -3..4].prop_map(|to| Asked::Scale(to.map(|k| 2f32.powi(k)))),
+        1 => [-3.0..3.0f32, -3.0..3.0f32, -3.0..3.0f32].prop_map(|to| Asked::Scale(to.map(f32::exp2))),
     ]
 }
 
