@@ -222,14 +222,20 @@ fn whole() -> Cells {
     face(0, &[0])
 }
 
-/// Sound, rounded or not; that many hard edges, and so many of them chamfered.
-fn assert_chamfered(boxes: &[Grid], (percent, segments): (f32, u32), expected: [u32; 2]) {
+/// Sound where heights are so many times as large; that many hard edges, and so many of them chamfered.
+fn assert_chamfered(
+    boxes: &[Grid],
+    height: f32,
+    (percent, segments): (f32, u32),
+    expected: [u32; 2],
+) {
     let (turn, offset) = (DMat3::IDENTITY, DVec3::ZERO);
     let layout =
         Layout { turn, offset, most_steps: 0, seed: 0, is_merged: false, is_overlaid: false };
     let mesh = grids(boxes, &layout);
     let width = Width::PercentOfExtent(percent);
-    let options = Options::default().with_width(width).with_segments(segments);
+    let scale = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, height]];
+    let options = Options::default().with_width(width).with_segments(segments).with_scale(scale);
     let result = chamfer(&mesh.as_mesh(), &options).unwrap();
     assert_sound("boxes that touch", &mesh.as_mesh(), &result);
     let totals = result.totals;
@@ -248,10 +254,10 @@ fn chamfers_of_cells_of_two_boxes_meet_at_a_corner() {
     let low = vec![face(0, &[0b1000]), whole(), whole(), whole(), floor, face(0b10, &[0b10])];
     let boxes = [
         Grid { low: [1.0, 1.0, 0.0], high: [2.0, 2.0, 1.0], faces: high },
-        Grid { low: [2.0, 1.0, 0.0], high: [3.0, 2.0, 0.2], faces: low },
+        Grid { low: [2.0, 1.0, 0.0], high: [3.0, 2.0, 0.1], faces: low },
     ];
     for segments in [1, 2, 5] {
-        assert_chamfered(&boxes, (0.1, segments), [26, 22]);
+        assert_chamfered(&boxes, 0.5, (0.1, segments), [26, 22]);
     }
 }
 
@@ -270,5 +276,5 @@ fn chamfers_of_a_plate_on_a_plate_meet_at_its_corners() {
         Grid { low: [1.0, 2.0, 2.0], high: [1.1, 3.0, 3.0], faces: high },
         Grid { low: [1.0, 1.0, 1.0], high: [1.1, 3.0, 2.0], faces: low },
     ];
-    assert_chamfered(&boxes, (0.3, 1), [27, 22]);
+    assert_chamfered(&boxes, 1.0, (0.3, 1), [27, 22]);
 }
