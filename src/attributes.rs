@@ -198,7 +198,7 @@ fn fill(
     row: &mut Row,
 ) {
     let normal = blended_normal(space.source, &surface);
-    let place = (space.back(placement.point[sector]), normal);
+    let place = (placement.stored(sector), normal);
     streams.blend(space.source, place, &chart, row);
 }
 

@@ -127,7 +127,7 @@ impl Made<'_> {
         }
         for (middle, point) in parts.middles.iter().zip(joints.len()..) {
             let (cluster, taken) = (self.cluster_at(joints[0]), chart.taken_at(point));
-            let at = (space.back(middle.position), space.normal_back(middle.normal));
+            let at = (space.measured.stored(middle.position), space.normal_back(middle.normal));
             let streams = &mut self.attributes.streams;
             self.vertices.push(streams.add_between(
                 space.source,
@@ -145,7 +145,8 @@ impl Made<'_> {
         for (point, at) in rounded.points.iter().zip(first..) {
             let joint = parts.joints.get(point.parents.places[0] as usize);
             let cluster = self.cluster_at(*joint.unwrap_or(&parts.joints[0]));
-            let place = (self.space.back(point.position), self.space.normal_back(point.normal));
+            let stored = self.space.measured.stored(point.position);
+            let place = (stored, self.space.normal_back(point.normal));
             let streams = &mut self.attributes.streams;
             self.vertices.push(if at < first + parts.middles.len() {
                 streams.add_between(source, cluster, place, (point.near, chart.taken_at(at)))

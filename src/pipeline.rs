@@ -272,7 +272,8 @@ fn in_space<T>(
     }
     let scaled = scale.map(|scale| scale.measured(&view.mesh));
     let scaled = scaled.as_ref().map(|scaled| measured(scaled.mesh(&view.mesh), options));
-    let scaled = scaled.transpose()?;
+    let stored = scale.map(|scale| scale.stored(&view.mesh));
+    let scaled = scaled.transpose()?.map(|scaled| View { stored, ..scaled });
     with(Space { source: view, measured: scaled.as_ref().unwrap_or(view), scale })
 }
 

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use crate::error::Error;
 use crate::foot::Foot;
-use crate::ids::{Corner, IdVec, Sector};
+use crate::ids::{Corner, Id, IdVec, Sector};
 use crate::offsets::Offset;
 use crate::resample::{blended_normal, chart_foot, surface_foot};
 use crate::sectors::Sectors;
@@ -70,6 +70,23 @@ impl<'a> Placement<'a> {
     #[inline]
     pub fn base(&self, sector: Sector) -> DVec3 {
         self.surface.view.position_at(self.sectors.fans[sector].first)
+    }
+
+    /// Where the sector's vertices are stored, before they are rounded.
+    #[inline]
+    pub fn stored(&self, sector: Sector) -> DVec3 {
+        let view = self.surface.view;
+        view.stored_from(view.vertex_at(self.sectors.fans[sector].first), self.point[sector])
+    }
+
+    /// Where a corner is stored.
+    #[inline]
+    pub fn stored_at(&self, corner: Corner) -> [f32; 3] {
+        let (view, sector) = (self.surface.view, self.sectors.sector_of[corner]);
+        if sector.is_none() {
+            return view.stored_positions()[view.vertex_at(corner).index()];
+        }
+        self.stored(sector).as_vec3().to_array()
     }
 
     /// Where a corner of the source mesh stands now.

@@ -15,6 +15,7 @@ use glam::DVec3;
 use crate::chamfers::Chamfers;
 use crate::error::Error;
 use crate::ids::{Edge, Few, Id, IdVec, Patch, Vertex};
+use crate::intersect::Triangle;
 use crate::memory;
 use crate::patches::{Parts, Patches, nearest};
 use crate::placement::Placement;
@@ -60,8 +61,8 @@ pub struct Rounded<'a> {
     pub triangles: &'a [[u32; 3]],
 }
 
-/// The triangles of a patch that has more than one segment, by the rows of all.
-pub type Triangles<'a> = dyn Fn(&Rows, Patch) -> Option<Vec<[DVec3; 3]>> + Sync + 'a;
+/// The triangles of a patch that has more than one segment, by the rows of all, as they are stored.
+pub type Triangles<'a> = dyn Fn(&Rows, Patch) -> Option<Vec<Triangle>> + Sync + 'a;
 
 /// Takes rows from patches that cut; false where none had any to give.
 pub type Lessen<'a> = dyn FnMut(&mut Rows, &[Patch]) -> Result<bool, Error> + 'a;
@@ -234,17 +235,21 @@ fn lay_patch(given: Given, patches: &Patches, rows: &Rows, patch: Patch, lay: &m
     }
 }
 
-/// The triangles of a patch that has more than one segment.
+/// The triangles of a patch that has more than one segment, as they are stored.
 fn triangles_of(
     given: Given,
     patches: &Patches,
     rows: &Rows,
     patch: Patch,
-) -> Option<Vec<[DVec3; 3]>> {
+) -> Option<Vec<Triangle>> {
     let mut lay = Lay::default();
     lay_patch(given, patches, rows, patch, &mut lay).then(|| {
-        let points = |triangle: &[u32; 3]| triangle.map(|place| lay.places[place as usize].point);
-        lay.triangles.iter().map(points).collect()
+        let joints = patches.parts(patch).joints;
+        let stored = |place: usize| match joints.get(place) {
+            Some(&joint) => given.placement.stored_at(joint),
+            None => given.view.stored(lay.places[place].point).as_vec3().to_array(),
+        };
+        lay.triangles.iter().map(|triangle| triangle.map(|place| stored(place as usize))).collect()
     })
 }
 

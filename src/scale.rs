@@ -11,7 +11,7 @@ use crate::math::unit;
 use crate::mesh::{Factors, Held, Mesh};
 use crate::options::Options;
 use crate::report::Reason;
-use crate::view::{View, wide};
+use crate::view::{Stored, View, wide};
 
 /// A stretch of all three axes that can be undone.
 #[derive(Clone, Copy)]
@@ -33,12 +33,7 @@ pub struct Space<'a> {
 }
 
 impl Space<'_> {
-    /// From where the mesh is measured to where it came from.
-    pub fn back(&self, point: DVec3) -> DVec3 {
-        self.scale.map_or(point, |scale| scale.back * point)
-    }
-
-    /// As [`Space::back`], for unit normals.
+    /// The unit normal, where the mesh came from, of what has one where it is measured.
     pub fn normal_back(&self, normal: DVec3) -> DVec3 {
         self.scale.map_or(normal, |scale| unit(scale.normal_back * normal))
     }
@@ -87,6 +82,11 @@ impl Scale {
         } else {
             Err(Error::BadScale)
         }
+    }
+
+    /// How what is measured is stored in the mesh that came.
+    pub fn stored<'a>(&self, mesh: &Mesh<'a>) -> Stored<'a> {
+        Stored { positions: mesh.positions, back: self.back }
     }
 
     pub fn measured(&self, mesh: &Mesh) -> Measured {
@@ -144,6 +144,7 @@ mod tests {
         let mesh = measured.mesh(&pyramid.as_mesh());
         let [source, measured] =
             [pyramid.as_mesh(), mesh].map(|mesh| view(&mesh, &options).unwrap());
+        let measured = View { stored: Some(scale.stored(&source.mesh)), ..measured };
         let space = Space { source: &source, measured: &measured, scale: Some(scale) };
         for triangle in pyramid.indices.chunks(3) {
             let points = [0, 1, 2].map(|k| wide(mesh.positions[triangle[k] as usize]));
@@ -151,7 +152,7 @@ mod tests {
                 let at = wide(pyramid.positions[v as usize]);
                 let there = DVec3::new(2.0 * at.x + 0.5 * at.y, 10.0 * at.y, at.z);
                 assert!(point.distance(there) < 1e-6, "{point} is not {there}");
-                assert!(space.back(point).distance(at) < 1e-6);
+                assert!(space.measured.stored(point).distance(at) < 1e-6);
                 let normal = wide(mesh.normals[v as usize]);
                 assert!(normal.distance(unit(area_vector(points))) < 1e-6, "{normal}");
                 let before = wide(pyramid.normals[v as usize]);

@@ -2,7 +2,7 @@
 //!
 //! Later stages index without checks of their own, so every rule on the input is tested here.
 
-use glam::{DVec3, Vec3};
+use glam::{DMat3, DVec3, Vec3};
 
 use crate::error::{Error, Stream};
 use crate::ids::{Corner, Id, Triangle, Vertex};
@@ -32,6 +32,16 @@ pub struct View<'a> {
     pub hard_cosine: f64,
     /// Two normals that both differ from a third one by less than this do not differ.
     pub alike_cosine: f64,
+    /// How what is measured is stored; none where both are one.
+    pub stored: Option<Stored<'a>>,
+}
+
+/// The space in which a mesh came, and in which its result is stored.
+#[derive(Clone, Copy)]
+pub struct Stored<'a> {
+    pub positions: &'a [[f32; 3]],
+    /// From where it is measured.
+    pub back: DMat3,
 }
 
 /// Validates a mesh and the options that go with it.
@@ -77,7 +87,8 @@ impl<'a> View<'a> {
         let resolution = resolution(&mesh);
         let extent = mesh.extent().min(f32::MAX).into();
         let (width, least_breadth) = (0.0, 0.0);
-        View { mesh, width, extent, least_breadth, resolution, hard_cosine, alike_cosine }
+        let stored = None;
+        View { mesh, width, extent, least_breadth, resolution, hard_cosine, alike_cosine, stored }
     }
 
     #[inline]
@@ -88,6 +99,27 @@ impl<'a> View<'a> {
     #[inline]
     pub fn position(&self, vertex: Vertex) -> DVec3 {
         wide(self.mesh.positions[vertex.index()])
+    }
+
+    /// Where a vertex that has moved to a point is stored. Its move is what is mapped: an axis along
+    /// which it did not move keeps its coordinate to the last bit, and so what lay on one line or in one
+    /// plane still does.
+    #[inline]
+    pub fn stored_from(&self, vertex: Vertex, point: DVec3) -> DVec3 {
+        self.stored.map_or(point, |stored| {
+            wide(stored.positions[vertex.index()]) + stored.back * (point - self.position(vertex))
+        })
+    }
+
+    /// Where a point is stored that is no vertex of the source.
+    #[inline]
+    pub fn stored(&self, point: DVec3) -> DVec3 {
+        self.stored.map_or(point, |stored| stored.back * point)
+    }
+
+    /// The positions of the vertices as they are stored.
+    pub fn stored_positions(&self) -> &[[f32; 3]] {
+        self.stored.map_or(self.mesh.positions, |stored| stored.positions)
     }
 
     #[inline]

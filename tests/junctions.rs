@@ -53,7 +53,7 @@ fn grid(copies: RangeInclusive<u8>) -> impl Strategy<Value = Grid> {
     })
 }
 
-/// Side by side with room between them: what touches is tried with other boxes.
+/// Side by side with room between them.
 fn apart(mut boxes: Vec<Grid>) -> Vec<Grid> {
     for (number, grid) in (0u8..).zip(&mut boxes) {
         let by = 8.0 * f64::from(number);
@@ -110,8 +110,9 @@ fn asked() -> impl Strategy<Value = Asked> {
         1 => vec(factor(), 1..9).prop_map(Asked::Mask),
         1 => (1..5usize, factor()).prop_map(|(every, factor)| Asked::Edges(every, factor)),
         2 => (any::<usize>(), any::<usize>(), radius).prop_map(|(a, b, r)| Asked::Held(a, b, r)),
-        // Rounding moves nothing there: else it decides which cells of one face overlap.
+        // Where rounding moves nothing, and where it does.
         1 => [-3..4i32, -3..4, -3..4].prop_map(|to| Asked::Scale(to.map(|k| 2f32.powi(k)))),
+        1 => [-3.0..3.0f32, -3.0..3.0f32, -3.0..3.0f32].prop_map(|to| Asked::Scale(to.map(f32::exp2))),
     ]
 }
 
@@ -180,11 +181,13 @@ proptest! {
     #[test]
     fn boxes_of_cells_that_do_not_match_are_sound(
         boxes in vec(grid(0..=2), 1..4),
+        touch in any::<bool>(),
         layout in layout(),
         asked in asked(),
         percent in percent(),
     ) {
-        let mesh = grids(&apart(boxes), &layout);
+        let boxes = if touch { boxes } else { apart(boxes) };
+        let mesh = grids(&boxes, &layout);
         let extras = Extras::new(&mesh, &asked);
         let mesh = extras.on(&mesh);
         for (segments, verify) in WAYS {
@@ -209,4 +212,69 @@ proptest! {
         assert_sound("box", &mesh.as_mesh(), &result);
         prop_assert_eq!(result.totals.skipped[Reason::TJunction], 0);
     }
+}
+
+fn face(across: u8, along: &[u8]) -> Cells {
+    Cells { across, along: along.to_vec(), diagonals: 0, copies: 1 }
+}
+
+fn whole() -> Cells {
+    face(0, &[0])
+}
+
+/// Sound where heights are so many times as large; that many hard edges, and so many of them chamfered.
+fn assert_chamfered(
+    boxes: &[Grid],
+    height: f32,
+    (percent, segments): (f32, u32),
+    expected: [u32; 2],
+) {
+    let (turn, offset) = (DMat3::IDENTITY, DVec3::ZERO);
+    let layout =
+        Layout { turn, offset, most_steps: 0, seed: 0, is_merged: false, is_overlaid: false };
+    let mesh = grids(boxes, &layout);
+    let width = Width::PercentOfExtent(percent);
+    let scale = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, height]];
+    let options = Options::default().with_width(width).with_segments(segments).with_scale(scale);
+    let result = chamfer(&mesh.as_mesh(), &options).unwrap();
+    assert_sound("boxes that touch", &mesh.as_mesh(), &result);
+    let totals = result.totals;
+    assert_eq!([totals.hard_edges, totals.chamfered + totals.narrowed], expected);
+}
+
+//   .-------.
+//   |       |          the lower one is as deep, and what is between them is in cells: at `o` the
+//   |       |.----.    chamfers of both boxes end on one short edge, as do those of the cells there
+//   '-------o'----'
+#[test]
+fn chamfers_of_cells_of_two_boxes_meet_at_a_corner() {
+    let wall = face(0b1_0100, &[0b1000_0000]);
+    let high = vec![whole(), wall, whole(), whole(), whole(), whole()];
+    let floor = face(0b1_0100, &[0, 0b10]);
+    let low = vec![face(0, &[0b1000]), whole(), whole(), whole(), floor, face(0b10, &[0b10])];
+    let boxes = [
+        Grid { low: [1.0, 1.0, 0.0], high: [2.0, 2.0, 1.0], faces: high },
+        Grid { low: [2.0, 1.0, 0.0], high: [3.0, 2.0, 0.1], faces: low },
+    ];
+    for segments in [1, 2, 5] {
+        assert_chamfered(&boxes, 0.5, (0.1, segments), [26, 22]);
+    }
+}
+
+//       .-------.
+//       |       |      plates, one on the other: along the ground between them the edges of one lie on
+//   .---o-------o      those of the other, and chamfers of both end on one short edge at each `o`
+//   |           |
+//   '-----------'
+#[test]
+fn chamfers_of_a_plate_on_a_plate_meet_at_its_corners() {
+    let ground = face(0b10, &[0b100, 0]);
+    let high = vec![whole(), whole(), whole(), whole(), ground, whole()];
+    let roof = face(0b1_0000, &[0b1000, 0]);
+    let low = vec![whole(), whole(), whole(), face(0b10, &[0]), whole(), roof];
+    let boxes = [
+        Grid { low: [1.0, 2.0, 2.0], high: [1.1, 3.0, 3.0], faces: high },
+        Grid { low: [1.0, 1.0, 1.0], high: [1.1, 3.0, 2.0], faces: low },
+    ];
+    assert_chamfered(&boxes, 1.0, (0.3, 1), [27, 22]);
 }

@@ -1,11 +1,16 @@
 //! What is measured where a scale leads: what is hard, what is held, and the widest chamfer.
 
+#[path = "support/grids.rs"]
+mod grids;
 #[allow(dead_code)] // Other tests use more of it.
 #[path = "support/shaded.rs"]
 mod shaded;
 
 use chamfer::check::assert_sound;
-use chamfer::{Held, Mesh, Options, Reason, Width, chamfer, shapes};
+use chamfer::{Held, Mesh, Options, Reason, Verify, Width, chamfer, shapes};
+use glam::{DMat3, DVec3};
+
+use grids::{Cells, Grid, Layout, grids};
 
 /// A stretch along the three axes.
 fn along_axes([x, y, z]: [f32; 3]) -> [[f32; 3]; 3] {
@@ -53,4 +58,36 @@ fn the_largest_width_is_told_in_units_of_the_mesh() {
         Options::default().with_width(Width::Units(0.1)).with_scale(along_axes([4.0, 2.0, 1.0]));
     let result = chamfer(&cube.as_mesh(), &options).unwrap();
     assert!((result.largest_width - 0.025).abs() < 1e-7, "{}", result.largest_width);
+}
+
+/// A face whose rows begin there; the cells of the first row, and of the others.
+fn face(across: u8, along: [u8; 2]) -> Cells {
+    Cells { across, along: along.to_vec(), diagonals: 0, copies: 1 }
+}
+
+//   z
+//   +-----------------+
+//   |                 |       one face of a box. No half of a z is exact as it is measured, so a
+//   +-----------------+       corner that is pulled along the middle line could come out past it,
+//   |                 |       and so in two cells
+//   +--+--------------+
+//   |  |              |
+//   +--+--------------+ y
+#[test]
+fn cells_of_one_face_still_end_on_one_line() {
+    let faces =
+        [face(0, [0; 2]), face(0b0100_0100, [0b10, 0]), face(0, [0; 2]), face(0, [0b100; 2])];
+    let faces = faces.into_iter().chain([face(0, [0; 2]), face(0, [0; 2])]).collect();
+    let (turn, offset) = (DMat3::IDENTITY, DVec3::ZERO);
+    let layout =
+        Layout { turn, offset, most_steps: 0, seed: 0, is_merged: false, is_overlaid: false };
+    let mesh = grids(&[Grid { low: [0.0; 3], high: [1.0, 1.0, 3.0], faces }], &layout);
+    let options = Options::default()
+        .with_width(Width::PercentOfExtent(1.0))
+        .with_scale(along_axes([1.0, 1.0, 1.567_422_6]))
+        .with_verify(Verify::Full);
+    let result = chamfer(&mesh.as_mesh(), &options).unwrap();
+    assert_sound("a box of cells", &mesh.as_mesh(), &result);
+
+    assert_eq!((result.totals.hard_edges, result.totals.chamfered), (13, 13));
 }

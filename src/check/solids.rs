@@ -299,6 +299,8 @@ fn lacking(known: &[Option<u32>], here: &[HalfEdge], there: &[HalfEdge]) -> Vec<
 /// meet on an edge of the source, its chamfers may have them too. Only where the mesh has more such
 /// sides than before is there anything to find: which solid a side belongs to is not always certain.
 /// Chamfers that come to touch along an edge, each with vertices of its own there, touch as solids do.
+/// What solids may have together goes for all that chamfers have brought together, as at T-junctions:
+/// which of them a chamfer continues, nobody can tell.
 pub(super) fn check_sides(
     [before, after]: [&Surface; 2],
     [source, result]: [&Solids; 2],
@@ -308,14 +310,17 @@ pub(super) fn check_sides(
     if after.sides_past_two() <= before.sides_past_two() {
         return;
     }
+    let one = brought_together(after, result, source.of.len());
     let allowed = Allowed::new([before, after], [source, result], origins);
+    let of_all = allowed.of_all(&one);
     for edge in after.edges().filter(|(a, b)| a.len() + b.len() > 2) {
         if is_closed_by_vertices(after, edge) {
             continue;
         }
         let clusters = edge.0.first().or(edge.1.first()).map_or([0; 2], |h| h.clusters);
         let allowed = allowed.on(clusters);
-        let together = allowed.iter().map(|&(_, sides)| sides).sum::<usize>().max(LEAST_SIDES);
+        let together =
+            of_all.on(clusters).iter().map(|&(_, sides)| sides).sum::<usize>().max(LEAST_SIDES);
         let of = |solid: u32| {
             let place = allowed.binary_search_by_key(&solid, |&(solid, _)| solid);
             place.map_or(LEAST_SIDES, |place| allowed[place].1)
@@ -325,6 +330,18 @@ pub(super) fn check_sides(
             findings.note(Rule::NonManifold, Element::Edge(clusters[0], clusters[1]));
         }
     }
+}
+
+/// `#solids, and new triangles past them`: the number that stands for all that chamfers have brought
+/// together. Two solids are, where they share an edge of two sides.
+fn brought_together(after: &Surface, result: &Solids, solids: usize) -> Vec<u32> {
+    let mut one = Groups::singles(solids + result.of.len());
+    for edge in after.edges() {
+        if let ([side], [other]) = edge {
+            one.join(result.of_side(side), result.of_side(other));
+        }
+    }
+    one.labels()
 }
 
 /// Whether each side of an edge shares its two vertices with one other side alone, which runs back.
@@ -378,6 +395,16 @@ impl Allowed {
         });
         let known = Allowed::sorted(carried.collect());
         Spread::new(after, result, source.of.len() as u32).from(known)
+    }
+
+    /// The same for all solids that one number stands for: as many as these may have together.
+    fn of_all(&self, one: &[u32]) -> Allowed {
+        let mut of_all = BTreeMap::new();
+        for &(at, solid, sides) in &self.most {
+            *of_all.entry((at, one[solid as usize])).or_insert(0) += sides;
+        }
+        let most = of_all.into_iter().map(|((at, one), sides)| (at, one, sides));
+        Allowed { most: most.collect() }
     }
 
     fn sorted(mut most: Vec<(u32, u32, usize)>) -> Allowed {

@@ -28,7 +28,7 @@ use super::{Limits, apply, bad_around, blame, shrink};
 use crate::given::Given;
 
 /// The triangles of a strip or a fill that has more than one segment, in a state.
-pub type Rounded<'a, S> = dyn Fn(&S, Element) -> Option<Vec<[DVec3; 3]>> + Sync + 'a;
+pub type Rounded<'a, S> = dyn Fn(&S, Element) -> Option<Vec<Triangle>> + Sync + 'a;
 
 /// Rounds in which width is given back: the rest is within an eighth of what would fit.
 const GIVE_BACK_ROUNDS: usize = 3;
@@ -99,7 +99,7 @@ fn most_rounded(given: &Given, parts: &[&Part], lay: &Lay) -> usize {
 }
 
 /// The triangles of what is rounded.
-type Lay<'a> = dyn Fn(Element) -> Option<Vec<[DVec3; 3]>> + Sync + 'a;
+type Lay<'a> = dyn Fn(Element) -> Option<Vec<Triangle>> + Sync + 'a;
 
 /// How many triangles are searched at a time, at most: each thread has a part.
 fn most_searched(given: &Given, parts: &[Part]) -> usize {
@@ -321,10 +321,11 @@ impl Part<'_> {
     }
 
     fn source(&self, corner: Corner) -> [f32; 3] {
-        self.given.surface.view.mesh.positions[self.given.surface.view.vertex_at(corner).index()]
+        let view = self.given.surface.view;
+        view.stored_positions()[view.vertex_at(corner).index()]
     }
 
-    /// All triangles of the part where the sectors stand now.
+    /// All triangles of the part where the sectors stand now, as they are stored.
     fn lay_out(
         &self,
         placement: &Placement,
@@ -339,8 +340,7 @@ impl Part<'_> {
             while open.next_if(|next| next.key() < element.key()).is_some() {}
             let is_open = open.peek() == Some(&&element);
             let is_changed = self.is_changed(placement, element);
-            let mut add = |corners: [DVec3; 3]| {
-                let corners = corners.map(|point| point.as_vec3().to_array());
+            let mut add = |corners: Triangle| {
                 laid.push(Laid { corners, element: place, is_changed, is_open });
             };
             match rounded.and_then(|lay| lay(element)) {
@@ -363,36 +363,38 @@ impl Part<'_> {
         &self,
         placement: &Placement,
         element: Element,
-        add: &mut dyn FnMut([DVec3; 3]),
+        add: &mut dyn FnMut(Triangle),
     ) {
         let given = self.given;
         match element {
             Element::Surface(triangle) => {
-                add(triangle.corners().map(|corner| placement.position_at(corner)));
+                add(triangle.corners().map(|corner| placement.stored_at(corner)));
             }
             Element::Strip(edge) => {
-                let quad = strips::quad(placement, &given.chamfers.edges.hard[edge]);
-                let triangles = strips::cut(&quad).triangles().iter();
-                triangles.for_each(|corners| add(corners.map(|place| quad.points[place])));
+                let edge = &given.chamfers.edges.hard[edge];
+                let triangles = strips::cut(&strips::quad(placement, edge)).triangles().iter();
+                let points = strips::corners(edge).map(|corner| placement.stored_at(corner));
+                triangles.for_each(|corners| add(corners.map(|place| points[place])));
             }
             Element::Fill(ring) => self.each_of_fill(placement, ring, add),
             Element::Flap(place) => {
-                let points = flap_joints(given, place).map(|joint| placement.position_at(joint));
-                if is_open(points) {
-                    add(points);
+                let joints = flap_joints(given, place);
+                if is_open(joints.map(|joint| placement.position_at(joint))) {
+                    add(joints.map(|joint| placement.stored_at(joint)));
                 }
             }
         }
     }
 
-    fn each_of_fill(&self, placement: &Placement, ring: Ring, add: &mut dyn FnMut([DVec3; 3])) {
-        let sectors = self.given.chamfers.sectors.ring(ring);
-        let fill =
-            ring_fill(placement, sectors, self.given.surface.view.resolution).unwrap_or_default();
-        let mut points: Few<_> = sectors.iter().map(|&sector| placement.point[sector]).collect();
-        for places in &fill.middles {
-            points.push(middle(&points[..sectors.len()], places));
-        }
+    fn each_of_fill(&self, placement: &Placement, ring: Ring, add: &mut dyn FnMut(Triangle)) {
+        let (sectors, view) = (self.given.chamfers.sectors.ring(ring), self.given.surface.view);
+        let fill = ring_fill(placement, sectors, view.resolution).unwrap_or_default();
+        let stored = |point: DVec3| point.as_vec3().to_array();
+        let joints: Few<_> = sectors.iter().map(|&sector| placement.point[sector]).collect();
+        let mut points: Few<_> =
+            sectors.iter().map(|&sector| stored(placement.stored(sector))).collect();
+        let middles = fill.middles.iter().map(|places| view.stored(middle(&joints, places)));
+        points.extend(middles.map(stored));
         fill.triangles.iter().for_each(|corners| add(corners.map(|place| points[place])));
     }
 }

@@ -39,11 +39,11 @@ impl Crowd {
 
     /// From where its members lie in different directions, where the sectors stand now.
     pub fn around(self, given: &Given, placement: &Placement) -> Around {
-        let source = |vertex: Vertex| given.surface.view.mesh.positions[vertex.index()];
+        let source = |vertex: Vertex| given.surface.view.stored_positions()[vertex.index()];
         let at = |corner: Corner| source(given.surface.view.vertex_at(corner));
         match self {
             Crowd::Side(corner) => Around::line([at(corner), at(corner.next())]),
-            Crowd::Sector(sector) => Around::point(placement.point[sector].as_vec3().to_array()),
+            Crowd::Sector(sector) => Around::point(placement.stored(sector).as_vec3().to_array()),
             Crowd::Cluster(_, corner) => Around::point(at(corner)),
         }
     }
