@@ -564,6 +564,17 @@ mod tests {
     }
 
     #[test]
+    fn sorting_can_be_stopped_at_each_part() {
+        let told = |last: usize| {
+            let count = Count { told: Cell::new(0), last };
+            let is_done = sort(&mut vec![0; 80_000], &count).is_ok();
+            (is_done, count.told.get())
+        };
+        assert_eq!(told(usize::MAX), (true, 15), "80,000 in eight parts");
+        assert_eq!([1, 8, 15].map(told), [(false, 1), (false, 8), (false, 15)]);
+    }
+
+    #[test]
     fn equal_boxes_and_no_boxes() {
         let point = Aabb::around(&[[0.0; 3]]);
         assert_eq!(pairs(&[point; 30]).len(), 30 * 29 / 2);

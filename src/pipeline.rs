@@ -460,10 +460,14 @@ fn make(
     let asked = &Given { surface, chamfers, offsets, rests: &Rests::default(), deep, threads };
     let room = evenness(asked, room(asked, &watch)?, options.evenness.into(), &watch)?;
     let offsets = &*narrowed(surface, chamfers.sectors, offsets, &room.fronts, &watch)?;
-    let shares = &room.shares();
-    let rests = &rests(surface, chamfers, contacts, Most { offsets, shares }, &watch)?;
+    let shares = room.shares();
+    // The stages to come take far more memory than these, so what they do not read is given back.
+    drop(room);
+    let most = Most { offsets, shares: &shares };
+    let rests = &rests(surface, chamfers, contacts, most, &watch)?;
     let given = &Given { offsets, rests, ..*asked };
-    let limits = limits(given, shares, options.verify, &watch)?;
+    let limits = limits(given, &shares, options.verify, &watch)?;
+    drop(shares);
     let placement = &limits.placement;
     done(Some(Stage::Limits))?;
     let mut ask = || done(None);
