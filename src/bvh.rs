@@ -55,16 +55,45 @@ impl Aabb {
         along(0) & along(1) & along(2)
     }
 
+    fn middle_and_half(&self) -> (DVec3, DVec3) {
+        let [low, high] = [self.low, self.high].map(|corner| DVec3::from(corner.map(f64::from)));
+        ((low + high) / 2.0, (high - low) / 2.0)
+    }
+
     /// Whether all of it is farther than this from the plane through the origin with a unit normal.
     pub fn is_beside(&self, normal: DVec3, far: f64) -> bool {
-        let [low, high] = [self.low, self.high].map(|corner| DVec3::from(corner.map(f64::from)));
-        let (middle, half) = ((low + high) / 2.0, (high - low) / 2.0);
+        let (middle, half) = self.middle_and_half();
         middle.dot(normal).abs() - half.dot(normal.abs()) > far
     }
 
     /// Halved first, so that it cannot overflow.
     fn middle(&self, axis: usize) -> f32 {
         self.low[axis] / 2.0 + self.high[axis] / 2.0
+    }
+}
+
+/// What comes within a distance of a line.
+#[derive(Clone, Copy)]
+pub(crate) struct Rod {
+    /// Across the line and one of the axes each (the separating axes of a line and a box), and how far
+    /// the line lies along them.
+    across: [(DVec3, f64); 3],
+    far: f64,
+}
+
+impl Rod {
+    /// Around a line through a point, of a unit direction.
+    pub fn new(from: DVec3, along: DVec3, far: f64) -> Rod {
+        let across = DVec3::AXES.map(|axis| along.cross(axis));
+        Rod { across: across.map(|across| (across, from.dot(across))), far }
+    }
+
+    /// Whether it has nothing to do with a box. For certain: some that it passes by are not told.
+    fn misses(&self, bounds: &Aabb) -> bool {
+        let (middle, half) = bounds.middle_and_half();
+        self.across.iter().any(|&(across, place)| {
+            (middle.dot(across) - place).abs() - half.dot(across.abs()) > self.far
+        })
     }
 }
 
@@ -118,6 +147,18 @@ struct Node {
     first: u32,
     /// How many places it has itself: none but in a leaf.
     count: u32,
+}
+
+/// What is looked for in a tree.
+pub(crate) struct Target<const EYES: usize, IsOut: Fn(&Kin) -> bool> {
+    /// Around it.
+    pub bounds: Aabb,
+    /// Around it as each eye sees it; none where eyes have no say.
+    pub views: [Aabb; EYES],
+    /// All of it is within that.
+    pub rod: Option<Rod>,
+    /// Tells the kin that it is not.
+    pub is_out: IsOut,
 }
 
 /// A tree over some boxes. *Places* count along its order.
@@ -292,22 +333,34 @@ impl Tree {
 
     /// The numbers of the boxes that overlap one, in the order of the tree.
     pub fn overlapping(&self, target: Aabb) -> impl Iterator<Item = u32> {
-        self.overlapping_but(target, |_| false)
+        self.near(Target { bounds: target, views: [], rod: None, is_out: |_| false })
     }
 
-    /// The same, but for some kin.
-    pub fn overlapping_but(
+    /// The numbers of the boxes that are not apart from what is looked for, in the order of the tree.
+    pub fn near<const EYES: usize>(
         &self,
-        target: Aabb,
-        is_out: impl Fn(&Kin) -> bool,
+        target: Target<EYES, impl Fn(&Kin) -> bool>,
     ) -> impl Iterator<Item = u32> {
+        let Target { bounds, views, rod, is_out } = target;
+        let is_near = move |place: usize| {
+            let mut seen = self.views.iter().zip(&views);
+            self.boxes[place].overlaps(&bounds)
+                && seen.all(|(view, target)| view.places[place].overlaps(target))
+        };
         let is_apart = move |node: usize| {
-            !self.nodes[node].bounds.overlaps(&target)
-                || self.node_kin.get(node).is_some_and(&is_out)
+            let own = &self.nodes[node].bounds;
+            let mut seen = self.views.iter().zip(&views);
+            !own.overlaps(&bounds)
+                || seen.any(|(view, target)| !view.nodes[node].overlaps(target))
+                || match self.node_kin.get(node) {
+                    // Directions tell more than the box.
+                    Some(kin) if kin.around.is_some() => is_out(kin),
+                    _ => rod.is_some_and(|rod| rod.misses(own)),
+                }
         };
         self.leaves_near(0, is_apart)
             .flat_map(|leaf| self.places(leaf))
-            .filter(move |&place| self.boxes[place].overlaps(&target))
+            .filter(move |&place| is_near(place))
             .map(|place| self.order[place])
     }
 
@@ -511,6 +564,17 @@ mod tests {
     }
 
     #[test]
+    fn sorting_can_be_stopped_at_each_part() {
+        let told = |last: usize| {
+            let count = Count { told: Cell::new(0), last };
+            let is_done = sort(&mut vec![0; 80_000], &count).is_ok();
+            (is_done, count.told.get())
+        };
+        assert_eq!(told(usize::MAX), (true, 15), "80,000 in eight parts");
+        assert_eq!([1, 8, 15].map(told), [(false, 1), (false, 8), (false, 15)]);
+    }
+
+    #[test]
     fn equal_boxes_and_no_boxes() {
         let point = Aabb::around(&[[0.0; 3]]);
         assert_eq!(pairs(&[point; 30]).len(), 30 * 29 / 2);
@@ -553,6 +617,41 @@ mod tests {
         expected.retain(|&(a, b)| !kin[a as usize].is_apart(&kin[b as usize]));
         assert_eq!(found, expected);
         assert!(expected.len() > 1000 && expected.len() < overlapping(&boxes).len());
+    }
+
+    /// Places near to each other as pairs, but from one box.
+    fn found(tree: &Tree, rod: Option<Rod>, seen: Aabb) -> Vec<u32> {
+        let target = Target { bounds: Aabb::ALL, views: [seen], rod, is_out: |_: &Kin| false };
+        let mut found: Vec<u32> = tree.near(target).collect();
+        found.sort_unstable();
+        found
+    }
+
+    #[test]
+    fn what_an_eye_sees_elsewhere_is_not_found() {
+        let boxes = scattered(20.0);
+        let seen: Vec<Aabb> = (0..200).map(|n| Aabb::around(&[[n as f32; 3]])).collect();
+        let tree = Tree::new(&boxes, &[]).with_views(&[seen]);
+        let expected: Vec<u32> = (70..=73).collect();
+        assert_eq!(found(&tree, None, Aabb::around(&[[70.0; 3], [73.0; 3]])), expected);
+    }
+
+    #[test]
+    fn around_a_line_are_all_that_come_near_to_it_and_few_more() {
+        let boxes = scattered(2.0);
+        let (from, along) = (DVec3::new(5.0, 90.0, 20.0), DVec3::new(0.6, -0.64, 0.48));
+        let tree = Tree::new(&boxes, &[]);
+        let rod = |far| found(&tree, Some(Rod::new(from, along, far)), Aabb::ALL);
+        // The corners of a box are within the half of its diagonal, of 2.7, of its middle.
+        let nearer = |far: f64| {
+            let is_near = |each: &Aabb| {
+                let (middle, _) = each.middle_and_half();
+                (middle - from).cross(along).length() < far
+            };
+            (0..200).filter(|&n| is_near(&boxes[n as usize])).collect::<Vec<u32>>()
+        };
+        assert!(nearer(10.0).len() > 5 && nearer(10.0).iter().all(|n| rod(10.0).contains(n)));
+        assert!(rod(10.0).len() < 100, "{} of 200", rod(10.0).len());
     }
 
     #[test]

@@ -6,16 +6,18 @@
 //! in the wedge of an edge keeps that wedge from being cut off.
 
 mod crowds;
+mod lines;
 mod wedge;
 
 use std::sync::Arc;
 
 use glam::DVec3;
 
-use crate::bvh::{Aabb, Kin, Tree};
+use crate::bvh::{Aabb, Kin, Rod, Target, Tree};
 use crate::error::Error;
 use crate::faces::{Faces, faces};
 use crate::ids::{Corner, Few};
+use crate::math::unit;
 use crate::memory;
 use crate::mesh::Mesh;
 use crate::options::{Options, Width};
@@ -27,6 +29,7 @@ use crate::watch::{Unwatched, Watch};
 use crate::weld::weld;
 
 use crowds::{Crowds, Search, crowds};
+use lines::Lines;
 pub use wedge::{Cut, Stretch, Wedge};
 
 /// What lies within so many tolerances of an edge, across it, rests on it.
@@ -65,6 +68,7 @@ pub struct Contacts {
     starts: Arc<[u32]>,
     tree: Arc<Tree>,
     crowds: Crowds,
+    lines: Lines,
     /// Within this distance, in mesh units, something touches.
     tolerance: f64,
 }
@@ -103,8 +107,11 @@ pub fn contacts(
     let kin = |rim: &Rim| crowds.kin(rim, rim.is_of_sheet(topology), reach);
     let kin: Vec<Kin> = if crowds.is_empty() { Vec::new() } else { places().map(kin).collect() };
     watch.worked(rims.len() * ASKED)?;
-    let tree = Tree::watched(&boxes, &kin, watch)?.into();
-    Ok(Contacts { rims, starts: starts.into(), tree, crowds, tolerance })
+    let lines = Lines::new(places().map(|rim| rim.ends), reach);
+    // Nobody asks for what runs along something outside of the mesh.
+    let line = |rim: &Rim| if rim.border.is_some() { lines.around(rim.ends) } else { Aabb::EMPTY };
+    let tree = Tree::watched(&boxes, &kin, watch)?.with_views(&[places().map(line).collect()]);
+    Ok(Contacts { rims, starts: starts.into(), tree: tree.into(), crowds, lines, tolerance })
 }
 
 /// Rims of the same ends, radius and kind next to each other, and where each such place begins, and
@@ -202,7 +209,7 @@ impl Contacts {
         let borders = rims.iter_mut().map(|rim| &mut rim.border).filter(|border| border.is_some());
         borders.for_each(|border| *border = name(*border));
         let (starts, tree) = (self.starts.clone(), self.tree.clone());
-        Contacts { rims, starts, tree, crowds: self.crowds.clone(), tolerance: self.tolerance }
+        Contacts { rims, starts, tree, crowds: self.crowds.clone(), ..*self }
     }
 
     /// How many lines may rest on the mesh.
@@ -295,8 +302,17 @@ impl Contacts {
     /// What may be looked for. All rims at one place come together: what does not depend on the fan
     /// that a rim ends is to be asked of the first alone.
     fn places(&self, search: Search) -> impl Iterator<Item = &[Rim]> {
-        let is_apart = self.crowds.apart(search, self.tolerance);
-        self.tree.overlapping_but(search.bounds(), is_apart).map(|place| {
+        let ([from, to], reach) = search.segment();
+        let rod = Rod::new(from, unit(to - from), reach + self.tolerance);
+        let is_line = matches!(search, Search::Along(_));
+        let line = if is_line { self.lines.around([from, to]) } else { Aabb::ALL };
+        let found = self.tree.near(Target {
+            bounds: around([from, to], reach),
+            views: [line],
+            rod: Some(rod),
+            is_out: self.crowds.apart(search, self.tolerance),
+        });
+        found.map(|place| {
             let [from, to] = [0, 1].map(|k| self.starts[place as usize + k] as usize);
             &self.rims[from..to]
         })

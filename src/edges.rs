@@ -136,6 +136,7 @@ pub fn edges(
             chamfered_at[twin] = edge;
         }
     }
+    hard.shrink();
     let spanned = spanned(view, topology, faces, &chamfered_at);
     let parted = parted(view, topology, faces, &hard, &chamfered_at);
     Ok(Edges { hard, chamfered_at, spanned, parted })

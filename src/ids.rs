@@ -134,6 +134,11 @@ impl<I: Id, T> IdVec<I, T> {
         I::new(self.items.len() - 1)
     }
 
+    /// Gives back what it has grown to beyond its length.
+    pub fn shrink(&mut self) {
+        self.items.shrink_to_fit();
+    }
+
     pub fn len(&self) -> usize {
         self.items.len()
     }

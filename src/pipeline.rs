@@ -26,7 +26,7 @@ use crate::refine::{
     stitches,
 };
 use crate::report::{Chamfered, EdgeVerdict, Totals};
-use crate::rests::rests;
+use crate::rests::{Most, Rests, rests};
 use crate::room::room;
 use crate::rounding::{Given as Rounds, Lessen, Rounding, Rows, Search, Triangles, rounding};
 use crate::scale::{Scale, Space};
@@ -454,16 +454,21 @@ fn make(
 ) -> Result<Made, Error> {
     let view = space.measured;
     let (surface, chamfers) = (shape.surface(view), shape.chamfers());
-    let Shape { weld, topology, faces, contacts, edges, .. } = shape;
+    let Shape { weld, topology, contacts, .. } = shape;
     let mut ask = || done(None);
     let watch = Caller::new(&mut ask);
-    let rests = rests(view, topology, faces, edges, contacts, &watch)?;
     let deep = &deep(topology, chamfers.sectors, &watch)?;
-    let asked = &Given { surface, chamfers, offsets, rests: &rests, deep, threads };
+    let asked = &Given { surface, chamfers, offsets, rests: &Rests::default(), deep, threads };
     let room = evenness(asked, room(asked, &watch)?, options.evenness.into(), &watch)?;
     let offsets = &*narrowed(surface, chamfers.sectors, offsets, &room.fronts, &watch)?;
-    let given = &Given { offsets, ..*asked };
-    let limits = limits(given, &room.shares(), options.verify, &watch)?;
+    let shares = room.shares();
+    // The stages to come take far more memory than these, so what they do not read is given back.
+    drop(room);
+    let most = Most { offsets, shares: &shares };
+    let rests = &rests(surface, chamfers, contacts, most, &watch)?;
+    let given = &Given { offsets, rests, ..*asked };
+    let limits = limits(given, &shares, options.verify, &watch)?;
+    drop(shares);
     let placement = &limits.placement;
     done(Some(Stage::Limits))?;
     let mut ask = || done(None);

@@ -2,16 +2,19 @@
 
 use glam::DVec3;
 
+use crate::chamfers::Chamfers;
 use crate::contacts::{ASKED, Contacts, Cut, Stretch, Wedge};
-use crate::edges::Edges;
+use crate::edges::HardEdge;
 use crate::error::Error;
-use crate::faces::Faces;
-use crate::ids::{Edge, IdVec};
-use crate::topology::Topology;
-use crate::view::View;
+use crate::ids::{Edge, IdVec, Sector};
+use crate::math::unit;
+use crate::offsets::Offset;
+use crate::strips;
+use crate::surface::Surface;
 use crate::watch::Watch;
 
-/// For each hard edge, the stretches of border in the wedge that it loses at full width.
+/// For each hard edge, the stretches of border in the wedge that it loses where its
+/// chamfer is as wide as there is room for.
 #[derive(Default)]
 pub struct Rests {
     /// `#rests`, edge by edge: each with the wedge that it lies in.
@@ -22,35 +25,54 @@ pub struct Rests {
     tolerance: f64,
 }
 
-/// What rests in the wedges that chamfers of full width cut off.
+/// What rests in the wedges that chamfers cut off that are as wide as there is room for. At full width
+/// it would be far more where many edges meet, each of which has hardly any room.
 ///
 /// # Errors
 /// [`Error::Cancelled`] where the watch stops it.
 pub fn rests(
-    view: &View,
-    topology: &Topology,
-    faces: &Faces,
-    edges: &Edges,
+    surface: Surface,
+    chamfers: Chamfers,
     contacts: &Contacts,
+    most: Most,
     watch: &dyn Watch,
 ) -> Result<Rests, Error> {
     let mut rests = Rests { tolerance: contacts.tolerance(), ..Rests::default() };
     if contacts.is_empty() {
         return Ok(rests);
     }
-    for edge in edges.hard.iter() {
+    let Surface { view, topology, faces } = surface;
+    for edge in chamfers.edges.hard.iter() {
         if edge.skipped.is_none() {
-            rests.stretches.extend(contacts.beside(
-                view,
-                topology,
-                faces,
-                (edge.sides, edge.widest()),
-            ));
+            let width = edge.widest().min(most.width(surface, chamfers, edge));
+            rests.stretches.extend(contacts.beside(view, topology, faces, (edge.sides, width)));
         }
         rests.ends.push(rests.stretches.len() as u32);
         watch.worked(ASKED)?;
     }
     Ok(rests)
+}
+
+/// How far sectors may go.
+#[derive(Clone, Copy)]
+pub struct Most<'a> {
+    /// `#sectors`.
+    pub offsets: &'a IdVec<Sector, Offset>,
+    /// `#sectors`: of these.
+    pub shares: &'a IdVec<Sector, f64>,
+}
+
+impl Most<'_> {
+    /// The farthest that either side of an edge is pulled from it at either end.
+    fn width(self, surface: Surface, chamfers: Chamfers, edge: &HardEdge) -> f64 {
+        let [from, to] = [edge.sides[0], edge.sides[0].next()].map(|c| surface.view.position_at(c));
+        let along = unit(to - from);
+        let sectors = strips::corners(edge).map(|corner| chamfers.sectors.sector_of[corner]);
+        let pulled = sectors.into_iter().filter(|sector| sector.is_some()).map(|sector| {
+            (self.offsets[sector].vector * self.shares[sector]).cross(along).length()
+        });
+        pulled.fold(0.0, f64::max)
+    }
 }
 
 impl Rests {

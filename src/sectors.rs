@@ -141,6 +141,7 @@ pub fn sectors(
     for &corner in &edges.spanned {
         add_whole(view, topology, &mut sectors, corner);
     }
+    sectors.fans.shrink();
     mark_kept(edges, &mut sectors);
     join_rings(topology, &mut sectors, watch)?;
     mark_meeting_borders(view, topology, contacts, &mut sectors, watch)?;

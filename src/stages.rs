@@ -15,7 +15,7 @@ use crate::offsets::{Offset, narrowed, offsets};
 use crate::options::{Options, Verify, Width};
 use crate::patches::{Patches, patches};
 use crate::placement::Placement;
-use crate::rests::{Rests, rests};
+use crate::rests::{Most, Rests, rests};
 use crate::room::{Room, room};
 use crate::scale::Space;
 use crate::sectors::{Sectors, sectors};
@@ -68,10 +68,9 @@ pub fn stages_of_mesh<'a>(mesh: Mesh<'a>, options: &Options) -> Stages<'a> {
     let surface = Surface { view: &view, topology: &topology, faces: &faces };
     let chamfers = Chamfers { edges: &edges, sectors: &sectors };
     let offsets = offsets(surface, chamfers, None, (&threads, &Unwatched)).unwrap();
-    let rests = rests(&view, &topology, &faces, &edges, &contacts, &Unwatched).unwrap();
     let deep = deep(&topology, &sectors, &Unwatched).unwrap();
     let (room, narrowed) = {
-        let (offsets, rests, deep, threads) = (&offsets, &rests, &deep, &threads);
+        let (offsets, rests, deep, threads) = (&offsets, &Rests::default(), &deep, &threads);
         let given = &Given { surface, chamfers, offsets, rests, deep, threads };
         let room = room(given, &Unwatched).unwrap();
         let room = evenness(given, room, options.evenness.into(), &Unwatched).unwrap();
@@ -79,6 +78,8 @@ pub fn stages_of_mesh<'a>(mesh: Mesh<'a>, options: &Options) -> Stages<'a> {
             narrowed(surface, &sectors, offsets, &room.fronts, &Unwatched).unwrap().into_owned();
         (room, narrowed)
     };
+    let most = Most { offsets: &narrowed, shares: &room.shares() };
+    let rests = rests(surface, chamfers, &contacts, most, &Unwatched).unwrap();
     Stages {
         view,
         weld,
@@ -225,10 +226,12 @@ mod tests {
     fn what_may_rest_on_something_is_gathered_and_asked_under_a_watch() {
         let open = shapes::open_box();
         let stages = stages_of(&open, 0.05);
-        let Stages { view, topology, faces, edges, .. } = &stages;
+        let Stages { view, topology, faces, edges, room, narrowed, .. } = &stages;
+        let (surface, chamfers) = (stages.surface(), stages.chamfers());
         assert!(times(|watch| contacts(view, topology, faces, watch)) >= 1);
         let found = contacts(view, topology, faces, &Unwatched).unwrap();
-        let asked = times(|watch| rests(view, topology, faces, edges, &found, watch));
+        let most = Most { offsets: narrowed, shares: &room.shares() };
+        let asked = times(|watch| rests(surface, chamfers, &found, most, watch));
         assert_eq!(asked, edges.hard.len());
     }
 }

@@ -121,6 +121,23 @@ fn a_call_takes_no_more_memory_than_it_asked_for() {
     }
     // One test: what is counted is counted for all.
     edges_that_get_vertices_take_no_more();
+    what_a_stage_leaves_behind_is_given_back();
+}
+
+/// The most bytes for each source triangle of a field of cubes that is done as a whole: all its edges
+/// are hard, and each triangle becomes four.
+const MOST_PER_TRIANGLE: usize = 1200;
+
+/// So many cubes are too few to be done in blocks.
+fn what_a_stage_leaves_behind_is_given_back() {
+    let cubes = shapes::cube_field(2400);
+    for verify in [Verify::Fast, Verify::Full] {
+        let options = Options::default().with_width(Width::Units(0.02)).with_verify(verify);
+        let [taken, _] = taken_and_asked(&cubes.as_mesh(), &options);
+        let each = taken / (cubes.indices.len() / 3);
+        println!("undivided cubes, {verify:?}: {each} bytes a triangle");
+        assert!(each <= MOST_PER_TRIANGLE, "{verify:?}: {each}");
+    }
 }
 
 /// Cubes on whose edges something rests in the middle: as many vertices as a mesh may get.

@@ -5,7 +5,7 @@ mod shaded;
 
 use chamfer::check::{Rule, assert_sound, check};
 use chamfer::{
-    Chamfered, EdgeVerdict, MeshBuffers, Options, Outcome, Verify, Width, chamfer, shapes,
+    Chamfered, EdgeVerdict, MeshBuffers, Options, Outcome, UvBuffer, Verify, Width, chamfer, shapes,
 };
 use glam::{DQuat, DVec3};
 
@@ -144,6 +144,21 @@ fn texture_coordinates_read_past_a_triangle_stay_finite() {
     let result = chamfered(&cube, Width::Units(0.3));
     assert!(result.mesh.uvs[0].values.iter().all(|value| value.is_finite()));
     assert_eq!(check(&cube.as_mesh(), &result, Verify::Fast).count(Rule::Finite), 0);
+}
+
+/// The same where the vertices go so far along a strip of triangles that the values leave the numbers.
+#[test]
+fn texture_coordinates_of_a_strip_that_are_read_past_a_triangle_stay_finite() {
+    let mut strip = shapes::aligned_strip();
+    let values = (0..strip.positions.len()).flat_map(|vertex| {
+        let sign = if vertex % 2 == 0 { 1.0 } else { -1.0 };
+        [3e38 * sign, 1e38 * sign]
+    });
+    strip.uvs[0] = UvBuffer { components: 2, values: values.collect() };
+    let result = chamfered(&strip, Width::Units(0.9));
+    assert!(result.totals.chamfered + result.totals.narrowed > 0);
+    assert!(result.mesh.uvs[0].values.iter().all(|value| value.is_finite()));
+    assert_eq!(check(&strip.as_mesh(), &result, Verify::Fast).count(Rule::Finite), 0);
 }
 
 /// Five triangles on a grid, three of them on one edge, whose chamfers are a few roundings wide.

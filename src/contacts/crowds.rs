@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{Rim, around, distance_between};
+use super::{Rim, distance_between};
 use crate::bvh::{Aabb, Kin};
 use crate::ids::IdVec;
 use crate::intersect::Around;
@@ -97,12 +97,12 @@ pub enum Search {
 }
 
 impl Search {
-    /// A box that what is looked for overlaps.
-    pub fn bounds(self) -> Aabb {
+    /// What is looked for comes within a distance of a segment.
+    pub fn segment(self) -> ([DVec3; 2], f64) {
         match self {
-            Search::Beside(edge, reach) => around(edge, reach),
-            Search::Through(point) => around([point; 2], 0.0),
-            Search::Along(border) => around(border, 0.0),
+            Search::Beside(edge, reach) => (edge, reach),
+            Search::Through(point) => ([point; 2], 0.0),
+            Search::Along(border) => (border, 0.0),
         }
     }
 
