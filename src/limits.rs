@@ -332,7 +332,7 @@ fn in_turn(
             let [lost, rest @ ..] =
                 [lost, near, way.length(), kept, far].map(|l| (l as f32).to_bits());
             // Those of a shape that is the same on two sides are told apart by nothing else.
-            (Reverse(lost), rest, goal.to_array().map(in_order))
+            (Reverse(lost), rest, Reverse(goal.to_array().map(in_order)))
         });
     }
     sectors
