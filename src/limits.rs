@@ -461,6 +461,17 @@ mod tests {
     }
 
     #[test]
+    fn on_a_table_some_fronts_give_way() {
+        let table = shapes::table();
+        let stages = stages_of(&table, 0.2);
+        let limits = stages.limits(Verify::Fast);
+        let turned = |s: &Sector| *limits.placement.offset(*s) != stages.narrowed[*s];
+        let turned: Vec<Sector> = stages.narrowed.ids().filter(turned).collect();
+        assert_eq!(turned.len(), 8);
+        assert!(turned.iter().all(|&sector| limits.reason[sector] == Reason::Folds));
+    }
+
+    #[test]
     fn places_that_mirror_each_other_are_told_apart() {
         let numbers = [-2.0, -0.5, -0.0, 0.0, 0.5, 2.0].map(in_order);
         assert!(numbers.is_sorted() && numbers[2] == numbers[3], "{numbers:?}");
