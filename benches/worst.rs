@@ -35,6 +35,10 @@ const SHAPES: &[(&str, u32, Make)] = &[
     // So many quads each way.
     ("hills", 300, |size| worst::terrain(size, false)),
     ("hills with a texture", 300, |size| worst::terrain(size, true)),
+    // So many holes each way.
+    ("sieve", 316, worst::sieve),
+    ("disc", 100_000, shapes::prism),
+    ("bar", 12_500, worst::bar),
     ("slivers", 8_000, worst::slivers),
     ("huge cubes", 8_000, |size| worst::placed(shapes::cube_field(size), 1e30, 0.0)),
     ("tiny cubes", 8_000, |size| worst::placed(shapes::cube_field(size), 1e-30, 0.0)),

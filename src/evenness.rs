@@ -353,7 +353,7 @@ mod tests {
     #[test]
     fn what_is_not_pulled_at_all_has_no_say_in_what_it_runs_on_into() {
         let block = leaning_block();
-        let stages = stages_of(&block, 0.05);
+        let stages = stages_of(&block, 0.025);
         let given = given_of(&stages);
         let [left, right] = in_front(&stages);
         let mut room = room(&given);

@@ -326,13 +326,22 @@ fn in_turn(
         let center = given.surface.view.center();
         sectors.sort_by_cached_key(|&sector| {
             let (kept, lost) = (placement.share[sector], room[sector] - placement.share[sector]);
-            let distance = placement.base(sector).distance(center);
-            let reach = given.offsets[sector].vector.length();
-            let [lost, rest @ ..] = [lost, distance, reach, kept].map(|l| (l as f32).to_bits());
-            (Reverse(lost), rest)
+            let (base, way) = (placement.base(sector), given.offsets[sector].vector);
+            let goal = base + way;
+            let [near, far] = [base, goal].map(|at| at.distance(center));
+            let [lost, rest @ ..] =
+                [lost, near, way.length(), kept, far].map(|l| (l as f32).to_bits());
+            // Those of a shape that is the same on two sides are told apart by nothing else.
+            (Reverse(lost), rest, Reverse(goal.to_array().map(in_order)))
         });
     }
     sectors
+}
+
+/// Bits that sort as the numbers do, rounded, whatever their signs.
+fn in_order(number: f64) -> u32 {
+    let bits = (number as f32 + 0.0).to_bits();
+    if bits >> 31 == 0 { bits | 1 << 31 } else { !bits }
 }
 
 /// What is bad of all that depends on the sector at this share, which it gets; none if nothing is.
@@ -449,6 +458,45 @@ mod tests {
             let is_near = |one: f64, other: f64| (one - other).abs() < 0.001;
             assert!(is_near(pulled[0], narrow) && is_near(pulled[1], wide), "{taken}: {pulled:?}");
         }
+    }
+
+    #[test]
+    fn on_a_table_some_fronts_give_way() {
+        let table = shapes::table();
+        let stages = stages_of(&table, 0.2);
+        let limits = stages.limits(Verify::Fast);
+        let turned = |s: &Sector| *limits.placement.offset(*s) != stages.narrowed[*s];
+        let turned: Vec<Sector> = stages.narrowed.ids().filter(turned).collect();
+        assert_eq!(turned.len(), 8);
+        assert!(turned.iter().all(|&sector| limits.reason[sector] == Reason::Folds));
+    }
+
+    #[test]
+    fn places_that_mirror_each_other_are_told_apart() {
+        let numbers = [-2.0, -0.5, -0.0, 0.0, 0.5, 2.0].map(in_order);
+        assert!(numbers.is_sorted() && numbers[2] == numbers[3], "{numbers:?}");
+        assert!(numbers[1] < numbers[2] && numbers[3] < numbers[4], "{numbers:?}");
+    }
+
+    // .---.     all corners of a cube lose the same, as far from the middle: by where they go
+    // |   |     each has a turn of its own, whatever number it has
+    // '---'
+    #[test]
+    fn whose_turn_it_is_does_not_depend_on_numbers() {
+        let cube = shapes::plain_cube(1.0);
+        let mut other = cube.clone();
+        let (first, rest) = cube.indices.split_at(cube.indices.len() / 2);
+        other.indices = [rest, first].concat();
+        let goals = |mesh: &MeshBuffers| -> Vec<[i32; 3]> {
+            let stages = stages_of(mesh, 0.1);
+            let (given, placement) = (given_of(&stages), stages.placed(0.5));
+            let room = IdVec::filled(1.0, stages.offsets.len());
+            let turns = in_turn(&given, &room, &placement, room.ids());
+            let goal = |s: Sector| placement.base(s) + stages.offsets[s].vector;
+            let round = |at: glam::DVec3| at.to_array().map(|x| (x * 1000.0).round() as i32);
+            turns.into_iter().map(|sector| round(goal(sector))).collect()
+        };
+        assert_eq!(goals(&cube), goals(&other));
     }
 
     #[test]

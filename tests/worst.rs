@@ -63,6 +63,13 @@ fn hills() {
 }
 
 #[test]
+fn faces_of_many_triangles() {
+    check("sieve", &worst::sieve(6));
+    check("bar", &worst::bar(50));
+    check("disc", &shapes::prism(300));
+}
+
+#[test]
 fn slivers() {
     check("slivers", &worst::slivers(8));
 }

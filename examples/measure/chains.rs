@@ -18,25 +18,35 @@ pub struct Chains {
     pub uneven: usize,
     /// Of these, with a verdict that says why: something rests there, or it would fold.
     pub told: usize,
+    /// Of the uneven ones, those that are even but for edges that taper to a point by design.
+    pub tapering: usize,
     /// Less than half.
     pub by_half: usize,
 }
 
 pub fn chains(mesh: &Mesh, after: &Chamfered) -> Chains {
     let ground = Ground::new(mesh);
-    let edges: Vec<Edge> = after
+    let mut edges: Vec<Edge> = after
         .verdicts
         .iter()
         .filter(|verdict| verdict.outcome != Outcome::Skipped)
         .map(|verdict| Edge {
             ends: verdict.vertices.map(|vertex| ground.place[vertex as usize]),
+            widths: verdict.widths.map(f64::from),
             width: f64::from(verdict.widths[0] + verdict.widths[1]) / 2.0,
+            tapers: false,
             is_told: !matches!(verdict.reason, Reason::None | Reason::NoRoom),
         })
         .collect();
     let mut chain_of: Vec<usize> = (0..edges.len()).collect();
-    for (place, around) in around(&edges) {
-        for &[one, other] in straight(&ground.points, &edges, place, &around).iter() {
+    let around = around(&edges);
+    for edge in &mut edges {
+        edge.tapers = (0..2).any(|end| {
+            edge.widths[end] < 0.01 * edge.widths[1 - end] && around[&edge.ends[end]].len() == 1
+        });
+    }
+    for (&place, around) in &around {
+        for &[one, other] in straight(&ground.points, &edges, place, around).iter() {
             let [one, other] = [one, other].map(|edge| first_of(&chain_of, edge));
             chain_of[one.max(other)] = one.min(other);
         }
@@ -47,19 +57,28 @@ pub fn chains(mesh: &Mesh, after: &Chamfered) -> Chains {
     }
     let mut counts = Chains::default();
     for chain in chains.values().filter(|chain| chain.len() > 1) {
-        let widths = || chain.iter().map(|edge| edge.width);
-        let share = widths().fold(f64::INFINITY, f64::min) / widths().fold(0.0, f64::max);
+        let (share, rest) = (evenness(chain, |_| true), evenness(chain, |edge| !edge.tapers));
         counts.all += 1;
         counts.uneven += usize::from(share < 0.9);
         counts.told += usize::from(share < 0.9 && chain.iter().any(|edge| edge.is_told));
+        counts.tapering += usize::from(share < 0.9 && rest >= 0.9);
         counts.by_half += usize::from(share < 0.5);
     }
     counts
 }
 
+/// The share of the widest of some edges that the narrowest has; 1 without any.
+fn evenness(chain: &[&Edge], is_asked: impl Fn(&Edge) -> bool) -> f64 {
+    let widths = || chain.iter().filter(|edge| is_asked(edge)).map(|edge| edge.width);
+    let (least, most) = (widths().fold(f64::INFINITY, f64::min), widths().fold(0.0, f64::max));
+    if most > 0.0 { least / most } else { 1.0 }
+}
+
 struct Edge {
     ends: [usize; 2],
+    widths: [f64; 2],
     width: f64,
+    tapers: bool,
     is_told: bool,
 }
 

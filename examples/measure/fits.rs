@@ -6,7 +6,7 @@
 //! which counts as room.
 
 use chamfer::check::check;
-use chamfer::{Chamfered, Mesh, Outcome, Reason, Verify};
+use chamfer::{Chamfered, EdgeVerdict, Mesh, Outcome, Reason, Verify};
 use glam::DVec3;
 
 use super::ground::{Ground, next, previous};
@@ -30,6 +30,9 @@ pub struct Fits {
     pub has_room: f64,
     /// Of those that have room.
     pub full: f64,
+    /// Of those too, what is not full and would be if nothing of a face had to stay, if widths could
+    /// jump, and if both were so.
+    pub held: [f64; 3],
     pub all_full: f64,
     /// Edges with room, and how many have one end more than a tenth wider than the other: without
     /// and with a verdict that says why.
@@ -41,7 +44,8 @@ pub struct Fits {
     pub lopsided: usize,
 }
 
-pub fn fits(mesh: &Mesh, after: &Chamfered) -> Fits {
+/// `freed`: the same mesh with a least breadth of 0, with an evenness of 0, and with both.
+pub fn fits(mesh: &Mesh, after: &Chamfered, freed: &[Chamfered; 3]) -> Fits {
     let regions = Regions::new(Ground::new(mesh));
     let width = f64::from(after.width);
     let mut fits = Fits::default();
@@ -51,7 +55,7 @@ pub fn fits(mesh: &Mesh, after: &Chamfered) -> Fits {
             fits.lopsided += usize::from(end[0].max(end[1]) > 2.02 * end[0].min(end[1]));
         }
     }
-    for verdict in &after.verdicts {
+    for (number, verdict) in after.verdicts.iter().enumerate() {
         let ground = &regions.ground;
         let [from, to] = verdict.vertices.map(|vertex| ground.place[vertex as usize]);
         let length = ground.points[from].distance(ground.points[to]);
@@ -61,9 +65,11 @@ pub fn fits(mesh: &Mesh, after: &Chamfered) -> Fits {
         if regions.has_room([from, to], width) {
             fits.has_room += length;
             fits.full += if is_full { length } else { 0.0 };
+            for (held, freed) in fits.held.iter_mut().zip(freed) {
+                *held += if !is_full && is_full_in(freed, number, verdict) { length } else { 0.0 };
+            }
             let [one, other] = verdict.widths;
-            let tapers = is_full && one.min(other) < 0.01 * one.max(other);
-            let is_uneven = !tapers && (one - other).abs() > 0.1 * one.max(other);
+            let is_uneven = !tapers(verdict) && (one - other).abs() > 0.1 * one.max(other);
             // Where something rests on an edge, or it would fold, its verdict says so.
             let is_told = !matches!(verdict.reason, Reason::None | Reason::NoRoom);
             fits.roomy += 1;
@@ -72,6 +78,18 @@ pub fn fits(mesh: &Mesh, after: &Chamfered) -> Fits {
         }
     }
     fits
+}
+
+/// Whether an edge is full in another result.
+fn is_full_in(other: &Chamfered, number: usize, verdict: &EdgeVerdict) -> bool {
+    let same = other.verdicts.get(number).filter(|same| same.vertices == verdict.vertices);
+    same.is_some_and(|same| same.outcome == Outcome::Full)
+}
+
+/// Whether an edge comes down to a point at one end by design.
+pub fn tapers(verdict: &EdgeVerdict) -> bool {
+    let [one, other] = verdict.widths;
+    verdict.outcome == Outcome::Full && one.min(other) < 0.01 * one.max(other)
 }
 
 /// The flat faces of a mesh.

@@ -6,7 +6,8 @@
 //!
 //! `--reach` also tells how wide the chamfers could be where neighbours leave them half of the way
 //! to each other: width that is lost beyond that is lost to the triangles, not to the shape; how much
-//! of what has room for the whole width gets it; and how even the widths are.
+//! of what has room for the whole width gets it, and would if nothing of a face had to stay or widths
+//! could jump; and how even the widths are, but for edges that taper to a point by design.
 //! `--compare` also checks each result as `chamfer check` does, by what went in and what came out
 //! alone. `--unlike` gives each vertex and each submesh a factor at random, some of them 0, and takes
 //! a range of angles, a convexity and a width mode at random for each file. `--normals` counts by
@@ -25,7 +26,7 @@ use std::path::{Path, PathBuf};
 
 use chains::{Chains, chains};
 use chamfer::check::{check, compare};
-use chamfer::{Chamfered, Convexity, Mesh, Options, Verify, Width, WidthMode};
+use chamfer::{Chamfered, Convexity, Mesh, Options, Verify, Width, WidthMode, chamfer};
 use fits::Fits;
 use measure::{FOLDER, Measured, Sum, Unlike, measure_with, models};
 use normals::Angles;
@@ -87,6 +88,15 @@ impl Request {
         request
     }
 
+    fn options(&self, percent: f32) -> Options {
+        Options::default()
+            .with_width(Width::PercentOfExtent(percent))
+            .with_verify(self.verify)
+            .with_evenness(self.evenness)
+            .with_segments(self.segments)
+            .with_profile(self.profile)
+    }
+
     fn paths(&self) -> Vec<PathBuf> {
         let mut paths = models(Path::new(&self.folder));
         paths.retain(|path| {
@@ -136,6 +146,12 @@ fn print_fits(all: &[Fits]) {
         share(&|fits| fits.all_full),
         100.0 * full / room,
     );
+    let [breadth, evenness, both] =
+        [0, 1, 2].map(|freed| 100.0 * (full + share(&|fits: &Fits| fits.held[freed])) / room);
+    println!(
+        "of that, with what the least breadth alone holds back {breadth:.2} %, with what evenness \
+         alone does {evenness:.2} %, with what both do {both:.2} %",
+    );
     println!(
         "uneven: of {roomy} edges with room {:.2} %, and {:.2} % with a verdict that says why; \
          lopsided: of {ends} ends {:.2} %",
@@ -152,9 +168,11 @@ fn print_chains(all: &[Chains]) {
     let percent = |part: usize| 100.0 * part as f64 / count.max(1) as f64;
     println!(
         "chains: of {count} straight ones {:.1} % have less than 0.9 of their widest somewhere \
-         ({:.1} % without a verdict that says why), {:.1} % less than half",
+         ({:.1} % without a verdict that says why; {:.1} % where an edge tapers by design), {:.1} % \
+         less than half",
         percent(sum(|chains| chains.uneven)),
         percent(sum(|chains| chains.uneven - chains.told)),
+        percent(sum(|chains| chains.tapering)),
         percent(sum(|chains| chains.by_half)),
     );
 }
@@ -168,12 +186,23 @@ struct More {
     angles: Angles,
 }
 
+/// The same where nothing of a face has to stay, where widths may jump, and where both is so.
+fn freed(options: Options) -> [Options; 3] {
+    let tight = options.clone().with_least_breadth(0.0);
+    let both = tight.clone().with_evenness(0.0);
+    [tight, options.with_evenness(0.0), both]
+}
+
 /// Measures a file, and prints what is wrong with it.
 fn of_file(request: &Request, path: &Path, percent: f32, more: &mut More) -> Vec<Measured> {
     let inspect = |before: &Mesh, after: &Chamfered| {
         if request.is_reach_asked && after.totals.hard_edges > 0 {
             more.reaches.push(reach::reach(before, after));
-            more.fits.push(fits::fits(before, after));
+            let freed = freed(request.options(percent));
+            let [tight, jumping, both] = freed.map(|options| chamfer(before, &options));
+            if let (Ok(tight), Ok(jumping), Ok(both)) = (tight, jumping, both) {
+                more.fits.push(fits::fits(before, after, &[tight, jumping, both]));
+            }
             more.chains.push(chains(before, after));
         }
         if request.are_normals_asked {
@@ -183,12 +212,7 @@ fn of_file(request: &Request, path: &Path, percent: f32, more: &mut More) -> Vec
             print_compared(path, percent, before, after);
         }
     };
-    let options = Options::default()
-        .with_width(Width::PercentOfExtent(percent))
-        .with_verify(request.verify)
-        .with_evenness(request.evenness)
-        .with_segments(request.segments)
-        .with_profile(request.profile);
+    let options = request.options(percent);
     let measured = match request.unlike {
         Some(seed) => {
             let mut noise = Noise(path.as_os_str().len() as u32 ^ seed.wrapping_mul(2_654_435_761));

@@ -264,3 +264,58 @@ pub fn turned_quads(count: u32) -> MeshBuffers {
     }
     shaded(&points, &indices, FLAT)
 }
+
+/// A plate with so many square holes each way: above and below a face with all of them.
+pub fn sieve(across: u32) -> MeshBuffers {
+    let row = across + 1;
+    let level = row * row + 4 * across * across;
+    let points = (0..2 * level).map(|place| {
+        let (place, height) = (place % level, (place / level) as f32 / 4.0);
+        if place < row * row {
+            return [(place % row) as f32, height, (place / row) as f32];
+        }
+        let (cell, corner) = ((place - row * row) / 4, (place - row * row) % 4);
+        let [x, z] = [[0.3, 0.3], [0.7, 0.3], [0.7, 0.7], [0.3, 0.7]][corner as usize];
+        [(cell % across) as f32 + x, height, (cell / across) as f32 + z]
+    });
+    let quad = |[a, b, c, d]: [u32; 4]| [a, b, c, a, c, d];
+    let mut indices = Vec::new();
+    // Points of the lower level: around a cell, and around its hole.
+    for cell in 0..across * across {
+        let first = cell / across * row + cell % across;
+        let (outer, hole) =
+            ([first, first + 1, first + row + 1, first + row], row * row + 4 * cell);
+        for [one, other] in [[0, 1], [1, 2], [2, 3], [3, 0]] {
+            let [a, b] = [outer[one as usize], outer[other as usize]];
+            let [c, d] = [hole + other, hole + one];
+            indices.extend(quad([a, b, c, d]));
+            indices.extend(quad([a, d, c, b].map(|point| point + level)));
+            indices.extend(quad([d, c, c + level, d + level]));
+        }
+    }
+    let rim = |step: u32| [step, row * step + across, row * row - 1 - step, row * (across - step)];
+    for (step, side) in (0..across).flat_map(|step| (0..4).map(move |side| (step, side))) {
+        let [from, to] = [step, step + 1].map(|step| rim(step)[side]);
+        indices.extend(quad([to, from, from + level, to + level]));
+    }
+    shaded(&points.collect::<Vec<Point>>(), &indices, FLAT)
+}
+
+/// A bar of so many pieces, one behind the other.
+pub fn bar(pieces: u32) -> MeshBuffers {
+    let profile = [[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]];
+    let point = |place: u32| {
+        let [y, z] = profile[place as usize % 4];
+        [(place / 4) as f32 / 4.0, y, z]
+    };
+    let points: Vec<Point> = (0..4 * (pieces + 1)).map(point).collect();
+    let quad = |[a, b, c, d]: [u32; 4]| [a, b, c, a, c, d];
+    let around = (0..pieces).flat_map(|piece| (0..4).map(move |side| (4 * piece, side)));
+    let sides = around.flat_map(|(first, side)| {
+        let [a, b] = [first + side, first + (side + 1) % 4];
+        quad([a, b, b + 4, a + 4])
+    });
+    let end = 4 * pieces;
+    let ends = quad([3, 2, 1, 0]).into_iter().chain(quad([0, 1, 2, 3].map(|k| end + k)));
+    shaded(&points, &sides.chain(ends).collect::<Vec<u32>>(), FLAT)
+}
