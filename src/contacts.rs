@@ -32,6 +32,9 @@ use crowds::{Crowds, Search, crowds};
 use lines::Lines;
 pub use wedge::{Cut, Stretch, Wedge};
 
+/// Of fewer places to look at, boxes tell fast enough which are near.
+const MANY: usize = 1024;
+
 /// What lies within so many tolerances of an edge, across it, rests on it.
 const HOLD_REACH: f64 = 2.0;
 
@@ -69,6 +72,8 @@ pub struct Contacts {
     tree: Arc<Tree>,
     crowds: Crowds,
     lines: Lines,
+    /// Whether lines have a say in what is found, beside boxes.
+    is_many: bool,
     /// Within this distance, in mesh units, something touches.
     tolerance: f64,
 }
@@ -110,8 +115,13 @@ pub fn contacts(
     let lines = Lines::new(places().map(|rim| rim.ends), reach);
     // Nobody asks for what runs along something outside of the mesh.
     let line = |rim: &Rim| if rim.border.is_some() { lines.around(rim.ends) } else { Aabb::EMPTY };
-    let tree = Tree::watched(&boxes, &kin, watch)?.with_views(&[places().map(line).collect()]);
-    Ok(Contacts { rims, starts: starts.into(), tree: tree.into(), crowds, lines, tolerance })
+    let mut tree = Tree::watched(&boxes, &kin, watch)?;
+    let is_many = boxes.len() >= MANY;
+    if is_many {
+        tree = tree.with_views(&[places().map(line).collect()]);
+    }
+    let starts = starts.into();
+    Ok(Contacts { rims, starts, tree: tree.into(), crowds, lines, is_many, tolerance })
 }
 
 /// Rims of the same ends, radius and kind next to each other, and where each such place begins, and
@@ -303,13 +313,14 @@ impl Contacts {
     /// that a rim ends is to be asked of the first alone.
     fn places(&self, search: Search) -> impl Iterator<Item = &[Rim]> {
         let ([from, to], reach) = search.segment();
-        let rod = Rod::new(from, unit(to - from), reach + self.tolerance);
         let is_line = matches!(search, Search::Along(_));
-        let line = if is_line { self.lines.around([from, to]) } else { Aabb::ALL };
+        let is_long = self.is_many && from != to;
+        let rod = is_long.then(|| Rod::new(from, unit(to - from), reach + self.tolerance));
+        let line = if is_line && self.is_many { self.lines.around([from, to]) } else { Aabb::ALL };
         let found = self.tree.near(Target {
             bounds: around([from, to], reach),
             views: [line],
-            rod: Some(rod),
+            rod,
             is_out: self.crowds.apart(search, self.tolerance),
         });
         found.map(|place| {
