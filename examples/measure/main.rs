@@ -188,8 +188,8 @@ struct More {
 
 /// The same where nothing of a face has to stay, where widths may jump, and where both is so.
 fn freed(options: Options) -> [Options; 3] {
-    let tight = options.clone().with_least_breadth(0.0);
-    let both = tight.clone().with_evenness(0.0);
+    let tight = options.with_least_breadth(0.0);
+    let both = tight.with_evenness(0.0);
     [tight, options.with_evenness(0.0), both]
 }
 
