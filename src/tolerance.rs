@@ -124,3 +124,7 @@ pub const LEAST_TURN: f64 = 1e-3;
 
 /// Between directions whose sine is less than this, the share of the turn is that of the way.
 pub const LEAST_SLERP_SINE: f64 = 1e-6;
+
+/// An edge that has this share of the width asked for has all of it: of a width of a hundredth of the
+/// mesh, rounding to single precision is a hundred-thousandth.
+pub const FULL_SHARE: f64 = 1.0 - 1e-5;
