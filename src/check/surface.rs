@@ -36,6 +36,8 @@ pub(super) struct Surface<'a> {
     cluster_of: Vec<u32>,
     /// Sorted, so that those of one edge stand together.
     half_edges: Vec<HalfEdge>,
+    /// How far a position may be off by rounding alone, in mesh units.
+    rounding: f64,
 }
 
 impl<'a> Surface<'a> {
@@ -53,7 +55,7 @@ impl<'a> Surface<'a> {
             }
         }
         half_edges.sort_unstable();
-        Surface { mesh, cluster_of, half_edges }
+        Surface { mesh, cluster_of, half_edges, rounding: rounding(mesh.positions) }
     }
 
     /// The half-edges of each welded edge: first those in one direction, then the others.
@@ -91,8 +93,7 @@ impl<'a> Surface<'a> {
 
     /// How far a position may be off by rounding alone, in mesh units.
     pub fn rounding(&self) -> f64 {
-        let largest = self.mesh.positions.as_flattened().iter().map(|along| along.abs());
-        (ROUNDING * f64::from(largest.fold(0.0, f32::max))).max(LEAST_ROUNDING)
+        self.rounding
     }
 
     /// The cluster of a corner: the first vertex at its position.
@@ -159,6 +160,11 @@ impl<'a> Surface<'a> {
 
 fn is_non_manifold((a, b): &(&[HalfEdge], &[HalfEdge])) -> bool {
     a.len() + b.len() > 2
+}
+
+fn rounding(positions: &[[f32; 3]]) -> f64 {
+    let largest = positions.as_flattened().iter().map(|along| along.abs());
+    (ROUNDING * f64::from(largest.fold(0.0, f32::max))).max(LEAST_ROUNDING)
 }
 
 /// `#vertices`: the first vertex at the same position, bit for bit (-0 = +0).
