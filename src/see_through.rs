@@ -159,8 +159,11 @@ impl Pictures {
         let radius = (reach / view.sample_size).ceil().min(view.size as f64) as usize + 1;
         let window = Window { radius, reach: reach as f32 };
         let open = window.open_samples(&self.old, &self.new);
-        let groups = joined(&open).into_iter().filter(|samples| samples.len() >= LEAST_SAMPLES);
-        groups.map(|samples| self.leak(view, changes, window, &samples)).collect()
+        let mut groups = joined(&open);
+        groups.retain(|samples| samples.len() >= LEAST_SAMPLES);
+        let are_past = self.are_past_outlines(view, changes, window, &groups);
+        let leaks = groups.iter().zip(are_past);
+        leaks.map(|(samples, is_past)| self.leak(view, samples, is_past)).collect()
     }
 
     /// The old picture as far as there is something to see, and the new one where something is
@@ -182,7 +185,7 @@ impl Pictures {
         true
     }
 
-    fn leak(&self, view: &View, changes: &Changes, window: Window, samples: &[Sample]) -> Leak {
+    fn leak(&self, view: &View, samples: &[Sample], is_past_outlines: bool) -> Leak {
         let place = |&[column, row]: &Sample| {
             let depth = f64::from(self.old.at(column, row));
             view.place(column, row, depth).as_vec3().to_array()
@@ -194,31 +197,43 @@ impl Pictures {
             toward_eye: view.toward_eye.as_vec3().to_array(),
             places: samples.iter().map(place).collect(),
             depth: deeper.fold(0.0, f32::max),
-            is_past_outlines: self.is_past_outlines(view, changes, window, samples),
+            is_past_outlines,
         }
     }
 
-    /// Some samples, spread over the leak, stand for all.
-    fn is_past_outlines(
+    /// For each leak. Some samples, spread over it, stand for all.
+    fn are_past_outlines(
         &self,
         view: &View,
         changes: &Changes,
         window: Window,
-        samples: &[Sample],
-    ) -> bool {
-        let step = samples.len().div_ceil(MOST_SIGHTS);
-        samples.iter().step_by(step).all(|&sample| {
-            let [column, row] = sample;
-            let sight = Sight {
-                view,
-                sample,
-                span: [&self.old, &self.new].map(|depths| f64::from(depths.at(column, row))),
-                seen_beside: f64::from(window.farthest(&self.old, sample)),
-                reach: f64::from(window.reach),
-            };
-            let Changes { kept, gone, added } = changes;
-            sight.runs_outside([kept, gone], [kept, added])
-        })
+        groups: &[Vec<Sample>],
+    ) -> Vec<bool> {
+        let step = |samples: &[Sample]| samples.len().div_ceil(MOST_SIGHTS);
+        let sights: Vec<Sight> = groups
+            .iter()
+            .flat_map(|samples| samples.iter().step_by(step(samples)))
+            .map(|&sample| self.sight(view, window, sample))
+            .collect();
+        let Changes { kept, gone, added } = changes;
+        let [before, after] =
+            [gone, added].map(|changed| sight::meetings(&sights, [kept, changed]));
+        let mut outside =
+            sights.iter().zip(before.iter().zip(&after)).map(|(sight, (had, has))| {
+                let seen_beside = || f64::from(window.farthest(&self.old, sight.sample));
+                sight.runs_outside(had, has, seen_beside)
+            });
+        let are_past = groups.iter().map(|samples| {
+            let count = samples.iter().step_by(step(samples)).count();
+            outside.by_ref().take(count).filter(|&is_outside| !is_outside).count() == 0
+        });
+        are_past.collect()
+    }
+
+    fn sight<'a>(&self, view: &'a View, window: Window, sample: Sample) -> Sight<'a> {
+        let [column, row] = sample;
+        let span = [&self.old, &self.new].map(|depths| f64::from(depths.at(column, row)));
+        Sight { view, sample, span, reach: f64::from(window.reach) }
     }
 }
 

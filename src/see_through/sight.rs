@@ -27,61 +27,89 @@ const SAME_DEPTH: f64 = 1e-3;
 
 /// Where a line of sight meets a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Meeting {
+pub struct Meeting {
     depth: f64,
     is_front: bool,
 }
 
 /// A line of sight between two depths.
+#[derive(Clone, Copy)]
 pub struct Sight<'a> {
     pub view: &'a View,
     /// Column and row.
     pub sample: [usize; 2],
     /// What was seen, and what is seen now.
     pub span: [f64; 2],
-    /// The farthest that was seen right beside it.
-    pub seen_beside: f64,
     /// In scene units.
     pub reach: f64,
 }
 
+/// What each of some lines of sight of a view meets of a scene in parts, in order. Each triangle is
+/// looked at once, so that many lines through a large scene take little longer than one.
+pub fn meetings(sights: &[Sight], parts: [&[SceneTriangle]; 2]) -> Vec<Vec<Meeting>> {
+    let mut met: Vec<Vec<Meeting>> = vec![Vec::new(); sights.len()];
+    let Some(Sight { view, .. }) = sights.first() else { return met };
+    let mut by_row: Vec<usize> = (0..sights.len()).collect();
+    by_row.sort_by_key(|&sight| sights[sight].sample[1]);
+    let places: Vec<[f64; 2]> = by_row.iter().map(|&sight| sights[sight].place()).collect();
+    for triangle in parts.into_iter().flatten() {
+        let corners = triangle.map(|corner| view.project(wide(corner)));
+        let [left, low, right, high] = extent(&corners);
+        let first = places.partition_point(|place| place[1] < low);
+        for (sight, place) in by_row[first..].iter().zip(&places[first..]) {
+            if place[1] > high {
+                break;
+            }
+            if (left..=right).contains(&place[0]) {
+                met[*sight].extend(sights[*sight].meeting(&corners));
+            }
+        }
+    }
+    for met in &mut met {
+        met.sort_by(|one, other| one.depth.total_cmp(&other.depth));
+    }
+    met
+}
+
+/// The least and the greatest places on the picture, with a sample more for what rounding may do.
+fn extent(corners: &[DVec3; 3]) -> [f64; 4] {
+    let [low, high] =
+        [corners.iter().copied().reduce(DVec3::min), corners.iter().copied().reduce(DVec3::max)];
+    let (low, high) = (low.unwrap_or_default() - 1.0, high.unwrap_or_default() + 1.0);
+    [low.x, low.y, high.x, high.y]
+}
+
 impl Sight<'_> {
-    /// Whether it runs outside of all solids, past outlines that receded. Scenes in parts.
+    /// The middle of its sample.
+    fn place(&self) -> [f64; 2] {
+        self.sample.map(|place| place as f64 + 0.5)
+    }
+
+    /// Whether it runs outside of all solids, past outlines that receded: by what it met before and
+    /// meets now, and the farthest that was seen right beside it.
     pub fn runs_outside(
         &self,
-        before: [&[SceneTriangle]; 2],
-        after: [&[SceneTriangle]; 2],
+        before: &[Meeting],
+        after: &[Meeting],
+        seen_beside: impl FnOnce() -> f64,
     ) -> bool {
-        let met = self.meetings(before);
-        self.meetings(after).is_empty() && self.are_thin_wedges(&met) && self.sees_past(&met)
+        after.is_empty() && self.are_thin_wedges(before) && self.sees_past(before, seen_beside)
     }
 
-    /// All surfaces on the way, in order.
-    fn meetings(&self, parts: [&[SceneTriangle]; 2]) -> Vec<Meeting> {
-        let [from, to] = self.span;
-        let slack = self.reach * SAME_DEPTH;
-        let mut met: Vec<Meeting> = parts
-            .iter()
-            .flat_map(|part| part.iter())
-            .filter_map(|triangle| self.meeting(triangle))
-            .filter(|met| met.depth >= from - slack && met.depth < to - slack)
-            .collect();
-        met.sort_by(|one, other| one.depth.total_cmp(&other.depth));
-        met
-    }
-
-    fn meeting(&self, triangle: &SceneTriangle) -> Option<Meeting> {
-        let corners = triangle.map(|corner| self.view.project(wide(corner)));
-        let [x, y] = self.sample.map(|place| place as f64 + 0.5);
+    /// With a triangle as it lies on the picture.
+    fn meeting(&self, corners: &[DVec3; 3]) -> Option<Meeting> {
+        let [x, y] = self.place();
         let sides = [[0, 1], [1, 2], [2, 0]].map(|side| side.map(|k| corners[k]));
         let crossed = sides.into_iter().filter(|side| is_left_of(x, y, *side)).count();
         if crossed % 2 == 0 {
             return None;
         }
-        let [a, b, c] = corners;
+        let [a, b, c] = *corners;
         let normal = (b - a).cross(c - a);
         let depth = a.z - (normal.x * (x - a.x) + normal.y * (y - a.y)) / normal.z;
-        depth.is_finite().then_some(Meeting { depth, is_front: normal.z > 0.0 })
+        let ([from, to], slack) = (self.span, self.reach * SAME_DEPTH);
+        let is_between = depth.is_finite() && depth >= from - slack && depth < to - slack;
+        is_between.then_some(Meeting { depth, is_front: normal.z > 0.0 })
     }
 
     /// Whether surfaces come in pairs, a front and a back right behind it, with room between pairs.
@@ -99,11 +127,11 @@ impl Sight<'_> {
 
     /// Whether the gap behind the first wedge was seen right beside it: nothing recedes but
     /// outlines.
-    fn sees_past(&self, met: &[Meeting]) -> bool {
+    fn sees_past(&self, met: &[Meeting], seen_beside: impl FnOnce() -> f64) -> bool {
         let [Some(front), Some(back)] = [met.first(), met.get(1)] else { return false };
         let behind = met.get(2).map_or(self.span[1], |next| next.depth);
         let gap = (behind - back.depth).min(self.reach);
-        self.seen_beside - front.depth >= gap / 2.0
+        seen_beside() - front.depth >= gap / 2.0
     }
 }
 
@@ -260,7 +288,7 @@ mod tests {
         let frame = Frame::around(&[[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]]).unwrap();
         let view = frame.views(1, 8).next().unwrap();
         let (sample, span) = ([4, 4], [1.0, 9.0]);
-        test(&Sight { view: &view, sample, span, seen_beside: 3.0, reach: 1.0 });
+        test(&Sight { view: &view, sample, span, reach: 1.0 });
     }
 
     //  eye ->   |\      |\
@@ -269,8 +297,9 @@ mod tests {
     fn wedges_with_room_between_them_may_be_seen_past() {
         with_sight(|sight| {
             let wedges = met(&[1.0, 1.5, 4.0, 4.2]);
-            assert!(sight.are_thin_wedges(&wedges) && sight.sees_past(&wedges));
-            assert!(!Sight { seen_beside: 1.1, ..*sight }.sees_past(&wedges), "no outline is near");
+            assert!(sight.runs_outside(&wedges, &[], || 3.0));
+            assert!(!sight.runs_outside(&wedges, &[], || 1.1), "no outline is near");
+            assert!(!sight.runs_outside(&wedges, &met(&[8.0]), || 3.0), "something is met now");
         });
     }
 
