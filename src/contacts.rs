@@ -22,7 +22,7 @@ use crate::memory;
 use crate::mesh::Mesh;
 use crate::options::{Options, Width};
 use crate::threads::Threads;
-use crate::tolerance::{BACK_TO_BACK_COSINE, LINE_HEIGHT, TOUCHING, TOUCHING_STEPS};
+use crate::tolerance::{BACK_TO_BACK_COSINE, TOUCHING, TOUCHING_STEPS};
 use crate::topology::{Topology, topology};
 use crate::view::{View, view, wide};
 use crate::watch::{Unwatched, Watch};
@@ -108,7 +108,7 @@ pub fn contacts(
     let boxes: Vec<Aabb> =
         places().map(|rim| around(rim.ends, rim.radius.max(tolerance))).collect();
     let crowds = crowds(topology, places());
-    let reach = view.resolution * LINE_HEIGHT;
+    let reach = view.reach();
     let kin = |rim: &Rim| crowds.kin(rim, rim.is_of_sheet(topology), reach);
     let kin: Vec<Kin> = if crowds.is_empty() { Vec::new() } else { places().map(kin).collect() };
     watch.worked(rims.len() * ASKED)?;
