@@ -16,10 +16,11 @@ use std::collections::{BTreeMap, BTreeSet};
 use glam::DVec3;
 
 use super::splits::is_even;
-use crate::bvh::{Aabb, Tree};
+use crate::bvh::{Aabb, Kin, Target, Tree};
 use crate::groups::Groups;
 use crate::ids::{Cluster, Corner, Few, Vertex};
 use crate::line::Line;
+use crate::lines::Lines;
 use crate::report::Reason;
 use crate::shape::Shape;
 use crate::tolerance::BACK_TO_BACK_COSINE;
@@ -93,22 +94,28 @@ fn crowded(
     topology: &Topology,
     sides: impl Iterator<Item = Corner>,
 ) -> BTreeSet<Corner> {
+    let mut crowded = BTreeSet::new();
     let lines: Vec<Line> = sides.map(|side| Line::new(view, side)).collect();
+    if lines.is_empty() {
+        return crowded;
+    }
     let around = |[from, to]: [DVec3; 2]| {
         let ends = [from.min(to) - view.reach(), from.max(to) + view.reach()];
         Aabb::around(&ends.map(|end| end.as_vec3().to_array()))
     };
     let boxes: Vec<Aabb> = lines.iter().map(|line| around(line.ends())).collect();
-    let tree = Tree::new(&boxes, &[]);
-    let mut crowded = BTreeSet::new();
-    if lines.is_empty() {
-        return crowded;
-    }
+    // The boxes of slanted ones overlap by the thousand.
+    let points = Lines::new(lines.iter().map(Line::ends), view.reach());
+    let views = [lines.iter().map(|line| points.around(line.ends())).collect()];
+    let tree = Tree::new(&boxes, &[]).with_views(&views);
     let is_pair = |&side: &Corner| topology.twin[side].is_some() && side < topology.twin[side];
     for side in topology.twin.ids().filter(is_pair) {
         let ends = [side, side.next()].map(|end| view.position_at(end));
-        let near = tree.overlapping(around(ends)).map(|number| &lines[number as usize]);
-        let along = near.filter(|line| line.shared(ends, view.reach()).is_some());
+        let (bounds, views) = (around(ends), [points.around(ends)]);
+        let near = tree.near(Target { bounds, views, rod: None, is_out: |_: &Kin| false });
+        let along = near
+            .map(|number| &lines[number as usize])
+            .filter(|line| line.shared(ends, view.reach()).is_some());
         crowded.extend(along.map(|line| line.border));
     }
     crowded
