@@ -163,7 +163,7 @@ impl Sum {
 }
 
 /// Prints the edges that became something else: matched by place, which tells none apart where
-/// several lie on each other, nor where the way of telling moves them.
+/// several lie on each other.
 fn print_edges(
     (before, first): (&MeshBuffers, &Chamfered),
     (retold, other): (&MeshBuffers, &Chamfered),
@@ -175,6 +175,8 @@ fn print_edges(
         Retold::Cycled => [point[2], point[0], point[1]],
         _ => point,
     };
+    // What is moved keeps its numbers, and coming back might round.
+    let retold = if way == Retold::Moved { before } else { retold };
     let two = by_place(retold, other, back);
     for (place, verdicts) in &one {
         let others = two.get(place).map_or(&[][..], |others| others);

@@ -259,8 +259,11 @@ pub fn join(
     watch: &dyn Watch,
 ) -> Result<Chamfered, Error> {
     let vertices = VertexPlaces::new(view, blocks, &results);
+    watch.worked(vertices.count)?;
     let triangles = TrianglePlaces::new(view, blocks, &results);
+    watch.worked(vertices.count)?;
     let mut joined = empty(view, &vertices, &triangles, &results);
+    watch.worked(vertices.count)?;
     for (block, result) in results.into_iter().enumerate() {
         let own = (blocks.vertices.of(block), blocks.triangles.of(block));
         watch.worked(result.triangle_sources.len())?;

@@ -6,7 +6,6 @@
 //! in the wedge of an edge keeps that wedge from being cut off.
 
 mod crowds;
-mod lines;
 mod wedge;
 
 use std::sync::Arc;
@@ -17,19 +16,19 @@ use crate::bvh::{Aabb, Kin, Rod, Target, Tree};
 use crate::error::Error;
 use crate::faces::{Faces, faces};
 use crate::ids::{Corner, Few};
+use crate::lines::Lines;
 use crate::math::unit;
 use crate::memory;
 use crate::mesh::Mesh;
 use crate::options::{Options, Width};
 use crate::threads::Threads;
-use crate::tolerance::{BACK_TO_BACK_COSINE, LINE_HEIGHT, TOUCHING, TOUCHING_STEPS};
+use crate::tolerance::{BACK_TO_BACK_COSINE, TOUCHING, TOUCHING_STEPS};
 use crate::topology::{Topology, topology};
 use crate::view::{View, view, wide};
 use crate::watch::{Unwatched, Watch};
 use crate::weld::weld;
 
 use crowds::{Crowds, Search, crowds};
-use lines::Lines;
 pub use wedge::{Cut, Stretch, Wedge};
 
 /// Of fewer places to look at, boxes tell fast enough which are near.
@@ -90,6 +89,7 @@ pub fn contacts(
     watch: &dyn Watch,
 ) -> Result<Contacts, Error> {
     let borders = open_borders(topology).count() + sheet_rims(topology, faces).count();
+    watch.worked(view.corner_count())?;
     memory::ask(memory::of_rims(borders + view.mesh.held.len()))?;
     let borders = open_borders(topology).chain(sheet_rims(topology, faces)).map(|border| Rim {
         ends: [border, border.next()].map(|corner| view.position_at(corner)),
@@ -101,14 +101,16 @@ pub fn contacts(
         radius: f64::from(held.radius),
         border: Corner::NONE,
     });
-    let (rims, starts) = side_by_side(topology, borders.chain(outside).collect());
+    let rims: Vec<Rim> = borders.chain(outside).collect();
+    watch.worked(view.corner_count())?;
+    let (rims, starts) = side_by_side(topology, rims);
     watch.worked(rims.len() * ASKED)?;
     let tolerance = if rims.is_empty() { 0.0 } else { tolerance(view) };
     let places = || starts[..starts.len() - 1].iter().map(|&start| &rims[start as usize]);
     let boxes: Vec<Aabb> =
         places().map(|rim| around(rim.ends, rim.radius.max(tolerance))).collect();
     let crowds = crowds(topology, places());
-    let reach = view.resolution * LINE_HEIGHT;
+    let reach = view.reach();
     let kin = |rim: &Rim| crowds.kin(rim, rim.is_of_sheet(topology), reach);
     let kin: Vec<Kin> = if crowds.is_empty() { Vec::new() } else { places().map(kin).collect() };
     watch.worked(rims.len() * ASKED)?;

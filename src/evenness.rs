@@ -317,6 +317,14 @@ mod tests {
         split(&points, &indices)
     }
 
+    /// A mesh without those triangles of which something is true: so many.
+    fn without(mesh: &MeshBuffers, count: usize, is_left: impl Fn(&[u32]) -> bool) -> MeshBuffers {
+        let kept = mesh.indices.chunks(3).filter(|corners| !is_left(corners));
+        let indices: Vec<u32> = kept.flatten().copied().collect();
+        assert_eq!(indices.len() + 3 * count, mesh.indices.len());
+        MeshBuffers { submesh_index_counts: vec![indices.len() as u32], indices, ..mesh.clone() }
+    }
+
     /// The sectors of its front at 1, on the left and on the right half.
     fn in_front(stages: &Stages) -> [Sector; 2] {
         let at = |corner: Corner| stages.view.mesh.positions[stages.view.vertex_at(corner).index()];
@@ -333,14 +341,10 @@ mod tests {
     // 5------6 7----8
     #[test]
     fn an_edge_does_not_run_on_over_a_gap() {
-        let mut block = leaning_block();
+        let block = leaning_block();
         let is_between =
             |corners: &[u32]| corners.iter().all(|&c| block.positions[c as usize][0] == 0.0);
-        let kept: Vec<u32> =
-            block.indices.chunks(3).filter(|c| !is_between(c)).flatten().copied().collect();
-        assert_eq!(kept.len() + 3, block.indices.len());
-        block.submesh_index_counts = vec![kept.len() as u32];
-        block.indices = kept;
+        let block = without(&block, 1, is_between);
         let stages = stages_of(&block, 0.05);
         let given = given_of(&stages);
         let [left, right] = in_front(&stages);
@@ -348,6 +352,27 @@ mod tests {
         room.fronts[left] = [0.3, 1.0];
         let before = room.fronts[right][1];
         assert_eq!(evened(&given, room, 0.5).fronts[right][1], before);
+    }
+
+    // 4------.            seen from above: 0-1 has two sides, and 1-2 is where the front ends
+    // | top  |\
+    // 0------1--------2
+    #[test]
+    fn an_edge_does_not_run_on_into_a_border() {
+        let block = leaning_block();
+        let is_top = |corners: &[u32]| {
+            let at = |corner: &u32| block.positions[*corner as usize];
+            corners.iter().all(|c| at(c)[1] == 1.0) && corners.iter().any(|c| at(c)[0] == 2.0)
+        };
+        let block = without(&block, 2, is_top);
+        let stages = stages_of(&block, 0.05);
+        let given = given_of(&stages);
+        let [left, right] = in_front(&stages);
+        let mut room = room(&given);
+        room.fronts[left] = [0.3, 1.0];
+        let before = room.fronts[right];
+        assert!(stages.offsets[right].moves() && before[1] > 0.3, "{before:?}");
+        assert_eq!(evened(&given, room, 0.5).fronts[right][1], before[1]);
     }
 
     #[test]

@@ -75,6 +75,7 @@ mod inside_out;
 mod intersect;
 mod limits;
 mod line;
+mod lines;
 mod math;
 mod memory;
 mod mesh;

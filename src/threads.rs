@@ -285,6 +285,8 @@ fn waited_for<T: Default + Send>(
 mod tests {
     use super::*;
     use std::cell::Cell;
+    use std::sync::atomic::{AtomicBool, Ordering};
+    use std::time::{Duration, Instant};
 
     use crate::ids::Vertex;
     use crate::watch::Unwatched;
@@ -320,13 +322,17 @@ mod tests {
     fn work_without_end_can_be_stopped() {
         for threads in [1, 2, 5] {
             let (threads, watch) = (Threads::new(threads, 100_000), Impatient(Cell::new(0)));
+            let (begun, gave_up) = (Instant::now(), AtomicBool::new(false));
             let work = |watch: &dyn Watch, _: &u32| -> Result<(), Error> {
-                loop {
+                while begun.elapsed() < Duration::from_secs(20) {
                     watch.worked(1)?;
                 }
+                gave_up.store(true, Ordering::Relaxed);
+                Ok(())
             };
             let stopped = threads.map_watched(&[0; 9], &watch, work);
             assert!(matches!(stopped, Err(Error::Cancelled)));
+            assert!(!gave_up.into_inner(), "all threads are told to stop");
             assert_eq!(watch.0.get(), 3, "who has said so is asked no more");
             let work = |watch: &dyn Watch, k: &u32| watch.worked(1).map(|()| k + 1);
             let all = threads.map_watched(&[1, 2], &Unwatched, work).unwrap();

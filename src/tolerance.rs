@@ -79,6 +79,10 @@ pub const LEAST_SLENDERNESS: f64 = 1e-7;
 /// coordinate cannot be told apart reliably.
 pub const RESOLUTION_STEPS: f64 = 4.0;
 
+/// Two points that were meant to be one are off each other by this share of the resolution at most: both
+/// are rounded by half a step along each axis.
+pub const LEAST_ROUNDING: f64 = 0.5;
+
 /// Weights below this are rounding: a vertex that slides along an edge is on that edge.
 pub const LEAST_WEIGHT: f64 = 1e-9;
 
@@ -124,7 +128,3 @@ pub const LEAST_TURN: f64 = 1e-3;
 
 /// Between directions whose sine is less than this, the share of the turn is that of the way.
 pub const LEAST_SLERP_SINE: f64 = 1e-6;
-
-/// An edge that has this share of the width asked for has all of it: of a width of a hundredth of the
-/// mesh, rounding to single precision is a hundred-thousandth.
-pub const FULL_SHARE: f64 = 1.0 - 1e-5;

@@ -10,7 +10,6 @@ use crate::ids::Corner;
 use crate::line::Line;
 use crate::report::{Chamfered, EdgeVerdict, Outcome, Reason};
 use crate::shape::Shape;
-use crate::tolerance::LINE_HEIGHT;
 use crate::topology::Topology;
 use crate::view::View;
 use crate::watch::Watch;
@@ -108,7 +107,7 @@ fn runs_back(topology: &Topology, line: &Line, other: &Line) -> bool {
 
 /// Whether another border runs back along a part of a line, and light breaks between them.
 pub fn meets(view: &View, topology: &Topology, line: &Line, other: &Line) -> bool {
-    let shared = || line.shared(other.ends(), view.resolution * LINE_HEIGHT);
+    let shared = || line.shared(other.ends(), view.reach());
     runs_back(topology, line, other)
         && shared().is_some_and(|[start, end]| {
             let middle = line.from + line.along * ((start + end) / 2.0);

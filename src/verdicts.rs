@@ -11,7 +11,6 @@ use crate::report::{EdgeVerdict, Outcome, Reason, Totals};
 use crate::rounding::Rounding;
 use crate::sectors::Sectors;
 use crate::strips;
-use crate::tolerance::FULL_SHARE;
 use crate::view::View;
 use crate::watch::{Watch, each};
 
@@ -104,7 +103,7 @@ fn worst_reason(limits: &Limits, at: [Sector; 4]) -> Option<Reason> {
         let offset = limits.placement.offset(sector);
         let share = limits.placement.share[sector] * offset.fronts[front];
         let is_least = least.is_none_or(|(least, _)| share < least);
-        if offset.moves() && share < FULL_SHARE && is_least {
+        if offset.moves() && share < 1.0 && is_least {
             least = Some((share, sector));
         }
         is_capped |= offset.is_capped;
@@ -199,21 +198,6 @@ mod tests {
         }
         assert_eq!((totals.hard_edges, totals.chamfered), (12, 12));
         assert!((totals.mean_width - 1.0).abs() < 1e-6);
-    }
-
-    #[test]
-    fn what_rounding_takes_of_a_width_is_not_missing() {
-        let cube = shapes::plain_cube(1.0);
-        let stages = stages_of(&cube, 0.1);
-        let full_but_for = |missing: f64| {
-            let mut limits = stages.limits(Verify::Fast);
-            limits.placement.set(Sector(0), 1.0 - missing);
-            let patches = stages.patches(&limits.placement);
-            let given = (&stages.view, stages.chamfers());
-            let told = verdicts(given.0, given.1, &limits, (&patches, None), &Unwatched);
-            told.unwrap().1.chamfered
-        };
-        assert_eq!([1e-6, 1e-4].map(full_but_for), [12, 10]);
     }
 
     #[test]

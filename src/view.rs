@@ -9,7 +9,9 @@ use crate::ids::{Corner, Id, Triangle, Vertex};
 use crate::memory;
 use crate::mesh::{Factors, Held, Mesh, UV_CHANNELS, Uv};
 use crate::options::{ChamferSubmesh, MOST_SEGMENTS, Options, Width};
-use crate::tolerance::{ALIKE_COSINE, ALIKE_SHARE, HARD_COSINE, RESOLUTION_STEPS};
+use crate::tolerance::{
+    ALIKE_COSINE, ALIKE_SHARE, HARD_COSINE, LEAST_ROUNDING, LINE_HEIGHT, RESOLUTION_STEPS,
+};
 
 /// New elements are fewer than eight for each source corner, so ids stay within 32 bits.
 pub const MAX_CORNERS: usize = u32::MAX as usize / 8;
@@ -89,6 +91,17 @@ impl<'a> View<'a> {
         let (width, least_breadth) = (0.0, 0.0);
         let stored = None;
         View { mesh, width, extent, least_breadth, resolution, hard_cosine, alike_cosine, stored }
+    }
+
+    /// What is nearer to each other was set apart by rounding alone; more may have been modelled. As far
+    /// as single precision can tell, it is the same wherever the mesh stands.
+    pub fn rounding(&self) -> f64 {
+        resolution_of(self.extent).max(self.resolution * LEAST_ROUNDING)
+    }
+
+    /// What is nearer to a line may have been put on it.
+    pub fn reach(&self) -> f64 {
+        self.rounding() * LINE_HEIGHT
     }
 
     #[inline]
@@ -398,6 +411,20 @@ mod tests {
             error_of(Mesh { positions: &broken, ..triangle() }),
             Error::NotFinite { stream: Stream::Positions, vertex: 2 }
         );
+    }
+
+    //   .--.           .--.
+    //   |  |           |  |     as far out as it is large nothing changes; much farther out rounding sets
+    //   '--'  origin   '--'     more apart
+    #[test]
+    fn what_rounding_sets_apart_does_not_depend_on_the_origin() {
+        let rounding = |by: f32| {
+            let at = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(|at| at.map(|x| x + by));
+            view(&Mesh { positions: &at, ..triangle() }, &Options::default()).unwrap().rounding()
+        };
+        let here = rounding(0.0);
+        assert_eq!([-1.0, -0.5, 1.0].map(rounding), [here; 3]);
+        assert_eq!(rounding(63.0), here * 32.0);
     }
 
     #[test]

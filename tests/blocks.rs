@@ -122,15 +122,33 @@ fn the_result_is_sound_and_the_same_for_any_number_of_threads() {
     assert_sound("bolts", &mesh.as_mesh(), &one);
 }
 
+/// What is told of some bolts, and of the result, if the caller breaks when it is told so often.
+fn told(mesh: &MeshBuffers, threads: u32, last: usize) -> (bool, Vec<f32>) {
+    let mut shares = Vec::new();
+    let options = options(ChamferSubmesh::Owner).with_threads(threads);
+    let result = chamfer_with_progress(&mesh.as_mesh(), &options, &mut |share| {
+        shares.push(share);
+        if shares.len() < last { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+    });
+    (matches!(result, Err(chamfer::Error::Cancelled)), shares)
+}
+
 #[test]
 fn it_tells_how_far_it_is_and_can_be_cancelled() {
     let mesh = many();
-    let mut shares = Vec::new();
-    let result =
-        chamfer_with_progress(&mesh.as_mesh(), &options(ChamferSubmesh::Owner), &mut |share| {
-            shares.push(share);
-            if shares.len() < 3 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-        });
-    assert!(matches!(result, Err(chamfer::Error::Cancelled)));
-    assert!(shares.len() == 3 && shares.is_sorted(), "{shares:?}");
+    let (is_cancelled, all) = told(&mesh, 1, usize::MAX);
+    assert!(!is_cancelled && all.is_sorted() && all.last() == Some(&1.0), "{all:?}");
+    let mut ends = all.clone();
+    ends.dedup();
+    // Some blocks at a time, of two thousand triangles and more each; then they are put together.
+    assert!(ends.len() > 5 && ends.contains(&0.9), "{ends:?}");
+    for &end in &ends[..ends.len() - 1] {
+        let times = all.iter().filter(|&&share| share == end).count();
+        assert!(times > 2, "within {end} it is told {times} times");
+    }
+    for last in [1, 3, all.len() / 2, all.len() - 2, all.len()] {
+        assert_eq!(told(&mesh, 1, last), (true, all[..last].to_vec()));
+        let (is_cancelled, shares) = told(&mesh, 2, last.min(4));
+        assert!(is_cancelled && shares.len() == last.min(4) && shares.is_sorted(), "{shares:?}");
+    }
 }

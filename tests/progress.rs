@@ -80,3 +80,25 @@ fn with_several_threads_it_ends_too() {
         assert_eq!(told.len(), last);
     }
 }
+
+//  +---+
+//  |   |        cubes that touch along an edge: light shows between their chamfers, so all is done again
+//  +---+---+
+//      |   |
+//      +---+
+#[test]
+fn where_all_is_done_again_what_is_told_does_not_fall() {
+    let cube = shapes::plain_cube(2.0);
+    let mut both = MeshBuffers::default();
+    for [x, y, z] in [[-1.0, 1.0, 0.0], [1.0, -1.0, 1.0]] {
+        let first = both.positions.len() as u32;
+        both.positions.extend(cube.positions.iter().map(|at| [at[0] + x, at[1] + y, at[2] + z]));
+        both.normals.extend(&cube.normals);
+        both.indices.extend(cube.indices.iter().map(|index| first + index));
+    }
+    both.submesh_index_counts = vec![both.indices.len() as u32];
+    let (_, full) = told_of(&both, Verify::Full, 1, usize::MAX);
+    let (result, shares) = told_of(&both, Verify::Seen, 1, usize::MAX);
+    assert!(result.is_ok() && shares.is_sorted(), "{shares:?}");
+    assert_eq!(shares.len(), 2 * full.len(), "once more");
+}

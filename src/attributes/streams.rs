@@ -511,3 +511,17 @@ fn turned(direction: DVec3, from: DVec3, to: DVec3) -> DVec3 {
     let middle = from + to;
     direction - middle * (middle.dot(direction) / (1.0 + cosine)) + to * (2.0 * from.dot(direction))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    // Past the end of a side from the least to the greatest number there is.
+    #[test]
+    fn a_blend_stays_within_single_precision() {
+        let blend = Blend { vertices: [0, 1, 2], weights: [2.0, -1.0, 0.0] };
+        assert_eq!(blend_value(&blend, [f32::MAX, f32::MIN, 0.0]), f32::MAX);
+        assert_eq!(blend_value(&blend, [f32::MIN, f32::MAX, 0.0]), f32::MIN);
+        assert_eq!(blend_value(&blend, [1.0, -1.0, 0.0]), 3.0);
+    }
+}

@@ -3,7 +3,8 @@
 use glam::DVec3;
 
 use super::surface::{HalfEdge, Surface};
-use crate::bvh::{Aabb, Tree};
+use crate::bvh::{Aabb, Kin, Target, Tree};
+use crate::lines::Lines;
 
 /// How far, in roundings, a vertex may be off a line on which it was put.
 const REACH: f64 = 16.0;
@@ -15,6 +16,7 @@ const MOST_ALONG: usize = 64;
 pub(super) struct Borders<'a> {
     surface: &'a Surface<'a>,
     all: Vec<&'a HalfEdge>,
+    lines: Lines,
     tree: Tree,
 }
 
@@ -26,14 +28,23 @@ impl<'a> Borders<'a> {
             .flat_map(|(forward, backward)| forward.iter().chain(backward))
             .collect();
         let boxes: Vec<Aabb> = all.iter().map(|border| around(surface, border)).collect();
-        Borders { surface, all, tree: Tree::new(&boxes, &[]) }
+        // The boxes of slanted ones overlap by the thousand.
+        let lines = Lines::new(all.iter().map(|border| ends(surface, border)), reach(surface));
+        let points = all.iter().map(|border| lines.around(ends(surface, border))).collect();
+        Borders { surface, all, lines, tree: Tree::new(&boxes, &[]).with_views(&[points]) }
     }
 
     /// Those that run back along a part of a half-edge.
     pub fn along(&self, side: &'a HalfEdge) -> impl Iterator<Item = &'a HalfEdge> {
-        let near = self.tree.overlapping(around(self.surface, side));
-        let near = near.map(|other| self.all[other as usize]);
-        near.filter(move |other| run_along(self.surface, side, other))
+        self.near(side).filter(move |other| run_along(self.surface, side, other))
+    }
+
+    /// Those that may.
+    fn near(&self, side: &HalfEdge) -> impl Iterator<Item = &'a HalfEdge> {
+        let views = [self.lines.around(ends(self.surface, side))];
+        let bounds = around(self.surface, side);
+        let near = self.tree.near(Target { bounds, views, rod: None, is_out: |_: &Kin| false });
+        near.map(|other| self.all[other as usize])
     }
 
     /// Borders that run back along a part of each other: each with some of those along it, which are
@@ -45,9 +56,13 @@ impl<'a> Borders<'a> {
 }
 
 fn around(surface: &Surface, side: &HalfEdge) -> Aabb {
-    let (reach, [from, to]) = (reach(surface), side.corners.map(|corner| surface.position(corner)));
+    let (reach, [from, to]) = (reach(surface), ends(surface, side));
     let ends = [from.min(to) - reach, from.max(to) + reach];
     Aabb::around(&ends.map(|end| end.as_vec3().to_array()))
+}
+
+fn ends(surface: &Surface, side: &HalfEdge) -> [DVec3; 2] {
+    side.corners.map(|corner| surface.position(corner))
 }
 
 /// What is nearer may have been put together.
@@ -57,7 +72,7 @@ pub(super) fn reach(surface: &Surface) -> f64 {
 
 /// Whether two half-edges run opposite ways along a line, and have more than a point in common.
 pub(super) fn run_along(surface: &Surface, one: &HalfEdge, other: &HalfEdge) -> bool {
-    let [one, other] = [one, other].map(|side| side.corners.map(|corner| surface.position(corner)));
+    let [one, other] = [one, other].map(|side| ends(surface, side));
     lie_along(one, other, surface.rounding()) || lie_along(other, one, surface.rounding())
 }
 
@@ -67,4 +82,37 @@ fn lie_along([from, to]: [DVec3; 2], other: [DVec3; 2], rounding: f64) -> bool {
     let is_near = |point: &DVec3| (*point - from).cross(along).length() <= reach;
     let shared = end.min(from.distance(to)) - start.max(0.0);
     other.iter().all(is_near) && shared > reach
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::Mesh;
+
+    //     /\/\/\       the foot of a cone: its borders run out and in again, so that the boxes of very many
+    //    /      \      overlap
+    #[test]
+    fn of_many_slanted_borders_few_are_compared() {
+        let sides = 2000_u32;
+        let foot = |step: u32| {
+            let (sin, cos) = (f64::from(step) / f64::from(sides) * std::f64::consts::TAU).sin_cos();
+            let radius = 1.0 + f64::from(step % 2) / 8.0;
+            [(cos * radius) as f32, 0.0, (-sin * radius) as f32]
+        };
+        let points: Vec<[f32; 3]> = (0..sides).map(foot).chain([[0.0, 1.0, 0.0]]).collect();
+        let indices: Vec<u32> = (0..sides).flat_map(|k| [sides, k, (k + 1) % sides]).collect();
+        let counts = [indices.len() as u32];
+        let mesh = Mesh {
+            positions: &points,
+            indices: &indices,
+            submesh_index_counts: &counts,
+            ..Mesh::default()
+        };
+        let surface = Surface::new(&mesh);
+        let borders = Borders::new(&surface);
+        assert_eq!(borders.all.len(), sides as usize);
+        assert!(borders.all.iter().all(|side| borders.near(side).any(|near| near == *side)));
+        let near: usize = borders.all.iter().map(|side| borders.near(side).count()).sum();
+        assert!(near < 4 * borders.all.len(), "{near}");
+    }
 }

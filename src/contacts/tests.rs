@@ -426,3 +426,35 @@ fn of_many_slanted_borders_few_are_asked() {
     let beside: usize = ridges.map(|ends| contacts.beside_edge(ends, 1e-4).count()).sum();
     assert!(beside < 20 * sides as usize, "{beside} beside {sides} ridges");
 }
+
+//    3-------2       a roof that is open on the left, and a flag on its border: of the two rims from 3
+//   /|\      |       to 0 one is the edge's own, and the other rests on it, whichever is told first
+//  6 | 0-----1
+#[test]
+fn of_rims_at_one_place_each_is_asked_whether_it_is_own() {
+    let points = [
+        [0.0, 0.0, 0.0],
+        [2.0, 0.0, 0.0],
+        [2.0, 0.0, -2.0],
+        [0.0, 0.0, -2.0],
+        [2.0, -2.0, 0.0],
+        [0.0, -2.0, 0.0],
+        [-1.0, 1.0, -1.0],
+    ];
+    let (roof, flag): ([u32; 12], [u32; 3]) = ([0, 1, 2, 0, 2, 3, 0, 5, 4, 0, 4, 1], [3, 0, 6]);
+    for (indices, rests) in [
+        (roof.to_vec(), false),
+        ([&roof[..], &flag].concat(), true),
+        ([&flag[..], &roof].concat(), true),
+    ] {
+        let mesh = crate::stages::split(&points, &indices);
+        with_contacts(&mesh.as_mesh(), |contacts, view, topology, faces| {
+            let edge = side(view, [points[0], points[1]]);
+            let sides = [edge, topology.twin[edge]];
+            let beside = contacts.beside(view, topology, faces, (sides, 0.1));
+            // The flag's other sides touch the end alone.
+            let is_long = |place: &wedge::Place| place.into.max_element() > 0.05;
+            assert_eq!(beside.as_flattened().iter().any(is_long), rests, "{indices:?}");
+        });
+    }
+}

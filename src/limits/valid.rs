@@ -168,4 +168,23 @@ mod tests {
             "it never did"
         );
     }
+
+    // .-------.      a cube's edges pulled past their old lines, and one corner of it pulled by unlike
+    // | :...: |      shares: what is new between the faces faces inwards
+    // '-------'
+    #[test]
+    fn strips_and_fills_that_face_inwards_are_bad() {
+        let cube = shapes::plain_cube(1.0);
+        let stages = stages_of(&cube, 0.1);
+        let given = given_of(&stages);
+        let strip = |share: f64| is_valid(&given, &stages.placed(share), Element::Strip(Edge(0)));
+        assert_eq!([0.0, 1.0, -1.0].map(strip), [true, true, false]);
+        let fill = |shares: [f64; 3]| {
+            let mut placement = stages.placed(1.0);
+            let ring = stages.sectors.ring(Ring(0)).iter();
+            ring.zip(shares).for_each(|(&sector, share)| placement.set(sector, share));
+            is_valid(&given, &placement, Element::Fill(Ring(0)))
+        };
+        assert_eq!([[1.0; 3], [0.5, 0.5, 0.0], [0.5, 0.5, -1.0]].map(fill), [true, true, false]);
+    }
 }

@@ -16,13 +16,14 @@ use std::collections::{BTreeMap, BTreeSet};
 use glam::DVec3;
 
 use super::splits::is_even;
-use crate::bvh::{Aabb, Tree};
+use crate::bvh::{Aabb, Kin, Target, Tree};
 use crate::groups::Groups;
 use crate::ids::{Cluster, Corner, Few, Vertex};
 use crate::line::Line;
+use crate::lines::Lines;
 use crate::report::Reason;
 use crate::shape::Shape;
-use crate::tolerance::{BACK_TO_BACK_COSINE, LINE_HEIGHT};
+use crate::tolerance::BACK_TO_BACK_COSINE;
 use crate::topology::Topology;
 use crate::unpaired::{Unpaired, meets};
 use crate::view::View;
@@ -93,22 +94,28 @@ fn crowded(
     topology: &Topology,
     sides: impl Iterator<Item = Corner>,
 ) -> BTreeSet<Corner> {
-    let lines: Vec<Line> = sides.map(|side| Line::new(view, side)).collect();
-    let around = |[from, to]: [DVec3; 2]| {
-        let ends = [from.min(to) - reach(view), from.max(to) + reach(view)];
-        Aabb::around(&ends.map(|end| end.as_vec3().to_array()))
-    };
-    let boxes: Vec<Aabb> = lines.iter().map(|line| around(line.ends())).collect();
-    let tree = Tree::new(&boxes, &[]);
     let mut crowded = BTreeSet::new();
+    let lines: Vec<Line> = sides.map(|side| Line::new(view, side)).collect();
     if lines.is_empty() {
         return crowded;
     }
+    let around = |[from, to]: [DVec3; 2]| {
+        let ends = [from.min(to) - view.reach(), from.max(to) + view.reach()];
+        Aabb::around(&ends.map(|end| end.as_vec3().to_array()))
+    };
+    let boxes: Vec<Aabb> = lines.iter().map(|line| around(line.ends())).collect();
+    // The boxes of slanted ones overlap by the thousand.
+    let points = Lines::new(lines.iter().map(Line::ends), view.reach());
+    let views = [lines.iter().map(|line| points.around(line.ends())).collect()];
+    let tree = Tree::new(&boxes, &[]).with_views(&views);
     let is_pair = |&side: &Corner| topology.twin[side].is_some() && side < topology.twin[side];
     for side in topology.twin.ids().filter(is_pair) {
         let ends = [side, side.next()].map(|end| view.position_at(end));
-        let near = tree.overlapping(around(ends)).map(|number| &lines[number as usize]);
-        let along = near.filter(|line| line.shared(ends, reach(view)).is_some());
+        let (bounds, views) = (around(ends), [points.around(ends)]);
+        let near = tree.near(Target { bounds, views, rod: None, is_out: |_: &Kin| false });
+        let along = near
+            .map(|number| &lines[number as usize])
+            .filter(|line| line.shared(ends, view.reach()).is_some());
         crowded.extend(along.map(|line| line.border));
     }
     crowded
@@ -117,20 +124,10 @@ fn crowded(
 /// Puts the ends of one side on another one, within which they stand.
 fn stand(view: &View, at: &mut BTreeMap<Corner, Few<u32>>, [on, other]: [&Line; 2]) {
     for end in [other.border, other.border.next()] {
-        if on.holds(view.position_at(end), reach(view)) {
+        if on.holds(view.position_at(end), view.reach()) {
             at.entry(on.border).or_default().push(view.vertex_at(end).0);
         }
     }
-}
-
-/// What is nearer to a line may stand on it.
-fn reach(view: &View) -> f64 {
-    view.resolution * LINE_HEIGHT
-}
-
-/// What is nearer to each other was set apart by rounding alone. More may have been modelled.
-fn rounding(view: &View) -> f64 {
-    view.resolution
 }
 
 /// The ends at which two sides nearly meet.
@@ -138,7 +135,7 @@ fn near_ends(view: &View, shape: &Shape, [one, other]: [Corner; 2]) -> Vec<[Clus
     let ends = [[one, other.next()], [one.next(), other]];
     let near = ends.into_iter().filter(|ends| {
         let [at, to] = ends.map(|end| view.position_at(end));
-        at != to && at.distance(to) <= rounding(view)
+        at != to && at.distance(to) <= view.rounding()
     });
     near.map(|ends| ends.map(|end| shape.topology.cluster_at[end])).collect()
 }
@@ -173,7 +170,7 @@ fn put_in_order(view: &View, side: Corner, all: &mut Few<u32>) {
 fn is_apart(view: &View, side: Corner, pair: &[u32]) -> bool {
     let line = Line::new(view, side);
     let place = |vertex: u32| line.place(view.position(Vertex(vertex)));
-    place(pair[1]) - place(pair[0]) > reach(view)
+    place(pair[1]) - place(pair[0]) > view.reach()
 }
 
 /// Each of the clusters that are near to another, with the one of its place to which all are put: of
@@ -198,7 +195,7 @@ fn joins(view: &View, shape: &Shape, near: Vec<[Cluster; 2]>) -> BTreeMap<Cluste
             one.partial_cmp(&other).unwrap_or(std::cmp::Ordering::Equal)
         };
         let to = *place.iter().min_by(nearer)?;
-        let is_one = place.iter().all(|&cluster| at(cluster).distance(at(to)) <= rounding(view));
+        let is_one = place.iter().all(|&cluster| at(cluster).distance(at(to)) <= view.rounding());
         is_one.then(|| place.into_iter().map(move |cluster| (cluster, to)))
     });
     joined.flatten().collect()

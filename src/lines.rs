@@ -43,8 +43,8 @@ impl Lines {
         let foot = way - along * way.dot(along);
         // The same for both directions of a line.
         let point = foot + DVec3::new(along.y * along.z, along.z * along.x, along.x * along.y);
-        // A turn moves either part by at most twice its chord.
-        let slack = self.reach / self.extent + 4.0 * turn + SLACK;
+        // A turn moves the foot by at most half of it, and the rest by all of it.
+        let slack = self.reach / self.extent + 2.0 * turn + SLACK;
         let ends = [point - slack, point + slack];
         Aabb::around(&ends.map(|end| end.as_vec3().to_array()))
     }
