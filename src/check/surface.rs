@@ -17,11 +17,6 @@ const ROUNDING: f64 = 4.0 * f32::EPSILON as f64;
 /// The same for coordinates below the normal range, whose steps are all of one size.
 const LEAST_ROUNDING: f64 = 4.0 * f32::from_bits(1) as f64;
 
-fn rounding(mesh: &Mesh) -> f64 {
-    let largest = mesh.positions.as_flattened().iter().map(|along| along.abs());
-    (ROUNDING * f64::from(largest.fold(0.0, f32::max))).max(LEAST_ROUNDING)
-}
-
 /// One side of a triangle.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct HalfEdge {
@@ -41,6 +36,7 @@ pub(super) struct Surface<'a> {
     cluster_of: Vec<u32>,
     /// Sorted, so that those of one edge stand together.
     half_edges: Vec<HalfEdge>,
+    /// How far a position may be off by rounding alone, in mesh units.
     rounding: f64,
 }
 
@@ -164,6 +160,11 @@ impl<'a> Surface<'a> {
 
 fn is_non_manifold((a, b): &(&[HalfEdge], &[HalfEdge])) -> bool {
     a.len() + b.len() > 2
+}
+
+fn rounding(mesh: &Mesh) -> f64 {
+    let largest = mesh.positions.as_flattened().iter().map(|along| along.abs());
+    (ROUNDING * f64::from(largest.fold(0.0, f32::max))).max(LEAST_ROUNDING)
 }
 
 /// `#vertices`: the first vertex at the same position, bit for bit (-0 = +0).
