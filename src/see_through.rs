@@ -223,6 +223,7 @@ impl Pictures {
                 let seen_beside = || f64::from(window.farthest(&self.old, sight.sample));
                 sight.runs_outside(had, has, seen_beside)
             });
+        // All of a leak are taken, so that the next one begins with its own.
         let are_past = groups.iter().map(|samples| {
             let count = samples.iter().step_by(step(samples)).count();
             outside.by_ref().take(count).filter(|&is_outside| !is_outside).count() == 0

@@ -317,6 +317,29 @@ mod tests {
         with_sight(|sight| assert!(!sight.are_thin_wedges(&met(&[1.0, 1.5, 1.5, 2.0]))));
     }
 
+    //  Some triangles one behind the other, and a line of sight through each sample.
+    #[test]
+    fn many_lines_of_sight_meet_what_each_meets_alone() {
+        let share = |k: usize| (k * 29 % 64) as f32 / 64.0;
+        let corner = |k: usize| [share(k), share(5 * k + 1), share(11 * k + 2)];
+        let triangles: Vec<SceneTriangle> =
+            (0..40).map(|k| [corner(k), corner(k + 7), corner(3 * k + 1)]).collect();
+        let (kept, gone) = triangles.split_at(13);
+        let view = Frame::around(&triangles).unwrap().views(1, 16).next().unwrap();
+        let samples = (0..256).map(|k| [k * 37 % 256 / 16, k * 37 % 16]);
+        let sights: Vec<Sight> = samples
+            .map(|sample| Sight { view: &view, sample, span: [-0.2, 0.5], reach: 0.01 })
+            .collect();
+        let met = meetings(&sights, [kept, gone]);
+        for (sight, met) in sights.iter().zip(&met) {
+            let corners = triangles.iter().map(|t| t.map(|corner| view.project(wide(corner))));
+            let mut alone: Vec<Meeting> = corners.filter_map(|c| sight.meeting(&c)).collect();
+            alone.sort_by(|one, other| one.depth.total_cmp(&other.depth));
+            assert_eq!(*met, alone, "{:?}", sight.sample);
+        }
+        assert!(met.iter().any(|met| met.len() > 3) && met.iter().any(Vec::is_empty));
+    }
+
     #[test]
     fn the_largest_ahead_is_that_of_each_window() {
         let values: Vec<f32> = (0..40).map(|k| (k * 37 % 11) as f32).collect();
