@@ -91,6 +91,14 @@ impl<'a> View<'a> {
         View { mesh, width, extent, least_breadth, resolution, hard_cosine, alike_cosine, stored }
     }
 
+    /// The same with other vertices at its corners, at the same positions.
+    pub fn with_indices<'b>(&self, indices: &'b [u32]) -> View<'b>
+    where
+        'a: 'b,
+    {
+        View { mesh: Mesh { indices, ..self.mesh }, ..*self }
+    }
+
     #[inline]
     pub fn vertex_at(&self, corner: Corner) -> Vertex {
         Vertex(self.mesh.indices[corner.index()])
