@@ -108,12 +108,13 @@ impl<'a> Sides<'a> {
             return verdict.outcome == Outcome::Skipped && verdict.widths == [0.0; 2]
                 || sides().any(|side| self.agrees_in_parts(verdict, side, ruler, tolerance));
         }
+        let is_alone = forward.len() + backward.len() == 2;
         let pairs = forward.iter().flat_map(|one| backward.iter().map(move |other| [one, other]));
         let both_ways = pairs.flat_map(|[one, other]| [[one, other], [other, one]]);
         both_ways
             .filter(|[one, _]| vertices(self.surface, one) == verdict.vertices)
             .filter_map(|[one, other]| ruler.measure(one, other))
-            .any(|measured| agrees(verdict, &measured, tolerance))
+            .any(|measured| agrees(verdict, &measured, is_alone, tolerance))
     }
 
     /// Whether a verdict's widths are those of an edge of which several others are the second side:
@@ -231,7 +232,8 @@ fn vertices(surface: &Surface, half_edge: &HalfEdge) -> [u32; 2] {
     half_edge.corners.map(|corner| surface.mesh.indices[corner as usize])
 }
 
-fn agrees(verdict: &EdgeVerdict, measured: &MeasuredEdge, tolerance: f64) -> bool {
+/// `is_alone`: no third side lies on the edge.
+fn agrees(verdict: &EdgeVerdict, measured: &MeasuredEdge, is_alone: bool, tolerance: f64) -> bool {
     if verdict.outcome == Outcome::Skipped {
         // Where a chamfer ends beside it, an edge that stays hard goes on beside what is cut off.
         let stays = |end: usize| {
@@ -241,6 +243,7 @@ fn agrees(verdict: &EdgeVerdict, measured: &MeasuredEdge, tolerance: f64) -> boo
         let is_left = match verdict.reason {
             Reason::NotSelected => stays(0) && stays(1),
             // Its sides share no edge, and so each goes along with whatever else is there.
+            Reason::TJunction => !is_alone || !measured.is_chamfered(),
             Reason::Winding => true,
             _ => !measured.is_chamfered(),
         };
