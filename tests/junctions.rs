@@ -311,3 +311,36 @@ fn what_stands_on_a_side_may_be_off_its_plane_by_rounding() {
     let findings = check(&mesh.as_mesh(), &result, Verify::Fast);
     assert!(findings.count(Rule::FlatFace) > 0);
 }
+
+//   .---------------.     a thin bar seen from above: its end is in three rows, so the long side there
+//   |              .o     gets their vertices `o`, a step of single precision too low; the pieces would
+//   |           .-' o     cut the front below, which the whole triangle does not
+//   '---------------'
+#[test]
+fn a_piece_cuts_no_face_beside() {
+    let turned = |cells: Cells, diagonals| Cells { diagonals, ..cells };
+    let end = turned(face(0b1000_0010, &[0]), 0b1_1001_0011_0111);
+    let top = turned(face(0b1_0100, &[0]), 0b1010_0110_0100_0100);
+    let none = Cells { copies: 0, ..whole() };
+    let faces = vec![whole(), end, none, top, whole(), whole()];
+    let grid = Grid { low: [2.0, 0.0, 0.0], high: [4.0, 0.1, 0.1], faces };
+    let layout = Layout {
+        turn: DMat3::from_diagonal(DVec3::splat(0.002_373_857_498_374_955_5)),
+        offset: DVec3::ZERO,
+        most_steps: 2,
+        seed: 2_697_759_575,
+        is_merged: false,
+        is_overlaid: false,
+    };
+    let cube = vec![whole(); 6];
+    let cube = Grid { low: [2.0; 3], high: [3.0; 3], faces: cube };
+    let mesh = grids(&[grid, cube], &layout);
+    let (from, to) =
+        ([0.004_747_715, -3e-45, 0.0], [0.007_121_572_3, 0.000_237_385_76, 0.000_237_385_79]);
+    let held = [Held { from, to, radius: 0.001_203_038_7 }];
+    let mesh = Mesh { held: &held, ..mesh.as_mesh() };
+    let options = Options::default().with_width(Width::PercentOfExtent(1.0));
+    let result = chamfer(&mesh, &options.with_verify(Verify::Full)).unwrap();
+    assert_sound("bar", &mesh, &result);
+    assert_eq!(result.totals.narrowed, 2);
+}
