@@ -89,6 +89,7 @@ pub fn closers(view: &View, shape: &Shape) -> Closers {
         closers.taken.extend(found);
         closers.taken.sort_unstable();
     }
+    closers.leave_beside(&left, shape);
     closers
 }
 
@@ -119,6 +120,17 @@ fn knows(shape: &Shape, closers: &Closers, twin: Corner) -> bool {
 }
 
 impl Closers {
+    /// A row of lines is taken whole or not at all: light would break between its lines.
+    fn leave_beside(&mut self, left: &[Triangle], shape: &Shape) {
+        let mut left = left.to_vec();
+        while let Some(line) = left.pop() {
+            for twin in line.corners().map(|side| shape.topology.twin[side]) {
+                let place = twin.is_some().then(|| self.place(twin.triangle())).flatten();
+                left.extend(place.map(|place| self.taken.remove(place).0));
+            }
+        }
+    }
+
     fn place(&self, line: Triangle) -> Option<usize> {
         self.taken.binary_search_by_key(&line, |taken| taken.0).ok()
     }

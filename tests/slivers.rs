@@ -230,12 +230,36 @@ fn a_line_beside_which_nothing_moves_stays_as_it_was() {
     assert_eq!(result.mesh, mesh);
 }
 
+/// The edge A-M in two, and two lines in a row for the one: that of A-M could go along.
+fn cut_left_half(mesh: &mut MeshBuffers) {
+    let [a, m, half] = [0.0, 1.0, 0.5].map(|x| [x, 1.0, 0.5]);
+    let at = |vertex: u32| mesh.positions[vertex as usize];
+    let mut faces = Vec::new();
+    for triangle in mesh.indices.chunks_exact(3) {
+        let normal = mesh.normals[triangle[0] as usize];
+        let points = [0, 1, 2].map(|k| at(triangle[k]));
+        let side = (0..3).find(|&k| points[k] == m && points[(k + 1) % 3] == a);
+        match side.map(|k| points[(k + 2) % 3]) {
+            Some(far) => faces.extend([flat([m, half, far], normal), flat([half, a, far], normal)]),
+            None => faces.push(flat(points, normal)),
+        }
+    }
+    faces.push(flat([a, half, m], [1.0, 0.0, 0.0]));
+    *mesh = triangles(&faces);
+}
+
 /// Where the faces along its short sides bend at the vertex between, it can go along with neither.
 #[test]
 fn a_line_beside_faces_that_bend_says_t_junction() {
-    let result = chamfered(&box_with_closed_gap(0.25), Width::Units(0.05));
-    assert_eq!(result.totals.skipped[Reason::TJunction], result.totals.skipped.total());
-    assert_eq!(result.totals.skipped.total(), 3);
+    for (is_cut, skipped) in [(false, 3), (true, 4)] {
+        let mut mesh = box_with_closed_gap(0.25);
+        if is_cut {
+            cut_left_half(&mut mesh);
+        }
+        let result = chamfered(&mesh, Width::Units(0.05));
+        assert_eq!(result.totals.skipped[Reason::TJunction], result.totals.skipped.total());
+        assert_eq!(result.totals.skipped.total(), skipped);
+    }
 }
 
 //      c
