@@ -217,7 +217,10 @@ extern "C" {
 /** `reason`: the edge is not among those that were asked for, by angle, convexity, factor or list. */
 #define CHAMFER_REASON_NOT_SELECTED 10
 
-/** `reason`: a vertex of one side lies in the middle of the other; the surface is open along it. */
+/**
+ * `reason`: a vertex of one side lies in the middle of the other; the surface is open along it,
+ * or closed by triangles without area.
+ */
 #define CHAMFER_REASON_T_JUNCTION 11
 
 /** `reason`: a face beside the edge is wound against the other one, or against its own normals. */

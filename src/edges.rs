@@ -7,8 +7,8 @@ use glam::DVec3;
 use crate::breaks::{is_hard, seam_between};
 use crate::contacts::{ASKED, Contacts};
 use crate::error::Error;
-use crate::faces::{Faces, is_blurred};
-use crate::ids::{Corner, Edge, IdVec, Vertex};
+use crate::faces::{Faces, is_blurred, long_side};
+use crate::ids::{Corner, Edge, IdVec, Triangle, Vertex};
 use crate::mesh::UV_CHANNELS;
 use crate::report::Reason;
 use crate::selection::Selection;
@@ -181,7 +181,16 @@ fn obstacle(
     if one == DVec3::ZERO || two == DVec3::ZERO {
         let unknown = [(side, one), (other, two)].into_iter().filter(|(_, n)| *n == DVec3::ZERO);
         let is_blurred = unknown.into_iter().all(|(side, _)| is_blurred(view, side.triangle()));
-        return Some(if is_blurred { Reason::TooFine } else { Reason::NoArea });
+        let is_closer = |line: Triangle| {
+            let has_sides = line.corners().into_iter().all(|side| topology.twin[side].is_some());
+            faces.normal[line] == DVec3::ZERO && has_sides && long_side(view, line).is_some()
+        };
+        let is_closed = || is_closer(side.triangle()) || is_closer(other.triangle());
+        return Some(match is_blurred {
+            true => Reason::TooFine,
+            false if is_closed() => Reason::TJunction,
+            false => Reason::NoArea,
+        });
     }
     let is_doubled = topology.doubled.binary_search(&side).is_ok();
     if is_doubled || one.dot(two) < BACK_TO_BACK_COSINE {

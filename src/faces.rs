@@ -9,6 +9,7 @@ use glam::DVec3;
 use crate::breaks::is_hard;
 use crate::error::Error;
 use crate::ids::{Corner, IdVec, Triangle};
+use crate::line::Line;
 use crate::math::{area_vector, unit};
 use crate::threads::Threads;
 use crate::tolerance::LINE_HEIGHT;
@@ -75,6 +76,15 @@ pub fn own_normal(view: &View, triangle: Triangle) -> DVec3 {
 pub fn is_blurred(view: &View, line: Triangle) -> bool {
     let (area, longest) = measures(view, line);
     area.length() > longest * resolution_of(view.extent) * LINE_HEIGHT
+}
+
+/// The side of a line between whose ends its third corner stands.
+pub fn long_side(view: &View, line: Triangle) -> Option<Corner> {
+    let holds = |side: &Corner| {
+        let reach = view.resolution * LINE_HEIGHT;
+        Line::new(view, *side).holds(view.position_at(side.prev()), reach)
+    };
+    line.corners().into_iter().find(holds)
 }
 
 /// A triangle's area vector, and its longest side.

@@ -56,6 +56,7 @@ mod breaks;
 mod bvh;
 mod chamfers;
 mod charts;
+mod closers;
 mod contacts;
 mod edges;
 mod error;

@@ -98,6 +98,11 @@ pub fn of_turned(mesh: &Mesh) -> u64 {
     mesh.positions.len() as u64 * BYTES_PER_TURNED
 }
 
+/// All indices once more.
+pub fn of_indices(mesh: &Mesh) -> u64 {
+    size_of_val(mesh.indices) as u64
+}
+
 /// The stages from there up to the edges, but for rims.
 pub fn up_to_edges(mesh: &Mesh) -> u64 {
     // Listed edges are sorted, which may take as much again.

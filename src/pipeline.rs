@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use crate::attributes::{Attributes, attributes};
 use crate::blocks::{Blocks, blocks, cut, join};
 use crate::charts::{Charts, charts};
+use crate::closers::closers;
 use crate::contacts::contacts;
 use crate::edges::{edges, may_be_hard};
 use crate::error::Error;
@@ -277,8 +278,8 @@ fn in_space<T>(
     with(Space { source: view, measured: scaled.as_ref().unwrap_or(view), scale })
 }
 
-/// The same where there may be hard edges. Where only a part of an edge can have a chamfer, the mesh gets
-/// vertices, and the finer one goes on.
+/// The same where there may be hard edges. Where lines close T-junctions without being part of a face,
+/// they become so.
 fn chamfer_hard(
     space: Space,
     weld: Weld,
@@ -288,6 +289,30 @@ fn chamfer_hard(
     let view = space.measured;
     let threads = &Threads::new(options.threads, view.corner_count());
     let shape = shape(view, weld, options, threads, done)?;
+    let closers = closers(view, &shape);
+    if closers.is_empty() {
+        return chamfer_closed(space, shape, options, (threads, done));
+    }
+    memory::ask(memory::of_indices(&view.mesh))?;
+    let indices = closers.indices(view);
+    let [source, measured] = &[space.source, view].map(|view| view.with_indices(&indices));
+    let weld = shape.weld;
+    // These stages were told of.
+    let shape = self::shape(measured, weld, options, threads, &mut |_| done(None))?;
+    let space = Space { source, measured, ..space };
+    let chamfered = chamfer_closed(space, shape, options, (threads, done))?;
+    Ok(closers.restored(&view.mesh, chamfered))
+}
+
+/// The stages after the sectors. Where only a part of an edge can have a chamfer, the mesh gets vertices,
+/// and the finer one goes on.
+fn chamfer_closed(
+    space: Space,
+    shape: Shape,
+    options: &Options,
+    (threads, done): (&Threads, &mut Done),
+) -> Result<Chamfered, Error> {
+    let view = space.measured;
     let unpaired = unpaired(view, &shape, &Caller::new(&mut || done(None)))?;
     let mut stitches = stitches(view, &shape, &unpaired);
     for _ in 0..MOST_STITCHED {

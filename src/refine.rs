@@ -13,6 +13,7 @@
 //! This is a step from mesh to mesh. The pipeline then goes on with the finer mesh as with any
 //! other, and [`restored`] tells the result in terms of the source.
 
+mod cutting;
 mod restored;
 mod retold;
 mod shape;

@@ -275,7 +275,8 @@ reasons! {
     Contact = 9, c"contact";
     /// It is not among the edges that were asked for, by angle, convexity, factor or list.
     NotSelected = 10, c"not_selected";
-    /// A vertex of one side lies in the middle of the other, so that the surface is open along it.
+    /// A vertex of one side lies in the middle of the other: the surface is open along it, or closed by
+    /// triangles without area.
     TJunction = 11, c"t_junction";
     /// A face beside it is wound against the other one, or against its own normals.
     Winding = 12, c"winding";

@@ -104,6 +104,14 @@ impl<'a> View<'a> {
         self.rounding() * LINE_HEIGHT
     }
 
+    /// The same with other vertices at its corners, at the same positions.
+    pub fn with_indices<'b>(&self, indices: &'b [u32]) -> View<'b>
+    where
+        'a: 'b,
+    {
+        View { mesh: Mesh { indices, ..self.mesh }, ..*self }
+    }
+
     #[inline]
     pub fn vertex_at(&self, corner: Corner) -> Vertex {
         Vertex(self.mesh.indices[corner.index()])

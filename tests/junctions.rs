@@ -11,7 +11,7 @@ mod seeded;
 
 use std::ops::RangeInclusive;
 
-use chamfer::check::{assert_sound, check};
+use chamfer::check::{Rule, assert_sound, check};
 use chamfer::{
     Convexity, EdgeFactor, Factors, Held, Mesh, MeshBuffers, Options, Reason, Verify, Width,
     chamfer,
@@ -277,4 +277,70 @@ fn chamfers_of_a_plate_on_a_plate_meet_at_its_corners() {
         Grid { low: [1.0, 1.0, 1.0], high: [1.1, 3.0, 2.0], faces: low },
     ];
     assert_chamfered(&boxes, 1.0, (0.3, 1), [27, 22]);
+}
+
+/// Far from the origin for its size: a vertex that stands on a side is off its plane by more than flat
+/// faces may be.
+#[test]
+fn what_stands_on_a_side_may_be_off_its_plane_by_rounding() {
+    let cut = face(0, &[0b1000_0000]);
+    let faces = vec![cut, whole(), whole(), whole(), whole(), whole()];
+    let grid = Grid { low: [0.0, 2.0, 2.0], high: [0.1, 2.1, 2.1], faces };
+    let layout = Layout {
+        turn: DMat3::from_diagonal(DVec3::splat(35_266.472_636_604_07)),
+        offset: DVec3::ZERO,
+        most_steps: 3,
+        seed: 3_153_447_839,
+        is_merged: false,
+        is_overlaid: false,
+    };
+    let mesh = grids(&[grid], &layout);
+    let options = Options::default().with_width(Width::PercentOfExtent(1.0));
+    let mut result = chamfer(&mesh.as_mesh(), &options).unwrap();
+    assert_sound("box", &mesh.as_mesh(), &result);
+    // A place that only pieces have, and to which none of their triangles reached.
+    let is_own = |weights: [f32; 3]| weights.contains(&1.0);
+    let corners = result.pieces.iter().flat_map(|piece| {
+        (0..3).filter(|&k| !is_own(piece.corners[k])).map(|k| 3 * piece.triangle as usize + k)
+    });
+    let added: Vec<u32> = corners.map(|corner| result.mesh.indices[corner]).collect();
+    let uses = |v: u32| result.mesh.indices.iter().filter(|&&used| used == v).count();
+    let only = added.iter().find(|&&v| uses(v) == added.iter().filter(|&&a| a == v).count());
+    let moved = &mut result.mesh.positions[*only.unwrap() as usize];
+    *moved = moved.map(|along| along + 1.0);
+    let findings = check(&mesh.as_mesh(), &result, Verify::Fast);
+    assert!(findings.count(Rule::FlatFace) > 0);
+}
+
+//   .---------------.     a thin bar seen from above: its end is in three rows, so the long side there
+//   |              .o     gets their vertices `o`, a step of single precision too low; the pieces would
+//   |           .-' o     cut the front below, which the whole triangle does not
+//   '---------------'
+#[test]
+fn a_piece_cuts_no_face_beside() {
+    let turned = |cells: Cells, diagonals| Cells { diagonals, ..cells };
+    let end = turned(face(0b1000_0010, &[0]), 0b1_1001_0011_0111);
+    let top = turned(face(0b1_0100, &[0]), 0b1010_0110_0100_0100);
+    let none = Cells { copies: 0, ..whole() };
+    let faces = vec![whole(), end, none, top, whole(), whole()];
+    let grid = Grid { low: [2.0, 0.0, 0.0], high: [4.0, 0.1, 0.1], faces };
+    let layout = Layout {
+        turn: DMat3::from_diagonal(DVec3::splat(0.002_373_857_498_374_955_5)),
+        offset: DVec3::ZERO,
+        most_steps: 2,
+        seed: 2_697_759_575,
+        is_merged: false,
+        is_overlaid: false,
+    };
+    let cube = vec![whole(); 6];
+    let cube = Grid { low: [2.0; 3], high: [3.0; 3], faces: cube };
+    let mesh = grids(&[grid, cube], &layout);
+    let (from, to) =
+        ([0.004_747_715, -3e-45, 0.0], [0.007_121_572_3, 0.000_237_385_76, 0.000_237_385_79]);
+    let held = [Held { from, to, radius: 0.001_203_038_7 }];
+    let mesh = Mesh { held: &held, ..mesh.as_mesh() };
+    let options = Options::default().with_width(Width::PercentOfExtent(1.0));
+    let result = chamfer(&mesh, &options.with_verify(Verify::Full)).unwrap();
+    assert_sound("bar", &mesh, &result);
+    assert_eq!(result.totals.narrowed, 2);
 }

@@ -2,7 +2,7 @@
 //! mesh is the smallest one of its kind.
 
 use chamfer::check::check;
-use chamfer::{Chamfered, MeshBuffers, Options, Outcome, Reason, Verify, Width, chamfer};
+use chamfer::{Chamfered, MeshBuffers, Options, Reason, Verify, Width, chamfer};
 
 const UP: [f32; 3] = [0.0, 1.0, 0.0];
 
@@ -162,14 +162,104 @@ fn a_line_between_an_edge_and_two_goes_along_with_their_chamfer() {
     }
 }
 
-/// A line whose normal is that of no face beside it belongs to none: the edge above stays and says
-/// so, and all others get the full width.
+/// A line whose normal is that of no face beside it is taken for a part of those along its short sides.
 #[test]
-fn a_line_that_belongs_to_no_face_says_so() {
-    let result = chamfered(&box_with_cut_front(2, [1.0, 0.0, 0.0]), Width::Units(0.05));
-    let skipped = result.verdicts.iter().filter(|verdict| verdict.outcome == Outcome::Skipped);
-    assert!(skipped.clone().all(|verdict| verdict.reason == Reason::NoArea));
-    assert_eq!((skipped.count(), result.totals.chamfered), (3, 12));
+fn a_line_that_is_shaded_like_no_face_goes_along_with_their_chamfer() {
+    for parts in 2..5 {
+        let mut mesh = box_with_cut_front(parts, [1.0, 0.0, 0.0]);
+        for _ in 0..2 {
+            let result = chamfered(&mesh, Width::Units(0.05));
+            assert_eq!(result.totals.chamfered as usize, 10 + parts + 1, "{parts}");
+            assert_eq!(result.totals.hard_edges, result.totals.chamfered);
+            // Lines before the faces: their sides are then those that verdicts tell.
+            mesh.indices.reverse();
+            mesh.indices.chunks_exact_mut(3).for_each(<[u32]>::reverse);
+        }
+    }
+}
+
+//  .-----------.     a box seen from above, on whose top a line A-M-B closes the gap between the face
+//  |           |     behind and the two in front. It is shaded like none of them. The right one may
+//  A-----M-----B     slope: it ends so much lower, and there is a wall along M-F
+//  |     |     |
+//  '-----F-----'
+fn box_with_closed_gap(slope: f32) -> MeshBuffers {
+    let low = 1.0 - slope;
+    let [a, m, b] = [0.0, 1.0, 2.0].map(|x| [x, 1.0, 0.5]);
+    let polygons: [&[[f32; 3]]; 12] = [
+        &[[0.0, 1.0, 0.0], a, b, [2.0, 1.0, 0.0]],
+        &[a, [0.0, 1.0, 1.0], [1.0, 1.0, 1.0], m],
+        &[m, [1.0, low, 1.0], [2.0, low, 1.0], b],
+        &[m, [1.0, 1.0, 1.0], [1.0, low, 1.0]],
+        &[[0.0; 3], [0.0, 0.0, 0.5], a, [0.0, 1.0, 0.0]],
+        &[[0.0, 0.0, 0.5], [0.0, 0.0, 1.0], [0.0, 1.0, 1.0], a],
+        &[[2.0, 0.0, 0.0], [2.0, 1.0, 0.0], b, [2.0, 0.0, 0.5]],
+        &[[2.0, 0.0, 0.5], b, [2.0, low, 1.0], [2.0, 0.0, 1.0]],
+        &[[0.0; 3], [0.0, 1.0, 0.0], [2.0, 1.0, 0.0], [2.0, 0.0, 0.0]],
+        &[[0.0; 3], [2.0, 0.0, 0.0], [2.0, 0.0, 0.5], [0.0, 0.0, 0.5]],
+        &[[0.0, 0.0, 0.5], [2.0, 0.0, 0.5], [2.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.0, 0.0, 1.0]],
+        &[[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [1.0, low, 1.0], [1.0, 1.0, 1.0], [0.0, 1.0, 1.0]],
+    ];
+    let front = [[1.0, 0.0, 1.0], [2.0, 0.0, 1.0], [2.0, low, 1.0], [1.0, low, 1.0]];
+    let mut faces = vec![flat([a, m, b], [1.0, 0.0, 0.0])];
+    for points in polygons.into_iter().chain([&front[..]]) {
+        for pair in points[1..].windows(2) {
+            let triangle = [points[0], pair[0], pair[1]];
+            let [p, q, r] = triangle.map(glam::Vec3::from);
+            let normal = (q - p).cross(r - p);
+            if normal != glam::Vec3::ZERO {
+                faces.push(flat(triangle, normal.normalize().to_array()));
+            }
+        }
+    }
+    triangles(&faces)
+}
+
+#[test]
+fn a_line_within_a_flat_face_is_no_edge() {
+    let mesh = box_with_closed_gap(0.0);
+    let result = chamfered(&mesh, Width::Units(0.05));
+    assert_eq!((result.totals.hard_edges, result.totals.chamfered), (18, 18));
+}
+
+#[test]
+fn a_line_beside_which_nothing_moves_stays_as_it_was() {
+    let mesh = box_with_closed_gap(0.0);
+    let options = Options::default().with_width(Width::Units(0.05)).with_angles(100.0, 180.0);
+    let result = chamfer(&mesh.as_mesh(), &options).unwrap();
+    assert_eq!(result.mesh, mesh);
+}
+
+/// The edge A-M in two, and two lines in a row for the one: that of A-M could go along.
+fn cut_left_half(mesh: &mut MeshBuffers) {
+    let [a, m, half] = [0.0, 1.0, 0.5].map(|x| [x, 1.0, 0.5]);
+    let at = |vertex: u32| mesh.positions[vertex as usize];
+    let mut faces = Vec::new();
+    for triangle in mesh.indices.chunks_exact(3) {
+        let normal = mesh.normals[triangle[0] as usize];
+        let points = [0, 1, 2].map(|k| at(triangle[k]));
+        let side = (0..3).find(|&k| points[k] == m && points[(k + 1) % 3] == a);
+        match side.map(|k| points[(k + 2) % 3]) {
+            Some(far) => faces.extend([flat([m, half, far], normal), flat([half, a, far], normal)]),
+            None => faces.push(flat(points, normal)),
+        }
+    }
+    faces.push(flat([a, half, m], [1.0, 0.0, 0.0]));
+    *mesh = triangles(&faces);
+}
+
+/// Where the faces along its short sides bend at the vertex between, it can go along with neither.
+#[test]
+fn a_line_beside_faces_that_bend_says_t_junction() {
+    for (is_cut, skipped) in [(false, 3), (true, 4)] {
+        let mut mesh = box_with_closed_gap(0.25);
+        if is_cut {
+            cut_left_half(&mut mesh);
+        }
+        let result = chamfered(&mesh, Width::Units(0.05));
+        assert_eq!(result.totals.skipped[Reason::TJunction], result.totals.skipped.total());
+        assert_eq!(result.totals.skipped.total(), skipped);
+    }
 }
 
 //      c

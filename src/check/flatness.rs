@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::junctions::reach;
 use super::origins::Origins;
 use super::rules::{Element, Findings, Rule};
 use super::stored::{is_unit, normal_with_area};
@@ -65,12 +66,13 @@ pub(super) fn check_flatness(
         }
         let alone = || Fan::of_triangle(before, source[0] / 3, least_height);
         let fan_at = |corner: u32| match origins.own_corner(corner) {
-            Some(own) => (fans[fan_of[own as usize] as usize], corner),
-            // A corner that a cut has added on a hard edge belongs to nothing but its triangle.
-            None => (alone(), corner),
+            Some(own) => (fans[fan_of[own as usize] as usize], corner, tolerance),
+            // A corner that a cut has added on a hard edge belongs to nothing but its triangle. The
+            // vertex at whose place it stands may have been a little off that.
+            None => (alone(), corner, tolerance.max(reach(before))),
         };
         let corners = || (0..3).map(|side| fan_at(3 * triangle + side));
-        if corners().any(|(fan, corner)| {
+        if corners().any(|(fan, corner, tolerance)| {
             fan.off_plane <= FLAT_TOLERANCE * extent
                 && !fan.leans
                 && !fan.shades_curved
@@ -81,7 +83,7 @@ pub(super) fn check_flatness(
         // What is but a line, and stays one, shows no normal.
         let shows =
             |fan: &Fan| fan.plane.is_some() || !is_low(after.triangle(triangle), least_height);
-        if corners().any(|(fan, corner)| shows(&fan) && fan.bends(after.normal(corner))) {
+        if corners().any(|(fan, corner, _)| shows(&fan) && fan.bends(after.normal(corner))) {
             findings.note(Rule::FlatNormal, Element::Triangle(triangle));
         }
     }

@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use super::junctions::{Borders, reach};
 use super::rules::{Element, Findings, MeasuredEdge, Rule};
+use super::stored::normal_with_area;
 use super::surface::{HalfEdge, Surface};
 use super::widths::Ruler;
 use crate::mesh::Mesh;
@@ -14,6 +15,9 @@ use crate::report::{Chamfered, EdgeVerdict, Outcome, Reason, TriangleKind};
 /// How far a verdict's width may be off the measured one, as a share of the width asked for:
 /// rounding in a few places, far below what could be seen.
 const WIDTH_TOLERANCE: f64 = 1e-4;
+
+/// More lines in a row than so many are no edge that meets several.
+const MOST_LINES: usize = 64;
 
 /// Each new triangle names a verdict or source vertex that exists, and the totals are those of the
 /// verdicts.
@@ -104,12 +108,13 @@ impl<'a> Sides<'a> {
             return verdict.outcome == Outcome::Skipped && verdict.widths == [0.0; 2]
                 || sides().any(|side| self.agrees_in_parts(verdict, side, ruler, tolerance));
         }
+        let is_alone = forward.len() + backward.len() == 2;
         let pairs = forward.iter().flat_map(|one| backward.iter().map(move |other| [one, other]));
         let both_ways = pairs.flat_map(|[one, other]| [[one, other], [other, one]]);
         both_ways
             .filter(|[one, _]| vertices(self.surface, one) == verdict.vertices)
             .filter_map(|[one, other]| ruler.measure(one, other))
-            .any(|measured| agrees(verdict, &measured, tolerance))
+            .any(|measured| agrees(verdict, &measured, is_alone, tolerance))
     }
 
     /// Whether a verdict's widths are those of an edge of which several others are the second side:
@@ -163,18 +168,72 @@ impl<'a> Sides<'a> {
             if is_whole(forward)
                 && is_whole(backward)
                 && sides.iter().all(|side| told.binary_search(side).is_err())
+                && !self.lies_in_face([forward, backward], &told)
             {
                 findings.note(Rule::Verdicts, Element::SourceEdge(sides[0][0], sides[0][1]));
             }
         }
     }
+
+    /// Whether an edge without a verdict is a side of a line that is no more than a part of the faces
+    /// around, as it shows no normals: one of its sides, or of those of the lines in a row with it, has
+    /// a verdict, or no light breaks between the faces behind all of them.
+    fn lies_in_face(&self, edge: [&HalfEdge; 2], told: &[[u32; 2]]) -> bool {
+        let is_line = |triangle: u32| is_line(self.surface, triangle);
+        let mut lines: Vec<u32> = edge.map(|side| side.corners[0] / 3).to_vec();
+        lines.retain(|&triangle| is_line(triangle));
+        let (mut next, mut faces) = (0, Vec::new());
+        while next < lines.len() && lines.len() <= MOST_LINES {
+            for corner in 3 * lines[next]..3 * lines[next] + 3 {
+                let Some([own, other]) = self.pair_at(corner) else { return false };
+                if [own, other]
+                    .iter()
+                    .any(|side| told.binary_search(&vertices(self.surface, side)).is_ok())
+                {
+                    return true;
+                }
+                let behind = other.corners[0] / 3;
+                if !is_line(behind) {
+                    faces.extend(other.corners);
+                } else if !lines.contains(&behind) {
+                    lines.push(behind);
+                }
+            }
+            next += 1;
+        }
+        let differ = |one: u32, other: u32| {
+            self.surface.cluster(one) == self.surface.cluster(other)
+                && !self.surface.share_normal([one, other])
+        };
+        let is_whole = next == lines.len() && next > 0;
+        is_whole && faces.iter().all(|&one| faces.iter().all(|&other| !differ(one, other)))
+    }
+
+    /// The two sides of the edge at a corner; none where there are more or fewer.
+    fn pair_at(&self, corner: u32) -> Option<[&HalfEdge; 2]> {
+        let next = corner - corner % 3 + (corner + 1) % 3;
+        let ends = [corner, next].map(|corner| self.surface.vertex(corner) as u32);
+        let place = self.edge_of.partition_point(|(vertices, _)| *vertices < ends);
+        let (_, edge) = *self.edge_of.get(place).filter(|(vertices, _)| *vertices == ends)?;
+        let ([forward], [backward]) = self.edges[edge as usize] else { return None };
+        let is_forward = forward.corners[0] == corner;
+        Some(if is_forward { [forward, backward] } else { [backward, forward] })
+    }
+}
+
+/// Whether a triangle is so low that its vertices stand on one line.
+fn is_line(surface: &Surface, triangle: u32) -> bool {
+    let corners = surface.triangle(triangle);
+    let longest = (0..3).map(|k| corners[k].distance(corners[(k + 1) % 3])).fold(0.0, f64::max);
+    normal_with_area(corners).map_or(0.0, |area| area.length()) <= longest * reach(surface)
 }
 
 fn vertices(surface: &Surface, half_edge: &HalfEdge) -> [u32; 2] {
     half_edge.corners.map(|corner| surface.mesh.indices[corner as usize])
 }
 
-fn agrees(verdict: &EdgeVerdict, measured: &MeasuredEdge, tolerance: f64) -> bool {
+/// `is_alone`: no third side lies on the edge.
+fn agrees(verdict: &EdgeVerdict, measured: &MeasuredEdge, is_alone: bool, tolerance: f64) -> bool {
     if verdict.outcome == Outcome::Skipped {
         // Where a chamfer ends beside it, an edge that stays hard goes on beside what is cut off.
         let stays = |end: usize| {
@@ -184,7 +243,8 @@ fn agrees(verdict: &EdgeVerdict, measured: &MeasuredEdge, tolerance: f64) -> boo
         let is_left = match verdict.reason {
             Reason::NotSelected => stays(0) && stays(1),
             // Its sides share no edge, and so each goes along with whatever else is there.
-            Reason::TJunction | Reason::Winding => true,
+            Reason::TJunction => !is_alone || !measured.is_chamfered(),
+            Reason::Winding => true,
             _ => !measured.is_chamfered(),
         };
         return verdict.widths == [0.0; 2] && is_left;

@@ -140,7 +140,8 @@ pub const CHAMFER_REASON_TOO_FINE: u32 = 8;
 pub const CHAMFER_REASON_CONTACT: u32 = 9;
 /// `reason`: the edge is not among those that were asked for, by angle, convexity, factor or list.
 pub const CHAMFER_REASON_NOT_SELECTED: u32 = 10;
-/// `reason`: a vertex of one side lies in the middle of the other; the surface is open along it.
+/// `reason`: a vertex of one side lies in the middle of the other; the surface is open along it,
+/// or closed by triangles without area.
 pub const CHAMFER_REASON_T_JUNCTION: u32 = 11;
 /// `reason`: a face beside the edge is wound against the other one, or against its own normals.
 pub const CHAMFER_REASON_WINDING: u32 = 12;

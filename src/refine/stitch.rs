@@ -213,7 +213,7 @@ impl Stitched {
         left
     }
 
-    /// What would turn a triangle over, or nearly; what would bring more than two sides together, or
+    /// What would turn a triangle over, or nearly; what would cut a face beside; what would bring more than two sides together, or
     /// two that run the same way; and what brings none together.
     fn bad(&mut self, view: &View, shape: &Shape) -> Left {
         let mut meetings = self.meetings(shape);
@@ -224,9 +224,17 @@ impl Stitched {
             bad.places.extend(ends.filter(|end| self.joins.contains_key(end)));
         }
         self.add_tilted(view, shape, &mut bad);
+        self.add_cutting(view, shape, &mut bad);
         meetings.retain(Meeting::is_pair);
         self.new_twins = meetings;
         bad
+    }
+
+    /// Those of a source triangle.
+    pub(super) fn long_sides_of(&self, triangle: Triangle) -> impl Iterator<Item = Corner> + '_ {
+        let first = self.long_sides.partition_point(|side| side.triangle() < triangle);
+        let own = self.long_sides[first..].iter();
+        own.take_while(move |side| side.triangle() == triangle).copied()
     }
 
     fn add_tilted(&self, view: &View, shape: &Shape, bad: &mut Left) {
@@ -237,9 +245,7 @@ impl Stitched {
         };
         for piece in &self.refined.pieces {
             if is_low(piece.triangle, piece.source) {
-                let first = self.long_sides.partition_point(|s| s.triangle() < piece.source);
-                let own = self.long_sides[first..].iter();
-                bad.sides.extend(own.take_while(|side| side.triangle() == piece.source));
+                bad.sides.extend(self.long_sides_of(piece.source));
             }
         }
         if self.joins.is_empty() {
@@ -294,7 +300,7 @@ impl Stitched {
     }
 
     /// The cluster of the source that a corner of the finer mesh is put to.
-    fn cluster(&self, shape: &Shape, corner: Corner) -> Cluster {
+    pub(super) fn cluster(&self, shape: &Shape, corner: Corner) -> Cluster {
         let cluster = self.source_cluster(shape, corner);
         self.joins.get(&cluster).copied().unwrap_or(cluster)
     }

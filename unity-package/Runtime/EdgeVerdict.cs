@@ -36,7 +36,8 @@ namespace Chamfer
         Contact = 9,
         /// <summary>The settings leave it out: its angle, the way its faces meet, its material or the mask.</summary>
         NotSelected = 10,
-        /// <summary>A vertex of one side lies in the middle of the other: the surface is open along it.</summary>
+        /// <summary>A vertex of one side lies in the middle of the other: the surface is open along it, or
+        /// closed by triangles without area.</summary>
         TJunction = 11,
         /// <summary>A face beside the edge is wound against the other one, or against its own normals.</summary>
         Winding = 12
