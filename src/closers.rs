@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 
 use crate::faces::long_side;
-use crate::ids::{Corner, Triangle, Vertex};
+use crate::ids::{Cluster, Corner, Triangle, Vertex};
 use crate::mesh::{Mesh, MeshBuffers};
 use crate::report::{Chamfered, TriangleKind};
 use crate::shape::Shape;
@@ -76,7 +76,8 @@ pub fn closers(view: &View, shape: &Shape) -> Closers {
         return closers;
     }
     let is_unknown = |&triangle: &Triangle| shape.faces.normal[triangle] == DVec3::ZERO;
-    let mut left: Vec<Triangle> = view.triangles().filter(is_unknown).collect();
+    let lines: Vec<Triangle> = view.triangles().filter(is_unknown).collect();
+    let (crowded, mut left) = crowded(view, shape, lines);
     for _ in 0..MOST_IN_A_ROW {
         let found: Vec<_> = left
             .iter()
@@ -89,8 +90,27 @@ pub fn closers(view: &View, shape: &Shape) -> Closers {
         closers.taken.extend(found);
         closers.taken.sort_unstable();
     }
-    closers.leave_beside(&left, shape);
+    left.extend(crowded);
+    closers.leave_beside(left, shape);
     closers
+}
+
+/// The lines of which a side lies on more than one other, and those that are left: where several lie on
+/// each other, which of them is the twin is nobody's choice.
+fn crowded(view: &View, shape: &Shape, lines: Vec<Triangle>) -> (Vec<Triangle>, Vec<Triangle>) {
+    let ends = |side: Corner| {
+        let [from, to] = [side, side.next()].map(|corner| shape.topology.cluster_at[corner]);
+        [from.min(to), from.max(to)]
+    };
+    let sides = lines.iter().flat_map(|line| line.corners());
+    let mut lie_on: BTreeMap<[Cluster; 2], usize> = sides.map(|side| (ends(side), 0)).collect();
+    if !lie_on.is_empty() {
+        for side in (0..view.corner_count() as u32).map(Corner) {
+            lie_on.entry(ends(side)).and_modify(|count| *count += 1);
+        }
+    }
+    let is_crowded = |line: &Triangle| line.corners().iter().any(|&side| lie_on[&ends(side)] > 2);
+    lines.into_iter().partition(is_crowded)
 }
 
 /// The vertices that a line finds along its short sides; none where these have no faces, or are shaded
@@ -121,8 +141,7 @@ fn knows(shape: &Shape, closers: &Closers, twin: Corner) -> bool {
 
 impl Closers {
     /// A row of lines is taken whole or not at all: light would break between its lines.
-    fn leave_beside(&mut self, left: &[Triangle], shape: &Shape) {
-        let mut left = left.to_vec();
+    fn leave_beside(&mut self, mut left: Vec<Triangle>, shape: &Shape) {
         while let Some(line) = left.pop() {
             for twin in line.corners().map(|side| shape.topology.twin[side]) {
                 let place = twin.is_some().then(|| self.place(twin.triangle())).flatten();
