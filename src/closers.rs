@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 
-use crate::faces::long_side;
+use crate::faces::{is_blurred, long_side};
 use crate::ids::{Cluster, Corner, Triangle, Vertex};
 use crate::mesh::{Mesh, MeshBuffers};
 use crate::report::{Chamfered, TriangleKind};
@@ -77,7 +77,7 @@ pub fn closers(view: &View, shape: &Shape) -> Closers {
     }
     let is_unknown = |&triangle: &Triangle| shape.faces.normal[triangle] == DVec3::ZERO;
     let lines: Vec<Triangle> = view.triangles().filter(is_unknown).collect();
-    let (crowded, mut left) = crowded(view, shape, lines);
+    let (unclear, mut left) = unclear(view, shape, lines);
     for _ in 0..MOST_IN_A_ROW {
         let found: Vec<_> = left
             .iter()
@@ -90,14 +90,14 @@ pub fn closers(view: &View, shape: &Shape) -> Closers {
         closers.taken.extend(found);
         closers.taken.sort_unstable();
     }
-    left.extend(crowded);
+    left.extend(unclear);
     closers.leave_beside(left, shape);
     closers
 }
 
-/// The lines of which a side lies on more than one other, and those that are left: where several lie on
-/// each other, which of them is the twin is nobody's choice.
-fn crowded(view: &View, shape: &Shape, lines: Vec<Triangle>) -> (Vec<Triangle>, Vec<Triangle>) {
+/// The lines that may not be what they seem, and those that are left: where several lie on each other,
+/// which of them is the twin is nobody's choice, and far out a low triangle looks like a line.
+fn unclear(view: &View, shape: &Shape, lines: Vec<Triangle>) -> (Vec<Triangle>, Vec<Triangle>) {
     let ends = |side: Corner| {
         let [from, to] = [side, side.next()].map(|corner| shape.topology.cluster_at[corner]);
         [from.min(to), from.max(to)]
@@ -110,7 +110,7 @@ fn crowded(view: &View, shape: &Shape, lines: Vec<Triangle>) -> (Vec<Triangle>, 
         }
     }
     let is_crowded = |line: &Triangle| line.corners().iter().any(|&side| lie_on[&ends(side)] > 2);
-    lines.into_iter().partition(is_crowded)
+    lines.into_iter().partition(|line| is_crowded(line) || is_blurred(view, *line))
 }
 
 /// The vertices that a line finds along its short sides; none where these have no faces, or are shaded

@@ -80,10 +80,8 @@ pub fn is_blurred(view: &View, line: Triangle) -> bool {
 
 /// The side of a line between whose ends its third corner stands.
 pub fn long_side(view: &View, line: Triangle) -> Option<Corner> {
-    let holds = |side: &Corner| {
-        let reach = view.resolution * LINE_HEIGHT;
-        Line::new(view, *side).holds(view.position_at(side.prev()), reach)
-    };
+    let holds =
+        |side: &Corner| Line::new(view, *side).holds(view.position_at(side.prev()), view.reach());
     line.corners().into_iter().find(holds)
 }
 

@@ -8,7 +8,7 @@ mod retold;
 
 use std::path::Path;
 
-use chamfer::{MeshBuffers, Options, Totals, Verify, Width, chamfer, shapes};
+use chamfer::{MeshBuffers, Options, Reason, Totals, Verify, Width, chamfer, shapes};
 use chamfer_formats::ReadOptions;
 use retold::Retold;
 
@@ -57,6 +57,10 @@ fn our_own_models_get_the_same_in_every_way() {
     }
 }
 
+fn is_too_fine(totals: &Totals) -> bool {
+    totals.skipped[Reason::TooFine] > 0
+}
+
 /// Of the real models, so many have the very same totals in each way.
 const LEAST_ALIKE: f64 = 0.95;
 
@@ -81,7 +85,9 @@ fn nearly_all_real_models_get_the_same_in_every_way() {
                 (meshes, alike) = (meshes + 1, alike + usize::from(is_alike));
                 let place = format!("{way:?}, {file}/{}", source.name);
                 assert!(off(&one, &other) <= MOST_OFF || file == LAYERED, "{place}");
-                assert_eq!(one.hard_edges, other.hard_edges, "{place}");
+                // Farther out, a line may be too low to be told from a triangle.
+                let is_blurred = way == Retold::Moved && is_too_fine(&other) && !is_too_fine(&one);
+                assert!(one.hard_edges == other.hard_edges || is_blurred, "{place}");
             }
         }
         let share = alike as f64 / f64::from(meshes.max(1));
