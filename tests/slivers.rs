@@ -149,6 +149,30 @@ fn box_with_cut_front(parts: usize, normal: [f32; 3]) -> MeshBuffers {
     triangles(&faces)
 }
 
+/// On a side of the line a sheet of two sides stands: which of them is behind the line is nobody's choice,
+/// so it stays, whichever comes first.
+#[test]
+fn a_line_on_which_others_lie_stays_whatever_their_order() {
+    let [a, m, tip] = [[0.0, 1.0, 1.0], [1.0, 1.0, 1.0], [0.5, 1.5, 1.5]];
+    let slant = std::f32::consts::FRAC_1_SQRT_2;
+    let mut mesh = box_with_cut_front(2, [1.0, 0.0, 0.0]);
+    let sheet = triangles(&[
+        flat([a, m, tip], [0.0, -slant, slant]),
+        flat([m, a, tip], [0.0, slant, -slant]),
+    ]);
+    let first = mesh.positions.len() as u32;
+    mesh.positions.extend(sheet.positions);
+    mesh.normals.extend(sheet.normals);
+    mesh.indices.extend(sheet.indices.iter().map(|index| index + first));
+    mesh.submesh_index_counts[0] += 6;
+    for _ in 0..mesh.indices.len() / 3 {
+        mesh.indices.rotate_left(3);
+        let totals = chamfered(&mesh, Width::Units(0.05)).totals;
+        assert_eq!([totals.hard_edges, totals.chamfered], [18, 12]);
+        assert_eq!([Reason::ZeroThickness, Reason::TJunction].map(|r| totals.skipped[r]), [3, 3]);
+    }
+}
+
 /// Whichever face the lines belong to, all edges get the full width. Below, each part has an edge of
 /// its own; above, too, where the lines are part of the top.
 #[test]
