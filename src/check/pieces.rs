@@ -19,9 +19,6 @@ const AREA_TOLERANCE: f64 = 1e-4;
 /// a corner that slides over its fan takes the normal from there. Across a hard edge it is more.
 const SAME_SHADING: f64 = 0.012;
 
-/// Of the pieces of a triangle, so many may come before the first that is beside an earlier one.
-const MOST_WAITING: usize = 8;
-
 /// By triangles, those that are pieces of source triangles.
 pub(super) type Cuts = BTreeMap<u32, Cut>;
 
@@ -81,7 +78,7 @@ fn share_of_area(piece: &Piece) -> f64 {
 
 /// Where nothing is told, finds the pieces of each source triangle: the first one stands in its
 /// place, the others right behind all source triangles of the submesh, in the order of these, each
-/// beside an earlier one, or one of the next. Sets what they come from.
+/// beside an earlier one. Sets what they come from.
 pub(super) fn pieces_in_order(surfaces: [&Surface; 2], triangles: &mut [Option<[u32; 3]>]) -> Cuts {
     let [before, after] = surfaces;
     let beside = beside(after, triangles);
@@ -89,28 +86,16 @@ pub(super) fn pieces_in_order(surfaces: [&Surface; 2], triangles: &mut [Option<[
     let (mut first, mut start) = (0, 0);
     for (submesh, &indices) in after.mesh.submesh_index_counts.iter().enumerate() {
         let sources = before.mesh.submesh_index_counts.get(submesh).map_or(0, |count| count / 3);
-        let (mut least, mut waiting) = (first, Vec::new());
+        let mut least = first;
         for piece in start + sources..start + indices / 3 {
-            waiting.push(piece);
-            // A piece that is beside none is so once a later one of its triangle is known.
-            let mut range = least..first + sources;
-            while let Some((place, source)) = (0..waiting.len()).rev().find_map(|place| {
-                let piece: u32 = waiting[place];
-                let neighbours = beside.get(&piece).into_iter().flatten();
-                let may_be =
-                    neighbours.filter_map(|&other| Some(triangles[other as usize]?[0] / 3));
-                let may_be = may_be.filter(|source| range.contains(source));
-                let source = patches.likeliest(piece, may_be, |source| start + source - first);
-                Some((place, source?))
-            }) {
-                let piece = waiting.remove(place);
-                patches.add(piece, source, |source| start + source - first);
-                triangles[piece as usize] = Some([0, 1, 2].map(|side| 3 * source + side));
-                (least, range) = (source, source..source + 1);
-            }
-            if waiting.len() > MOST_WAITING {
-                break;
-            }
+            let neighbours = beside.get(&piece).into_iter().flatten();
+            let may_be = neighbours.filter_map(|&other| Some(triangles[other as usize]?[0] / 3));
+            let may_be = may_be.filter(|&source| source >= least);
+            let first_piece = |source: u32| start + source - first;
+            let Some(source) = patches.likeliest(piece, may_be, first_piece) else { break };
+            patches.add(piece, source, first_piece);
+            triangles[piece as usize] = Some([0, 1, 2].map(|side| 3 * source + side));
+            least = source;
         }
         (first, start) = (first + sources, start + indices / 3);
     }
