@@ -56,6 +56,7 @@ pub fn attributes(
     watch: &dyn Watch,
 ) -> Result<Attributes, Error> {
     let vertex_at = surface.view.mesh.indices.to_vec();
+    watch.worked(vertex_at.len())?;
     // At a seam both far vertices of a strip are copied.
     let copies = 2 * chamfers.edges.hard.iter().filter(|edge| edge.seams != 0).count();
     let mut attributes = Attributes {
@@ -66,6 +67,7 @@ pub fn attributes(
     let sectors = chamfers.sectors.fans.ids();
     let has_moved: Vec<bool> = sectors.map(|sector| placement.has_moved(sector)).collect();
     let has_moved = IdVec::from_vec(has_moved);
+    watch.worked(has_moved.len())?;
     let mut taken = staying(surface, chamfers.sectors, &has_moved, watch)?;
     let mut parted = Vec::new();
     each(has_moved.len(), watch, |sector: Sector| {

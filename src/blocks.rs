@@ -262,7 +262,7 @@ pub fn join(
     watch.worked(vertices.count)?;
     let triangles = TrianglePlaces::new(view, blocks, &results);
     watch.worked(vertices.count)?;
-    let mut joined = empty(view, &vertices, &triangles, &results);
+    let mut joined = empty(view, &vertices, &triangles, &results, watch)?;
     watch.worked(vertices.count)?;
     for (block, result) in results.into_iter().enumerate() {
         let own = (blocks.vertices.of(block), blocks.triangles.of(block));
@@ -319,7 +319,8 @@ fn empty(
     vertices: &VertexPlaces,
     triangles: &TrianglePlaces,
     results: &[Chamfered],
-) -> Chamfered {
+    watch: &dyn Watch,
+) -> Result<Chamfered, Error> {
     let (mesh, count) = (&view.mesh, vertices.count);
     let present = |is_absent: bool| if is_absent { 0 } else { count };
     let uv = |uv: &Uv| UvBuffer {
@@ -329,26 +330,30 @@ fn empty(
     let triangle_count = triangles.starts[triangles.starts.len() - 1] as usize;
     let nothing = TriangleSource { kind: TriangleKind::Source, index: 0 };
     let verdicts = results.iter().map(|result| result.verdicts.len()).sum();
-    Chamfered {
-        mesh: MeshBuffers {
-            positions: vec![[0.0; 3]; count],
-            normals: vec![[0.0; 3]; count],
-            tangents: vec![[0.0; 4]; present(mesh.tangents.is_empty())],
-            colors: vec![[0.0; 4]; present(mesh.colors.is_empty())],
-            uvs: mesh.uvs.each_ref().map(uv),
-            indices: vec![0; 3 * triangle_count],
-            submesh_index_counts: triangles
-                .starts
-                .windows(2)
-                .map(|bounds| 3 * (bounds[1] - bounds[0]))
-                .collect(),
-        },
-        vertex_sources: VertexSources::with_places(vertices.first_continuing, count),
+    let mesh = MeshBuffers {
+        positions: vec![[0.0; 3]; count],
+        normals: vec![[0.0; 3]; count],
+        tangents: vec![[0.0; 4]; present(mesh.tangents.is_empty())],
+        colors: vec![[0.0; 4]; present(mesh.colors.is_empty())],
+        uvs: mesh.uvs.each_ref().map(uv),
+        indices: vec![0; 3 * triangle_count],
+        submesh_index_counts: triangles
+            .starts
+            .windows(2)
+            .map(|bounds| 3 * (bounds[1] - bounds[0]))
+            .collect(),
+    };
+    watch.worked(count)?;
+    let vertex_sources = VertexSources::with_places(vertices.first_continuing, count);
+    watch.worked(count)?;
+    Ok(Chamfered {
+        mesh,
+        vertex_sources,
         triangle_sources: vec![nothing; triangle_count],
         verdicts: Vec::with_capacity(verdicts),
         width: view.width as f32,
         ..Chamfered::default()
-    }
+    })
 }
 
 fn put_vertices(joined: &mut MeshBuffers, own: &MeshBuffers, places: &[u32]) {

@@ -8,7 +8,7 @@
 use glam::DVec3;
 
 use crate::error::Error;
-use crate::watch::{STEPS, Unwatched, Watch};
+use crate::watch::{Unwatched, Watch, sort};
 
 /// How many boxes a leaf holds: testing so few one by one costs less than another node.
 const LEAF_SIZE: usize = 4;
@@ -422,18 +422,6 @@ impl Tree {
     }
 }
 
-/// Sorts, and tells the watch again and again.
-fn sort<T: Ord>(items: &mut [T], watch: &dyn Watch) -> Result<(), Error> {
-    watch.worked(items.len())?;
-    if items.len() <= STEPS {
-        items.sort_unstable();
-        return Ok(());
-    }
-    let (low, _, high) = items.select_nth_unstable(items.len() / 2);
-    sort(low, watch)?;
-    sort(high, watch)
-}
-
 /// A curve through a box that visits each half of it, along one axis after the other, before the
 /// other half.
 struct Curve {
@@ -474,8 +462,10 @@ fn spread(bits: u64) -> u64 {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use std::cell::Cell;
+
+    use super::*;
+    use crate::watch::tests::Count;
 
     fn pairs(boxes: &[Aabb]) -> Vec<(u32, u32)> {
         let tree = Tree::new(boxes, &[]);
@@ -524,19 +514,6 @@ mod tests {
         assert_eq!(pairs(&[a, b, c]), [(0, 1)]);
     }
 
-    /// Counts how often it is told, and stops the work then.
-    struct Count {
-        told: Cell<usize>,
-        last: usize,
-    }
-
-    impl Watch for Count {
-        fn worked(&self, _: usize) -> Result<(), Error> {
-            self.told.set(self.told.get() + 1);
-            if self.told.get() < self.last { Ok(()) } else { Err(Error::Cancelled) }
-        }
-    }
-
     #[test]
     fn building_a_large_tree_can_be_stopped_at_any_time() {
         let boxes = scattered(20.0).repeat(400);
@@ -551,27 +528,6 @@ mod tests {
         for last in [1, 5, 15, 16, all / 2, all] {
             assert_eq!(told(last), (false, last));
         }
-    }
-
-    #[test]
-    fn what_is_sorted_in_parts_is_sorted() {
-        let mut numbers: Vec<u32> =
-            (0..100_000).map(|k: u32| k.wrapping_mul(2_654_435_761)).collect();
-        let mut expected = numbers.clone();
-        expected.sort_unstable();
-        sort(&mut numbers, &Unwatched).unwrap();
-        assert!(numbers == expected);
-    }
-
-    #[test]
-    fn sorting_can_be_stopped_at_each_part() {
-        let told = |last: usize| {
-            let count = Count { told: Cell::new(0), last };
-            let is_done = sort(&mut vec![0; 80_000], &count).is_ok();
-            (is_done, count.told.get())
-        };
-        assert_eq!(told(usize::MAX), (true, 15), "80,000 in eight parts");
-        assert_eq!([1, 8, 15].map(told), [(false, 1), (false, 8), (false, 15)]);
     }
 
     #[test]

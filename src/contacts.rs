@@ -25,7 +25,7 @@ use crate::threads::Threads;
 use crate::tolerance::{BACK_TO_BACK_COSINE, TOUCHING, TOUCHING_STEPS};
 use crate::topology::{Topology, topology};
 use crate::view::{View, view, wide};
-use crate::watch::{Unwatched, Watch};
+use crate::watch::{Unwatched, Watch, sort};
 use crate::weld::weld;
 
 use crowds::{Crowds, Search, crowds};
@@ -103,7 +103,7 @@ pub fn contacts(
     });
     let rims: Vec<Rim> = borders.chain(outside).collect();
     watch.worked(view.corner_count())?;
-    let (rims, starts) = side_by_side(topology, rims);
+    let (rims, starts) = side_by_side(topology, rims, watch)?;
     watch.worked(rims.len() * ASKED)?;
     let tolerance = if rims.is_empty() { 0.0 } else { tolerance(view) };
     let places = || starts[..starts.len() - 1].iter().map(|&start| &rims[start as usize]);
@@ -128,23 +128,38 @@ pub fn contacts(
 
 /// Rims of the same ends, radius and kind next to each other, and where each such place begins, and
 /// where the last ends. Places stand in the order of the first rim of each.
-fn side_by_side(topology: &Topology, rims: Vec<Rim>) -> (Vec<Rim>, Vec<u32>) {
-    let key = |&rim: &u32| {
-        let rim = &rims[rim as usize];
+fn side_by_side(
+    topology: &Topology,
+    rims: Vec<Rim>,
+    watch: &dyn Watch,
+) -> Result<(Vec<Rim>, Vec<u32>), Error> {
+    let key = |rim: &Rim| {
         let ends = rim.ends.map(|end| end.to_array().map(f64::to_bits));
         (ends, rim.radius.to_bits(), rim.border.is_some(), rim.is_of_sheet(topology))
     };
-    let mut order: Vec<u32> = (0..rims.len() as u32).collect();
-    order.sort_by_cached_key(key);
-    let mut groups: Vec<&[u32]> = order.chunk_by(|one, other| key(one) == key(other)).collect();
-    groups.sort_unstable_by_key(|group| group[0]);
+    let mut sorted: Vec<_> = rims.iter().map(key).zip(0u32..).collect();
+    watch.worked(rims.len())?;
+    sort(&mut sorted, watch)?;
+    // Of each place the first rim, and where its rims begin and end.
+    let mut end = 0;
+    let place = |place: &[(_, u32)]| {
+        let start = end;
+        end += place.len() as u32;
+        [place[0].1, start, end]
+    };
+    let mut places: Vec<[u32; 3]> =
+        sorted.chunk_by(|(one, _), (other, _)| one == other).map(place).collect();
+    let order: Vec<u32> = sorted.into_iter().map(|(_, rim)| rim).collect();
+    watch.worked(rims.len())?;
+    sort(&mut places, watch)?;
     let mut starts = vec![0];
-    starts.extend(groups.iter().scan(0, |end, group| {
-        *end += group.len() as u32;
-        Some(*end)
+    starts.extend(places.iter().scan(0, |sum, &[_, start, end]| {
+        *sum += end - start;
+        Some(*sum)
     }));
-    let rims = groups.concat().into_iter().map(|rim| rims[rim as usize].clone()).collect();
-    (rims, starts)
+    let of_place = |&[_, start, end]: &[u32; 3]| &order[start as usize..end as usize];
+    let rims = places.iter().flat_map(of_place).map(|&rim| rims[rim as usize].clone()).collect();
+    Ok((rims, starts))
 }
 
 /// The open borders of a mesh, in mesh units; none of a mesh that breaks a rule.

@@ -59,6 +59,7 @@ pub fn output(
         .map_or_else(|| patches.triangle_count(), |rounding| rounding.triangle_count(patches));
     let room = count + flaps.len();
     let submeshes = Submeshes::of_source(space.source, target, &attributes, room);
+    watch.worked(space.source.corner_count() + room)?;
     let mut result = Made { space, weld, attributes, submeshes, rounding, vertices: Vec::new() };
     let watch = &Times(1 + room / patches.len().max(1), watch);
     each(patches.len(), watch, |patch: Patch| {

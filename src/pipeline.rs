@@ -450,11 +450,14 @@ fn chamfer_shape(
     let largest_width = (shape.edges.widest(space.measured.width) / space.largest()) as f32;
     // What the output does not read is given back: it is where a call needs the most memory.
     let Shape { weld, topology, faces, contacts, edges, sectors } = shape;
-    drop((offsets, topology, faces, contacts, edges, sectors));
-    let patches = (&patches, rounding.as_ref());
-    let laid = (&charts, &flaps[..]);
     let (target, ask) = (options.chamfer_submesh, &mut || done(None));
     let watch = &Caller::new(ask);
+    drop((offsets, topology));
+    watch.worked(space.source.corner_count())?;
+    drop((faces, contacts, edges, sectors));
+    watch.worked(space.source.corner_count())?;
+    let patches = (&patches, rounding.as_ref());
+    let laid = (&charts, &flaps[..]);
     let output = output(space, &weld, patches, laid, attributes, target, watch)?;
     let scale = space.scale.map(|_| options.scale);
     Ok(Chamfered { verdicts, totals, largest_width, scale, ..output })

@@ -17,7 +17,7 @@ use crate::given::Given;
 use crate::ids::{Corner, Few, Id, IdVec, Sector, Triangle};
 use crate::math::area_vector;
 use crate::offsets::parts;
-use crate::watch::{Watch, stretches};
+use crate::watch::{Watch, sort, stretches};
 
 /// A triangle may give away all but this share of its area. Somewhat more than what validity asks
 /// for, so that rounding does not undo it.
@@ -89,7 +89,7 @@ pub fn room(given: &Given, watch: &dyn Watch) -> Result<Room, Error> {
     let mut filling = Filling { given, fronts, parts, first, later, due };
     filling.first = filling.pressed(watch)?;
     filling.first.iter().for_each(|event| filling.due[event.triangle] = event.share);
-    filling.first.sort_unstable();
+    sort(&mut filling.first, watch)?;
     while let Some(event) = filling.next_event() {
         watch.worked(1)?;
         filling.stop_around(&event);

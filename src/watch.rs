@@ -71,6 +71,21 @@ pub fn each<I: Id>(count: usize, watch: &dyn Watch, mut act: impl FnMut(I)) -> R
     Ok(())
 }
 
+/// Sorts, and tells the watch again and again.
+///
+/// # Errors
+/// What `watch` gives.
+pub fn sort<T: Ord>(items: &mut [T], watch: &dyn Watch) -> Result<(), Error> {
+    watch.worked(items.len())?;
+    if items.len() <= STEPS {
+        items.sort_unstable();
+        return Ok(());
+    }
+    let (low, _, high) = items.select_nth_unstable(items.len() / 2);
+    sort(low, watch)?;
+    sort(high, watch)
+}
+
 /// Another watch, for which each step counts so many times.
 pub struct Times<'a>(pub usize, pub &'a dyn Watch);
 
@@ -109,7 +124,7 @@ impl Watch for Flag {
 }
 
 #[cfg(test)]
-mod tests {
+pub mod tests {
     use super::*;
     use crate::ids::Triangle;
 
@@ -154,5 +169,39 @@ mod tests {
         Times(3, &sum).worked(5).unwrap();
         assert_eq!(sum.0.get(), [15, 1]);
         assert!(Times(usize::MAX, &Unwatched).worked(usize::MAX).is_ok());
+    }
+
+    /// Counts how often it is told, and stops the work then.
+    pub struct Count {
+        pub told: Cell<usize>,
+        pub last: usize,
+    }
+
+    impl Watch for Count {
+        fn worked(&self, _: usize) -> Result<(), Error> {
+            self.told.set(self.told.get() + 1);
+            if self.told.get() < self.last { Ok(()) } else { Err(Error::Cancelled) }
+        }
+    }
+
+    #[test]
+    fn what_is_sorted_in_parts_is_sorted() {
+        let mut numbers: Vec<u32> =
+            (0..100_000).map(|k: u32| k.wrapping_mul(2_654_435_761)).collect();
+        let mut expected = numbers.clone();
+        expected.sort_unstable();
+        sort(&mut numbers, &Unwatched).unwrap();
+        assert!(numbers == expected);
+    }
+
+    #[test]
+    fn sorting_can_be_stopped_at_each_part() {
+        let told = |last: usize| {
+            let count = Count { told: Cell::new(0), last };
+            let is_done = sort(&mut vec![0; 80_000], &count).is_ok();
+            (is_done, count.told.get())
+        };
+        assert_eq!(told(usize::MAX), (true, 15), "80,000 in eight parts");
+        assert_eq!([1, 8, 15].map(told), [(false, 1), (false, 8), (false, 15)]);
     }
 }

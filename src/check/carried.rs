@@ -73,9 +73,12 @@ pub(super) fn check_carried(
     let corners = 0..before.mesh.indices.len() as u32;
     let mut corners_at: Vec<_> = corners.map(|c| (before.cluster(c), c)).collect();
     corners_at.sort_unstable();
+    let mut pieces: Vec<_> = (0u32..).zip(&origins.triangles).filter_map(piece).collect();
+    pieces.sort_unstable();
     let source = Ground::new(before);
     let carried = Carried {
         corners_at,
+        pieces,
         is_any_lost: findings.lost > 0,
         after,
         origins,
@@ -88,6 +91,11 @@ pub(super) fn check_carried(
     carried.check_vertices(&is_kept, findings);
     carried.check_middles(&is_kept, extras, findings);
     carried.check_covered(findings);
+}
+
+/// The triangle of the source that one of the result is a piece of, and that one.
+fn piece((triangle, origin): (u32, &Option<[u32; 3]>)) -> Option<(u32, u32)> {
+    origin.map(|[first, ..]| (first / 3, triangle))
 }
 
 /// How far anything was pulled from its edge at most: a side of one, or what a cut has added there, as
@@ -136,6 +144,8 @@ struct Carried<'a> {
     streams: Vec<Stream<'a>>,
     /// Sorted: the cluster of each corner of the source, and the corner.
     corners_at: Vec<(u32, u32)>,
+    /// Sorted: the triangle of the source of each of the result that has one, and that one.
+    pieces: Vec<(u32, u32)>,
     /// Whether some triangles of the source are not found, and may be among the others.
     is_any_lost: bool,
     /// How far off the surface counts as on it.
@@ -200,14 +210,15 @@ impl Carried<'_> {
         let point = self.after.position(corner);
         let facing = normal_with_area(self.after.triangle(corner / 3));
         let own = self.origins.triangles[corner as usize / 3];
-        let around: Vec<u32> = own.into_iter().flatten().flat_map(|c| self.around(c)).collect();
+        // One after the other as they are asked for: very many may meet at a corner.
+        let around = || own.into_iter().flatten().flat_map(|corner| self.around(corner));
         let on_plane = |triangle, reach| self.source.on_plane(triangle, point, reach);
         let first = own.into_iter().map(|[first, ..]| first / 3);
-        let exact = first.chain(around.iter().copied());
+        let exact = first.chain(around());
         let exact = exact.filter_map(|triangle| on_plane(triangle, self.tolerance));
         let near = self.source.near_along(facing, point, self.tolerance);
         // Where the texture breaks on the way, the values go on beyond the side that is the corner's.
-        let beyond = around.iter().filter_map(|&triangle| on_plane(triangle, self.reach));
+        let beyond = around().filter_map(|triangle| on_plane(triangle, self.reach));
         self.judge(corner, exact.chain(near), beyond, |foot| {
             Slack::Exact(self.share(foot, self.tolerance))
         })
@@ -216,9 +227,7 @@ impl Carried<'_> {
     /// The triangles around a corner of the source, which slides over them.
     fn around(&self, corner: u32) -> impl Iterator<Item = u32> {
         let cluster = self.source.surface.cluster(corner);
-        let first = self.corners_at.partition_point(|(other, _)| *other < cluster);
-        let here = self.corners_at[first..].iter().take_while(move |(c, _)| *c == cluster);
-        here.map(|(_, corner)| corner / 3)
+        those_of(&self.corners_at, cluster).map(|corner| corner / 3)
     }
 
     fn judge_new(&self, corner: u32) -> Result<(), Judgement> {
@@ -306,13 +315,24 @@ impl Carried<'_> {
                 .any(|corner| may_move[self.source.surface.cluster(corner) as usize]);
             // Where edges are crowded, nobody can tell how far the faces beside them are pulled.
             let may_be_anywhere = moves && findings.before.non_manifold_edges > 0;
-            let is_there = |reach: f64| result.near(middle, reach).any(|foot| faces(&foot));
             let reach = if moves { self.reach + self.tolerance } else { self.tolerance };
-            if !may_be_anywhere && !is_there(self.tolerance) && !is_there(reach) {
+            // Its own pieces first: the boxes of slanted ones overlap by the thousand.
+            let mut own = those_of(&self.pieces, triangle)
+                .filter_map(|piece| result.within(piece, middle, reach));
+            let is_there = |reach: f64| result.near(middle, reach).any(|foot| faces(&foot));
+            let mut is_covered =
+                || own.any(|foot| faces(&foot)) || is_there(self.tolerance) || is_there(reach);
+            if !may_be_anywhere && !is_covered() {
                 findings.note(Rule::Covered, Element::SourceTriangle(triangle));
             }
         }
     }
+}
+
+/// What is paired with a key in sorted pairs.
+fn those_of(pairs: &[(u32, u32)], key: u32) -> impl Iterator<Item = u32> {
+    let first = pairs.partition_point(|&(other, _)| other < key);
+    pairs[first..].iter().take_while(move |(other, _)| *other == key).map(|&(_, value)| value)
 }
 
 /// The least height of a triangle.

@@ -42,12 +42,15 @@ impl<'a> Ground<'a> {
     pub fn near(&self, point: DVec3, reach: f64) -> impl Iterator<Item = Foot> {
         let [low, high] = [-reach, reach].map(|by| outward(point, by));
         let near = self.tree.overlapping(Aabb::around(&[low, high]));
-        near.filter_map(move |triangle| {
-            let corners = self.surface.triangle(triangle);
-            let weights = nearest_weights(corners, point);
-            let distance = at(corners, weights).distance(point);
-            (distance <= reach).then_some(Foot { triangle, weights })
-        })
+        near.filter_map(move |triangle| self.within(triangle, point, reach))
+    }
+
+    /// The nearest place of a triangle, if that is at most so far away.
+    pub fn within(&self, triangle: u32, point: DVec3, reach: f64) -> Option<Foot> {
+        let corners = self.surface.triangle(triangle);
+        let weights = nearest_weights(corners, point);
+        let distance = at(corners, weights).distance(point);
+        (distance <= reach).then_some(Foot { triangle, weights })
     }
 
     /// The same of triangles that do not face against a way; one without area never does.

@@ -35,17 +35,18 @@ impl Eyes {
     /// # Errors
     /// [`Error::Cancelled`] where the watch stops it.
     pub fn of(triangles: &[Triangle], watch: &dyn Watch) -> Result<Eyes, Error> {
+        let told = || watch.worked(STEPS_OF_CROWDS * triangles.len());
         let middle = mean(triangles);
         let mut eyes = Eyes(SmallVec::new());
         eyes.0.push(Around::point(middle));
-        let crowded = crowded_places(triangles);
-        watch.worked(STEPS_OF_CROWDS * triangles.len())?;
+        let crowded = crowded_places(triangles, &told)?;
+        told()?;
         for (number, &at) in crowded.iter().enumerate() {
             eyes.0.push(Around::point(at));
             eyes.0.extend(axis([at, if number == 0 { middle } else { crowded[0] }]));
         }
-        eyes.0.extend(crowded_side(triangles).and_then(axis));
-        watch.worked(STEPS_OF_CROWDS * triangles.len())?;
+        eyes.0.extend(crowded_side(triangles, &told)?.and_then(axis));
+        told()?;
         Ok(eyes)
     }
 
@@ -74,24 +75,31 @@ fn mean(triangles: &[Triangle]) -> [f32; 3] {
     (sum / points.len().max(1) as f64).as_vec3().to_array()
 }
 
+/// Tells the watch that all triangles have been looked at once more.
+type Told<'a> = dyn Fn() -> Result<(), Error> + 'a;
+
 /// The positions at which the most corners are, if they are many.
-fn crowded_places(triangles: &[Triangle]) -> SmallVec<[[f32; 3]; MOST]> {
+fn crowded_places(
+    triangles: &[Triangle],
+    told: &Told,
+) -> Result<SmallVec<[[f32; 3]; MOST]>, Error> {
     let places = triangles.as_flattened().iter().map(|&point| place(point));
-    let most = most_common(&mut crowded(places));
-    most.iter().map(|place| place.map(f32::from_bits)).collect()
+    let most = most_common(&mut crowded(places, told)?);
+    Ok(most.iter().map(|place| place.map(f32::from_bits)).collect())
 }
 
 /// The ends of the edge on which the most sides lie, if they are many.
-fn crowded_side(triangles: &[Triangle]) -> Option<[[f32; 3]; 2]> {
+fn crowded_side(triangles: &[Triangle], told: &Told) -> Result<Option<[[f32; 3]; 2]>, Error> {
     let sides = |triangle| (0..3).map(move |k| side(triangle, k));
-    let most = most_common(&mut crowded(triangles.iter().flat_map(sides)));
-    most.first().map(|ends| ends.map(|place| place.map(f32::from_bits)))
+    let most = most_common(&mut crowded(triangles.iter().flat_map(sides), told)?);
+    Ok(most.first().map(|ends| ends.map(|place| place.map(f32::from_bits))))
 }
 
 /// All that may come as often as in a crowd: sorting these takes a fraction of what sorting all does.
-fn crowded<T: Hash>(all: impl Iterator<Item = T> + Clone) -> Vec<T> {
+fn crowded<T: Hash>(all: impl Iterator<Item = T> + Clone, told: &Told) -> Result<Vec<T>, Error> {
     let counts = Counts::new(all.clone().count(), all.clone());
-    all.filter(|each| counts.are_many(each)).collect()
+    told()?;
+    Ok(all.filter(|each| counts.are_many(each)).collect())
 }
 
 /// Those that come most often, if that is as often as in a crowd; of equals the least.
@@ -226,7 +234,7 @@ mod tests {
     #[test]
     fn what_is_crowded_is_kept_and_hardly_anything_else() {
         let all: Vec<u32> = (0..1000).chain([7; 31]).chain([2000; 31]).collect();
-        let kept = crowded(all.iter().copied());
+        let kept = crowded(all.iter().copied(), &|| Ok(())).unwrap();
         assert_eq!(kept.iter().filter(|&&each| each == 7).count(), 32);
         assert!(kept.len() < 100, "{}", kept.len());
     }

@@ -12,13 +12,13 @@ use crate::breaks::same_chart;
 use crate::error::Error;
 use crate::faces::Faces;
 use crate::foot::{Foot, locate};
-use crate::ids::{Corner, Few, IdVec, Sector};
+use crate::ids::{Corner, Few, Id, IdVec, Sector};
 use crate::math::{area_vector, unit};
 use crate::sectors::{Follower, Sectors};
 use crate::surface::Surface;
 use crate::tolerance::LEVEL_COSINE;
 use crate::view::View;
-use crate::watch::{Watch, each};
+use crate::watch::{Watch, each, stretches};
 
 /// Edges that meet at less than this (as a sine, 30 degrees), or run on so nearly straight, are
 /// pulled together: a little less width of one of them alone would take the vertex far along the
@@ -75,19 +75,27 @@ pub fn narrowed<'a>(
     fronts: &IdVec<Sector, [f64; 2]>,
     watch: &dyn Watch,
 ) -> Result<Cow<'a, IdVec<Sector, Offset>>, Error> {
-    let mut narrowed = Cow::Borrowed(offsets);
-    each(fronts.len(), watch, |sector: Sector| {
+    let narrowed_at = |sector: Sector| {
         let fronts = fronts[sector];
-        if fronts[0] == fronts[1] {
-            return;
-        }
         let most = fronts[0].max(fronts[1]);
-        let fronts = fronts.map(|share| share / most);
-        if let Some(offset) = narrow(surface, sectors, sector, &offsets[sector], fronts) {
-            narrowed.to_mut()[sector] = offset;
+        let shares = fronts.map(|share| share / most);
+        let is_alike = fronts[0] == fronts[1];
+        if is_alike { None } else { narrow(surface, sectors, sector, &offsets[sector], shares) }
+    };
+    let mut first = None;
+    for stretch in stretches(fronts.len(), watch) {
+        first = stretch?.map(Sector::new).find(|&sector| narrowed_at(sector).is_some());
+        if first.is_some() {
+            break;
         }
+    }
+    let Some(first) = first else { return Ok(Cow::Borrowed(offsets)) };
+    let mut all = Vec::with_capacity(offsets.len());
+    each(fronts.len(), watch, |sector: Sector| {
+        let narrowed = if sector < first { None } else { narrowed_at(sector) };
+        all.push(narrowed.unwrap_or(offsets[sector]));
     })?;
-    Ok(narrowed)
+    Ok(Cow::Owned(IdVec::from_vec(all)))
 }
 
 /// An offset that pulls its sector's first and its last edge by some shares of what it did; none where
