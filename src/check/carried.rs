@@ -39,7 +39,7 @@ pub struct Extras<'a> {
     /// Further values of the vertices.
     pub streams: &'a [ExtraStream<'a>],
     /// How the mesh stands where it is looked at, as in [`Options::scale`](crate::Options::scale):
-    /// there new triangles have to face along with their normals. None where it stands as it is.
+    /// there edges are hard or not, and new triangles have to face along with their normals. None where it stands as it is.
     pub scale: Option<[[f32; 3]; 3]>,
 }
 
@@ -348,7 +348,7 @@ fn may_move(surface: &Surface) -> Vec<bool> {
     for edge in surface.edges() {
         let is_smooth = match edge {
             ([one], [other]) => (0..2).all(|end| {
-                let [a, b] = [one.corners[end], other.corners[1 - end]].map(|c| surface.normal(c));
+                let [a, b] = [one.corners[end], other.corners[1 - end]].map(|c| surface.shading(c));
                 a.distance(b) < SMOOTH
             }),
             _ => false,
