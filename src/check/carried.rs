@@ -9,7 +9,7 @@ use std::iter::empty;
 use glam::DVec3;
 
 use super::ground::{Foot, Ground, at};
-use super::junctions::Borders;
+use super::junctions::{Borders, reach};
 use super::origins::Origins;
 use super::rules::{Element, Findings, Rule};
 use super::stored::normal_with_area;
@@ -200,16 +200,21 @@ impl Carried<'_> {
         let point = self.after.position(corner);
         let facing = normal_with_area(self.after.triangle(corner / 3));
         let own = self.origins.triangles[corner as usize / 3];
+        // The vertex at whose place a cut has added one may have been a little off the triangle.
+        let tolerance = match self.origins.own_corner(corner) {
+            None if own.is_some() => self.tolerance.max(reach(self.source.surface)),
+            _ => self.tolerance,
+        };
         let around: Vec<u32> = own.into_iter().flatten().flat_map(|c| self.around(c)).collect();
         let on_plane = |triangle, reach| self.source.on_plane(triangle, point, reach);
         let first = own.into_iter().map(|[first, ..]| first / 3);
         let exact = first.chain(around.iter().copied());
-        let exact = exact.filter_map(|triangle| on_plane(triangle, self.tolerance));
-        let near = self.source.near_along(facing, point, self.tolerance);
+        let exact = exact.filter_map(|triangle| on_plane(triangle, tolerance));
+        let near = self.source.near_along(facing, point, tolerance);
         // Where the texture breaks on the way, the values go on beyond the side that is the corner's.
         let beyond = around.iter().filter_map(|&triangle| on_plane(triangle, self.reach));
         self.judge(corner, exact.chain(near), beyond, |foot| {
-            Slack::Exact(self.share(foot, self.tolerance))
+            Slack::Exact(self.share(foot, tolerance))
         })
     }
 
