@@ -36,7 +36,6 @@ use facts::facts;
 use origins::Origins;
 use solids::Solids;
 use surface::Surface;
-use triangles::Facing;
 use widths::Ruler;
 
 pub use carried::Extras;
@@ -53,7 +52,7 @@ pub fn check(before: &Mesh, after: &Chamfered, depth: Verify) -> Findings {
     if !well_formed(before, &mesh, &mut findings) {
         return findings;
     }
-    let surfaces = [before, &mesh].map(Surface::new);
+    let surfaces = [before, &mesh].map(|mesh| Surface::new(mesh).standing(after.scale));
     state_facts(&surfaces, &mut findings);
     verdicts::check_counts(before, after, &mut findings);
     if let Some(origins) = Origins::told(before, after, &mut findings) {
@@ -84,7 +83,7 @@ pub fn compare_with(before: &Mesh, after: &Mesh, extras: &Extras, depth: Verify)
     if !well_formed(before, after, &mut findings) {
         return findings;
     }
-    let surfaces = [before, after].map(Surface::new);
+    let surfaces = [before, after].map(|mesh| Surface::new(mesh).standing(extras.scale));
     state_facts(&surfaces, &mut findings);
     let (origins, mut findings) = likelier_origins(&surfaces, extras, findings);
     if depth != Verify::Fast {
@@ -172,8 +171,7 @@ fn check_geometry(
     values::check_colors(before, after, findings);
     borders::check_edges(source, result, origins, findings);
     borders::check_borders(source, result, origins, findings);
-    let facing = Facing::new(extras.scale);
-    triangles::check_triangles([source, result], origins, &facing, findings);
+    triangles::check_triangles([source, result], origins, findings);
     flatness::check_flatness(source, result, origins, findings);
     hardness::check_hard_edges(source, result, origins, findings);
     let solids = Solids::new(source);

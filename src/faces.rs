@@ -33,6 +33,13 @@ impl Faces {
     pub fn is_line(&self, triangle: Triangle) -> bool {
         self.lender[triangle].is_some()
     }
+
+    /// Lays triangles into planes that are known.
+    pub fn lay(&mut self, planes: &[(Triangle, DVec3)]) {
+        for &(triangle, normal) in planes {
+            self.normal[triangle] = normal;
+        }
+    }
 }
 
 /// # Errors

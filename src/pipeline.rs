@@ -2,6 +2,8 @@
 
 use std::ops::ControlFlow;
 
+use glam::DVec3;
+
 use crate::attributes::{Attributes, attributes};
 use crate::blocks::{Blocks, blocks, cut, join};
 use crate::charts::{Charts, charts};
@@ -13,7 +15,7 @@ use crate::evenness::evenness;
 use crate::faces::faces;
 use crate::flaps::{Flap, flaps};
 use crate::given::{Given, deep};
-use crate::ids::{IdVec, Patch, Sector};
+use crate::ids::{IdVec, Patch, Sector, Triangle};
 use crate::inside_out::{is_inside_out, turned_back, turned_normals};
 use crate::limits::{Element, lessen_cuts, limits};
 use crate::memory;
@@ -288,7 +290,7 @@ fn chamfer_hard(
 ) -> Result<Chamfered, Error> {
     let view = space.measured;
     let threads = &Threads::new(options.threads, view.corner_count());
-    let shape = shape(view, weld, options, threads, done)?;
+    let shape = shape(view, weld, &[], options, (threads, done))?;
     let closers = closers(view, &shape);
     if closers.is_empty() {
         return chamfer_closed(space, shape, options, (threads, done));
@@ -298,7 +300,7 @@ fn chamfer_hard(
     let [source, measured] = &[space.source, view].map(|view| view.with_indices(&indices));
     let weld = shape.weld;
     // These stages were told of.
-    let shape = self::shape(measured, weld, options, threads, &mut |_| done(None))?;
+    let shape = self::shape(measured, weld, &[], options, (threads, &mut |_| done(None)))?;
     let space = Space { source, measured, ..space };
     let chamfered = chamfer_closed(space, shape, options, (threads, done))?;
     Ok(closers.restored(&view.mesh, chamfered))
@@ -343,7 +345,8 @@ fn chamfer_stitched(
         let view = space.measured;
         // These stages were told of.
         let weld = weld(&fine.mesh, &Caller::new(&mut || done(None)))?;
-        let shape = shape(view, weld, options, threads, &mut |_| done(None))?;
+        let planes = finer.planes(&coarse.faces);
+        let shape = shape(view, weld, &planes, options, (threads, &mut |_| done(None)))?;
         let idle = finer.idle(coarse, &shape.edges);
         if !idle.is_empty() {
             return Ok(Err(idle));
@@ -380,18 +383,19 @@ fn chamfer_found(
     Ok(with_verdicts(view, chamfered?, unpaired))
 }
 
-/// The stages that find out what a mesh is.
+/// The stages that find out what a mesh is. Of some triangles it is known in which planes they lie.
 pub(crate) fn shape(
     view: &View,
     weld: Weld,
+    planes: &[(Triangle, DVec3)],
     options: &Options,
-    threads: &Threads,
-    done: &mut Done,
+    (threads, done): (&Threads, &mut Done),
 ) -> Result<Shape, Error> {
     memory::ask(memory::up_to_edges(&view.mesh))?;
     let topology = topology(view, &weld, &Caller::new(&mut || done(None)))?;
     done(Some(Stage::Topology))?;
-    let faces = faces(view, &topology, (threads, &Caller::new(&mut || done(None))))?;
+    let mut faces = faces(view, &topology, (threads, &Caller::new(&mut || done(None))))?;
+    faces.lay(planes);
     done(Some(Stage::Faces))?;
     let contacts = contacts(view, &topology, &faces, &Caller::new(&mut || done(None)))?;
     done(Some(Stage::Contacts))?;

@@ -344,3 +344,45 @@ fn a_piece_cuts_no_face_beside() {
     assert_sound("bar", &mesh, &result);
     assert_eq!(result.totals.narrowed, 2);
 }
+
+//      .------------.
+//    .'|          .'|    the middle of the lower edge stands a little above the side of the roof there:
+//   +--'---------.. |    small pieces of the roof lean by so much that what is pulled over them would go
+//   |            |M .    much farther off
+//   '------------'
+#[test]
+fn pieces_keep_to_the_plane_of_their_triangle() {
+    let mut faces = vec![whole(); 6];
+    faces[3] = Cells { diagonals: 0b100, ..face(0b10, &[0b10]) };
+    faces[4] = face(0, &[0b1000_0000]);
+    let grid = Grid { low: [0.0; 3], high: [1.0; 3], faces };
+    for (out, above) in [(0.0, 6e-6), (32.0, 6e-5)] {
+        let layout = Layout {
+            turn: DMat3::IDENTITY,
+            offset: DVec3::new(out, 0.0, 0.0),
+            most_steps: 0,
+            seed: 0,
+            is_merged: false,
+            is_overlaid: false,
+        };
+        let mut mesh = grids(std::slice::from_ref(&grid), &layout);
+        let place = [0.875 + out as f32, 1.0, 0.0];
+        let standing = mesh.positions.iter_mut().filter(|at| **at == place);
+        standing.for_each(|at| at[1] += above);
+        let options = Options::default().with_width(Width::Units(0.05));
+        let mut result = chamfer(&mesh.as_mesh(), &options).unwrap();
+        assert_sound("box", &mesh.as_mesh(), &result);
+        assert_eq!(result.totals.skipped[Reason::TJunction], 0, "{out}");
+        // As far off as it would be over a small piece.
+        let pulled = result.pieces.iter().flat_map(|piece| {
+            let own = 3 * piece.triangle as usize;
+            (0..3).filter(|&k| !piece.corners[k].contains(&1.0)).map(move |k| own + k)
+        });
+        let pulled: Vec<u32> = pulled.map(|corner| result.mesh.indices[corner]).collect();
+        for vertex in pulled {
+            result.mesh.positions[vertex as usize][1] -= 5.0 * above;
+        }
+        let findings = check(&mesh.as_mesh(), &result, Verify::Fast);
+        assert!(findings.count(Rule::Place) > 0, "{out}: {findings}");
+    }
+}

@@ -6,7 +6,7 @@ mod grids;
 #[path = "support/shaded.rs"]
 mod shaded;
 
-use chamfer::check::assert_sound;
+use chamfer::check::{Rule, assert_sound, check};
 use chamfer::{Held, Mesh, Options, Reason, Verify, Width, chamfer, shapes};
 use glam::{DMat3, DVec3};
 
@@ -29,6 +29,38 @@ fn an_edge_is_hard_where_it_turns_enough_as_it_is_measured() {
         let result = chamfer(&roof.as_mesh(), &options).unwrap();
         assert_sound("a roof", &roof.as_mesh(), &result);
         assert_eq!(result.totals.hard_edges, expected, "{height}");
+    }
+    // A result without a verdict is not one of the roof as it stands there.
+    let mut untold = chamfer(&roof.as_mesh(), &Options::default()).unwrap();
+    untold.scale = Some(along_axes([1.0, 20.0, 1.0]));
+    let findings = check(&roof.as_mesh(), &untold, Verify::Fast);
+    assert_eq!(findings.count(Rule::Verdicts), 1, "{findings}");
+}
+
+//       .--------.
+//     .'       .'      it leans by half a right angle, and where it is measured so much more that its
+//   .'       .'        ends nearly continue its floor and its roof: they are one face there
+//  '--------'
+#[test]
+fn an_edge_is_soft_where_it_hardly_turns_as_it_is_measured() {
+    let whole = Cells { across: 0, along: vec![0], diagonals: 0, copies: 1 };
+    let grid = Grid { low: [0.0; 3], high: [1.0; 3], faces: vec![whole; 6] };
+    let layout = Layout {
+        turn: DMat3::from_cols(DVec3::X, DVec3::new(0.978_277_138_646_977_6, 1.0, 0.0), DVec3::Z),
+        offset: DVec3::ZERO,
+        most_steps: 0,
+        seed: 0,
+        is_merged: false,
+        is_overlaid: false,
+    };
+    let leaning = grids(&[grid], &layout);
+    for (scale, expected) in [([1.0; 3], 12), ([8.0, 0.125, 1.0], 10)] {
+        let options = Options::default()
+            .with_width(Width::PercentOfExtent(1.0))
+            .with_scale(along_axes(scale));
+        let result = chamfer(&leaning.as_mesh(), &options).unwrap();
+        assert_sound("a box", &leaning.as_mesh(), &result);
+        assert_eq!(result.totals.hard_edges, expected, "{scale:?}");
     }
 }
 

@@ -153,7 +153,10 @@ impl<'a> Row<'a> {
         let counts = &self.counts;
         let narrowed = match counts.narrowed {
             0 => "0".to_owned(),
-            count => format!("{count} ({:.2})", mean_narrowed_width(self.file.meshes.iter())),
+            count => match mean_narrowed_width(self.file.meshes.iter()) {
+                0.0 => count.to_string(),
+                mean => format!("{count} ({mean:.2})"),
+            },
         };
         let skipped = match counts.skipped.total() {
             0 => "0".to_owned(),

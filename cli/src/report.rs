@@ -128,7 +128,7 @@ pub const BINS: usize = 10;
 pub struct Lengths {
     /// Of all hard edges together.
     pub hard: f64,
-    /// Of the narrowed ones.
+    /// Of the narrowed ones whose width is told.
     pub narrowed: f64,
     /// The same times the share of the width that each got.
     pub narrowed_widths: f64,
@@ -192,7 +192,7 @@ pub struct ReportTotals {
     /// Mean width as a share (0 to 1) of the width asked for, weighted by edge length, which is
     /// measured in the largest side of each model.
     pub mean_width: f32,
-    /// The same of the narrowed edges alone.
+    /// The same of the narrowed edges alone, but for those that come to a point at both ends.
     pub mean_narrowed_width: f32,
     /// Time from reading to writing, of all files together.
     pub milliseconds: f64,
@@ -340,7 +340,7 @@ pub fn mean_width<'a>(meshes: impl Iterator<Item = &'a MeshReport>) -> f32 {
     mean(meshes.map(|mesh| (f64::from(mesh.mean_width) * mesh.lengths.hard, mesh.lengths.hard)))
 }
 
-/// The same of the narrowed edges alone.
+/// The same of the narrowed edges alone; 0 where all of them come to a point at both ends.
 pub fn mean_narrowed_width<'a>(meshes: impl Iterator<Item = &'a MeshReport>) -> f32 {
     mean(meshes.map(|mesh| (mesh.lengths.narrowed_widths, mesh.lengths.narrowed)))
 }
@@ -362,6 +362,11 @@ fn widths(result: &Chamfered) -> [u64; BINS] {
     bins
 }
 
+/// Of narrowed edges, what a reader is told of their width.
+pub fn told_mean(mean: f32) -> String {
+    if mean > 0.0 { format!("mean {mean:.2}") } else { "to a point at both ends".to_owned() }
+}
+
 /// The widths of all chamfers of meshes.
 pub fn histogram<'a>(meshes: impl Iterator<Item = &'a MeshReport>) -> [u64; BINS] {
     meshes.fold([0; BINS], |sum, mesh| std::array::from_fn(|bin| sum[bin] + mesh.widths[bin]))
@@ -375,7 +380,9 @@ impl Lengths {
             let square = (0..3).map(|axis| f64::from(b[axis] - a[axis]).powi(2)).sum::<f64>();
             let length = if extent > 0.0 { square.sqrt() / extent } else { 0.0 };
             lengths.hard += length;
-            if verdict.outcome == Outcome::Narrowed && result.width > 0.0 {
+            // One that comes to a point at both ends has a width between them that is not told.
+            let is_told = verdict.widths != [0.0; 2];
+            if verdict.outcome == Outcome::Narrowed && result.width > 0.0 && is_told {
                 let share = verdict.widths.iter().sum::<f32>() / 2.0 / result.width;
                 lengths.narrowed += length;
                 lengths.narrowed_widths += length * f64::from(share.min(1.0));
@@ -450,6 +457,28 @@ mod tests {
         };
         let (metre, millimetres) = (lengths(1.0), lengths(1000.0));
         assert!((metre.hard - millimetres.hard).abs() < 1e-6, "{metre:?} {millimetres:?}");
+    }
+
+    //   .-----------.
+    //   |\.-------./|      a box whose two ends are wound against their normals: the edges between the
+    //   |/'-------'\|      ends have chamfers that come to a point at each
+    //   '-----------'
+    #[test]
+    fn of_chamfers_that_come_to_a_point_at_both_ends_no_mean_is_told() {
+        let mut long = chamfer::shapes::plain_cube(1.0);
+        long.positions.iter_mut().for_each(|at| at[0] *= 2.0);
+        for triangle in long.indices.chunks_exact_mut(3) {
+            if long.normals[triangle[0] as usize][0] != 0.0 {
+                triangle.swap(0, 2);
+            }
+        }
+        let result = chamfer::chamfer(&long.as_mesh(), &chamfer::Options::default()).unwrap();
+        assert_eq!(result.totals.narrowed, 4);
+        let lengths = Lengths::new(&long, &result, 2.0);
+        assert_eq!(lengths.narrowed, 0.0);
+        let ends = mean_narrowed_width([MeshReport { lengths, ..mesh(0.5, 1.0, 0) }].iter());
+        assert_eq!((ends, told_mean(ends).as_str()), (0.0, "to a point at both ends"));
+        assert_eq!(told_mean(0.251), "mean 0.25");
     }
 
     #[test]

@@ -4,7 +4,7 @@ use std::fmt;
 use std::time::Duration;
 
 use crate::console::one_line;
-use crate::report::{Counts, FileReport, MeshReport, Report, mean_narrowed_width};
+use crate::report::{Counts, FileReport, MeshReport, Report, mean_narrowed_width, told_mean};
 
 /// The line of a file.
 impl fmt::Display for FileReport {
@@ -61,7 +61,7 @@ impl<T: std::borrow::Borrow<Counts>> fmt::Display for Edges<T> {
             write!(f, ": {} full", counts.full)?;
         }
         if counts.narrowed > 0 {
-            write!(f, ", {} narrowed (mean {:.2})", counts.narrowed, self.narrowed)?;
+            write!(f, ", {} narrowed ({})", counts.narrowed, told_mean(self.narrowed))?;
         }
         if counts.skipped.total() > 0 {
             write!(f, ", {} skipped ({})", counts.skipped.total(), counts.skipped.text())?;

@@ -9,7 +9,7 @@ use std::iter::empty;
 use glam::DVec3;
 
 use super::ground::{Foot, Ground, at};
-use super::junctions::Borders;
+use super::junctions::{Borders, reach};
 use super::origins::Origins;
 use super::rules::{Element, Findings, Rule};
 use super::stored::normal_with_area;
@@ -39,7 +39,8 @@ pub struct Extras<'a> {
     /// Further values of the vertices.
     pub streams: &'a [ExtraStream<'a>],
     /// How the mesh stands where it is looked at, as in [`Options::scale`](crate::Options::scale):
-    /// there new triangles have to face along with their normals. None where it stands as it is.
+    /// there edges are hard or not, and new triangles have to face along with their normals. None where
+    /// it stands as it is.
     pub scale: Option<[[f32; 3]; 3]>,
 }
 
@@ -210,17 +211,22 @@ impl Carried<'_> {
         let point = self.after.position(corner);
         let facing = normal_with_area(self.after.triangle(corner / 3));
         let own = self.origins.triangles[corner as usize / 3];
+        // The vertex at whose place a cut has added one may have been a little off the triangle.
+        let tolerance = match self.origins.own_corner(corner) {
+            None if own.is_some() => self.tolerance.max(reach(self.source.surface)),
+            _ => self.tolerance,
+        };
         // One after the other as they are asked for: very many may meet at a corner.
         let around = || own.into_iter().flatten().flat_map(|corner| self.around(corner));
         let on_plane = |triangle, reach| self.source.on_plane(triangle, point, reach);
         let first = own.into_iter().map(|[first, ..]| first / 3);
         let exact = first.chain(around());
-        let exact = exact.filter_map(|triangle| on_plane(triangle, self.tolerance));
-        let near = self.source.near_along(facing, point, self.tolerance);
+        let exact = exact.filter_map(|triangle| on_plane(triangle, tolerance));
+        let near = self.source.near_along(facing, point, tolerance);
         // Where the texture breaks on the way, the values go on beyond the side that is the corner's.
         let beyond = around().filter_map(|triangle| on_plane(triangle, self.reach));
         self.judge(corner, exact.chain(near), beyond, |foot| {
-            Slack::Exact(self.share(foot, self.tolerance))
+            Slack::Exact(self.share(foot, tolerance))
         })
     }
 
@@ -368,7 +374,7 @@ fn may_move(surface: &Surface) -> Vec<bool> {
     for edge in surface.edges() {
         let is_smooth = match edge {
             ([one], [other]) => (0..2).all(|end| {
-                let [a, b] = [one.corners[end], other.corners[1 - end]].map(|c| surface.normal(c));
+                let [a, b] = [one.corners[end], other.corners[1 - end]].map(|c| surface.shading(c));
                 a.distance(b) < SMOOTH
             }),
             _ => false,

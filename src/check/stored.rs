@@ -1,6 +1,6 @@
 //! Stored values in double precision.
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 /// How far a unit vector may be from length 1, and a tangent from a right angle: what importers
 /// leave behind that store directions in 10 to 16 bits.
@@ -14,6 +14,16 @@ const NO_AREA: f64 = 1e-10;
 /// A stored vector in double precision.
 pub(super) fn vector(stored: &[f32; 3]) -> DVec3 {
     DVec3::from(stored.map(f64::from))
+}
+
+/// How normals and area vectors go along with a mesh that is scaled so, column by column.
+pub(super) fn normals_to(scale: Option<[[f32; 3]; 3]>) -> Option<DMat3> {
+    let axes = scale.map(|axes| axes.map(|axis| vector(&axis)));
+    // The cofactors. A mirror turns neither.
+    axes.map(|[x, y, z]| {
+        let sign = x.cross(y).dot(z).signum();
+        DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * sign
+    })
 }
 
 /// Whether a vector has length 1, as nearly as importers store it.

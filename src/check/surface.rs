@@ -1,9 +1,9 @@
 //! A mesh welded by position: its edges, borders and connected parts.
 
-use super::stored::vector;
+use super::stored::{normal_with_area, normals_to, vector};
 use crate::groups::Groups;
 use crate::mesh::Mesh;
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 /// The cosine of the angle by which normals may differ across an edge that is not hard: one degree
 /// is what quantized normals differ by, and half of one more keeps this limit clear of any other
@@ -38,6 +38,8 @@ pub(super) struct Surface<'a> {
     half_edges: Vec<HalfEdge>,
     /// How far a position may be off by rounding alone, in mesh units.
     rounding: f64,
+    /// How normals go along with the mesh; none where it stands as it is.
+    normals_to: Option<DMat3>,
 }
 
 impl<'a> Surface<'a> {
@@ -55,7 +57,13 @@ impl<'a> Surface<'a> {
             }
         }
         half_edges.sort_unstable();
-        Surface { mesh, cluster_of, half_edges, rounding: rounding(mesh) }
+        Surface { mesh, cluster_of, half_edges, rounding: rounding(mesh), normals_to: None }
+    }
+
+    /// The same of a mesh that stands scaled so, column by column. Normals that are one there need not
+    /// be so where the mesh comes from, nor need those that face along with a triangle.
+    pub fn standing(self, scale: Option<[[f32; 3]; 3]>) -> Surface<'a> {
+        Surface { normals_to: normals_to(scale), ..self }
     }
 
     /// The half-edges of each welded edge: first those in one direction, then the others.
@@ -77,6 +85,18 @@ impl<'a> Surface<'a> {
     /// The normal of a corner.
     pub fn normal(&self, corner: u32) -> DVec3 {
         vector(&self.mesh.normals[self.mesh.indices[corner as usize] as usize])
+    }
+
+    /// The normal of a corner as it is seen: as it comes, or of length 1 where it is stretched.
+    pub fn shading(&self, corner: u32) -> DVec3 {
+        let stored = self.normal(corner);
+        self.normals_to.map_or(stored, |to| (to * stored).normalize_or_zero())
+    }
+
+    /// Where a triangle faces as the mesh stands, as long as its area; none without area.
+    pub fn facing(&self, triangle: u32) -> Option<DVec3> {
+        let area = normal_with_area(self.triangle(triangle))?;
+        Some(self.normals_to.map_or(area, |to| to * area))
     }
 
     /// The corners of a triangle, as positions.
@@ -118,7 +138,7 @@ impl<'a> Surface<'a> {
 
     /// Whether the normals of two corners are the same, as nearly as importers store them.
     pub fn share_normal(&self, corners: [u32; 2]) -> bool {
-        let [a, b] = corners.map(|corner| self.normal(corner));
+        let [a, b] = corners.map(|corner| self.shading(corner));
         a.dot(b) >= SOFT_COSINE * a.length() * b.length()
     }
 

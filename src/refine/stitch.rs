@@ -10,6 +10,7 @@ use super::stitches::{Left, Stitches};
 use super::{PointsOf, Refined, cut_all};
 use crate::edges::Edges;
 use crate::error::Error;
+use crate::faces::Faces;
 use crate::ids::{Cluster, Corner, Few, Triangle, Vertex};
 use crate::line::Line;
 use crate::math::{area_vector, unit};
@@ -190,6 +191,13 @@ impl Stitched {
     pub fn as_mesh<'a>(&'a self, source: &Mesh<'a>) -> Mesh<'a> {
         let OwnFactors { submeshes, vertices, edges } = &self.factors;
         Mesh { factors: Factors { submeshes, vertices, edges }, ..self.refined.as_mesh(source) }
+    }
+
+    /// The planes of the pieces: those of their source triangles. What stands on a side may be a little off
+    /// it, and small pieces would lead what is pulled over them much farther off.
+    pub fn planes(&self, source: &Faces) -> Vec<(Triangle, DVec3)> {
+        let pieces = self.refined.pieces.iter();
+        pieces.map(|piece| (piece.triangle, source.normal[piece.source])).collect()
     }
 
     /// What brings no chamfer, by the edges of the finer mesh.

@@ -5,7 +5,7 @@ use std::path::{Component, Path, PathBuf};
 
 use anyhow::{Context, Result};
 
-use super::parse::{Item, Obj};
+use super::parse::{Item, Obj, line_end};
 use crate::document::OutputFile;
 use crate::glb::Material;
 use crate::paths::{identity, read_beside};
@@ -49,7 +49,7 @@ pub fn known(obj: &Obj, folder: &Path) -> Result<(Vec<Material>, Vec<String>)> {
     for library in libraries(obj, folder) {
         let beside = library.parent().unwrap_or(Path::new(""));
         let text = read(folder, &library)?;
-        for line in text.split(|&byte| byte == b'\n') {
+        for line in lines(&text) {
             let line = line.trim_ascii();
             let end = line.iter().position(u8::is_ascii_whitespace).unwrap_or(line.len());
             let (keyword, rest) = line.split_at(end);
@@ -102,12 +102,17 @@ fn read(folder: &Path, name: &Path) -> Result<Vec<u8>> {
         .with_context(|| format!("cannot read {}", folder.join(name).display()))
 }
 
+fn lines(text: &[u8]) -> impl Iterator<Item = &[u8]> {
+    let end = line_end(text);
+    text.split(move |&byte| byte == end)
+}
+
 /// The files that the lines of a material library name, as paths from the folder of the model.
 fn textures(folder: &Path, library: &Path) -> Result<Vec<PathBuf>> {
     let text = read(folder, library)?;
     let beside = library.parent().unwrap_or(Path::new(""));
     let mut names = Vec::new();
-    for line in text.split(|&byte| byte == b'\n') {
+    for line in lines(&text) {
         // Only texture statements name files; other words that happen to be one do no harm.
         let line = line.trim_ascii();
         let end = line.iter().position(u8::is_ascii_whitespace).unwrap_or(line.len());
@@ -177,6 +182,9 @@ mod tests {
         assert_eq!(red.texture.as_ref().map(|picture| picture.kind), Some("image/png"));
         assert_eq!((wood.color, &wood.texture), ([1.0, 1.0, 1.0, 0.0], &None));
         assert_eq!(left_out, ["wood.tga"]);
+        fs::write(folder.path().join("a.mtl"), library.replace('\n', "\r")).unwrap();
+        let of_old = known(&obj, folder.path()).unwrap();
+        assert_eq!((of_old.0.len(), of_old.0[0].color, of_old.1), (2, red.color, left_out));
     }
 
     #[test]

@@ -112,9 +112,12 @@ pub enum Item {
 /// Names the first line that makes no sense.
 pub fn parse(bytes: &[u8]) -> Result<Obj> {
     let mut parser = Parser::default();
+    if is_utf_16(bytes) {
+        bail!("this is text in UTF-16: save it as UTF-8, and read that");
+    }
     let text = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes);
     parser.obj.slips.byte_order_mark = text.len() < bytes.len();
-    for (number, line) in (Lines { rest: text, number: 0 }) {
+    for (number, line) in Lines::new(text) {
         parser.statement(&line, number).with_context(|| format!("line {number}"))?;
     }
     if parser.statements == 0 && !text.trim_ascii().is_empty() && !parser.commented() {
@@ -126,6 +129,23 @@ pub fn parse(bytes: &[u8]) -> Result<Obj> {
 
 /// That of UTF-8, which some editors write in front of a text.
 const BYTE_ORDER_MARK: &[u8] = b"\xEF\xBB\xBF";
+
+/// Whether a text is one of two bytes for each letter, by its mark or its first letters: nothing that an
+/// OBJ file begins with has a zero byte.
+fn is_utf_16(bytes: &[u8]) -> bool {
+    matches!(
+        bytes,
+        [0xFF, 0xFE, ..]
+            | [0xFE, 0xFF, ..]
+            | [0, 1..=255, 0, 1..=255, ..]
+            | [1..=255, 0, 1..=255, 0, ..]
+    )
+}
+
+/// What ends the lines of a text: as of old a carriage return, where there is no line feed at all.
+pub fn line_end(text: &[u8]) -> u8 {
+    if text.contains(&b'\n') { b'\n' } else { b'\r' }
+}
 
 impl Obj {
     /// `#submeshes`: the material that each run of faces uses.
@@ -151,6 +171,7 @@ impl Obj {
 /// Lines without their ends; one that ends in a backslash goes on in the next.
 struct Lines<'a> {
     rest: &'a [u8],
+    end: u8,
     number: usize,
 }
 
@@ -177,11 +198,15 @@ impl<'a> Iterator for Lines<'a> {
 }
 
 impl<'a> Lines<'a> {
+    fn new(text: &'a [u8]) -> Lines<'a> {
+        Lines { rest: text, end: line_end(text), number: 0 }
+    }
+
     fn physical(&mut self) -> Option<&'a [u8]> {
         if self.rest.is_empty() {
             return None;
         }
-        let end = self.rest.iter().position(|&byte| byte == b'\n');
+        let end = self.rest.iter().position(|&byte| byte == self.end);
         let line = &self.rest[..end.unwrap_or(self.rest.len())];
         self.rest = end.map_or(&[], |end| &self.rest[end + 1..]);
         self.number += 1;
@@ -445,6 +470,22 @@ mod tests {
         let obj = parse(text.as_bytes()).unwrap();
         assert_eq!(obj.positions.len(), 3);
         assert_eq!(obj.corners.len(), 3);
+        let of_old = format!("# made of old\r{CORNERS}f 1 2 \\\n3\nf 3 2 1\n").replace('\n', "\r");
+        let obj = parse(of_old.as_bytes()).unwrap();
+        assert_eq!([obj.positions.len(), obj.corners.len(), obj.comments.len()], [3, 6, 1]);
+        assert!(error("v 0 0 0\rv 0 0 x\r").starts_with("line 2: \"x\""));
+    }
+
+    #[test]
+    fn a_text_in_utf_16_says_so() {
+        let text = format!("{CORNERS}f 1 2 3");
+        for marked in [text.clone(), format!("\u{feff}{text}")] {
+            for bytes_of in [u16::to_le_bytes, u16::to_be_bytes] {
+                let bytes: Vec<u8> = marked.encode_utf16().flat_map(bytes_of).collect();
+                let told = parse(&bytes).unwrap_err().to_string();
+                assert_eq!(told, "this is text in UTF-16: save it as UTF-8, and read that");
+            }
+        }
     }
 
     #[test]
