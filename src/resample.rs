@@ -173,6 +173,7 @@ pub fn weighted_sum(blend: &Blend, values: [DVec3; 3]) -> DVec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ids::Id;
     use crate::shapes;
     use crate::stages::stages_of;
 
@@ -183,5 +184,32 @@ mod tests {
         let normal = stages.view.normal(Vertex(9));
         let blend = Blend { vertices: [9; 3], weights: [0.3, 0.3, 0.4] };
         assert_eq!(blended_normal(&stages.view, &blend), normal);
+    }
+
+    //   v---.      each triangle of a cube has a texture of its own, and all have one value at one corner
+    //   |\  |      of the cube: what goes along a diagonal from there leads over either triangle, and
+    //   | \ |      each keeps to its own
+    //   '---'
+    #[test]
+    fn charts_that_agree_at_a_corner_alone_are_two() {
+        let cube = shapes::plain_cube(2.0);
+        for tip in &cube.positions {
+            let at = |k: &u32| *k as usize;
+            let mut apart = cube.clone();
+            apart.positions = cube.indices.iter().map(|k| cube.positions[at(k)]).collect();
+            apart.normals = cube.indices.iter().map(|k| cube.normals[at(k)]).collect();
+            apart.indices = (0..cube.indices.len() as u32).collect();
+            apart.uvs[0].components = 2;
+            let uv = |k: usize| if apart.positions[k] == *tip { [0.0; 2] } else { [k as f32, 1.0] };
+            apart.uvs[0].values = (0..cube.indices.len()).flat_map(uv).collect();
+            let stages = stages_of(&apart, 0.1);
+            for corner in (0..cube.indices.len()).map(Corner::new) {
+                if apart.positions[corner.index()] == *tip {
+                    let offset = &stages.offsets[stages.sectors.sector_of[corner]];
+                    let foot = chart_foot(stages.surface(), &stages.sectors, offset, corner);
+                    assert_eq!(foot.corner.triangle(), corner.triangle(), "{corner:?}");
+                }
+            }
+        }
     }
 }
