@@ -62,6 +62,18 @@ fn an_edge_is_soft_where_it_hardly_turns_as_it_is_measured() {
         assert_sound("a box", &leaning.as_mesh(), &result);
         assert_eq!(result.totals.hard_edges, expected, "{scale:?}");
     }
+    // So they are where rounding has set their vertices apart from those of the floor.
+    let faces = vec![Cells { across: 0, along: vec![0], diagonals: 0, copies: 1 }; 6];
+    let [one, other] = [0.0, 8.0].map(|x| Grid {
+        low: [x, 0.0, 0.0],
+        high: [x + 1.0, 1.0, 1.0],
+        faces: faces.clone(),
+    });
+    let leaning = grids(&[one, other], &Layout { most_steps: 1, ..layout });
+    let scale = along_axes([8.0, 0.125, 1.0]);
+    let options = Options::default().with_width(Width::PercentOfExtent(1.0)).with_scale(scale);
+    let result = chamfer(&leaning.as_mesh(), &options).unwrap();
+    assert_sound("boxes", &leaning.as_mesh(), &result);
 }
 
 //    .-----------.

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::junctions::reach;
+use super::junctions::{Borders, reach};
 use super::origins::Origins;
 use super::rules::{Element, Findings, Rule};
 use super::stored::{is_unit, normal_with_area};
@@ -96,7 +96,8 @@ fn is_low(corners: [DVec3; 3], least_height: f64) -> bool {
     area < least_height * sides.into_iter().fold(0.0, f64::max)
 }
 
-/// `#corners`: the first corner of the fan that each is in.
+/// `#corners`: the first corner of the fan that each is in. Faces that only rounding has set apart are
+/// of one fan, as the result may have put them together.
 fn fans(surface: &Surface) -> Vec<u32> {
     let mut fans = Groups::singles(surface.mesh.indices.len());
     for (forward, backward) in surface.edges() {
@@ -104,6 +105,14 @@ fn fans(surface: &Surface) -> Vec<u32> {
             if surface.is_soft(a, b) {
                 fans.join(a.corners[0], b.corners[1]);
                 fans.join(a.corners[1], b.corners[0]);
+            }
+        }
+    }
+    for [one, other] in Borders::new(surface).pairs() {
+        for ends in [0, 1].map(|end| [one.corners[end], other.corners[1 - end]]) {
+            let [from, to] = ends.map(|corner| surface.position(corner));
+            if from.distance(to) <= surface.rounding() && surface.share_normal(ends) {
+                fans.join(ends[0], ends[1]);
             }
         }
     }

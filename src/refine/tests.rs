@@ -217,9 +217,9 @@ fn shape_of(view: &View) -> Shape {
     crate::pipeline::shape(
         view,
         weld(&view.mesh, &Unwatched).unwrap(),
+        &[],
         &options,
-        &Threads::default(),
-        &mut |_| Ok(()),
+        (&Threads::default(), &mut |_| Ok(())),
     )
     .unwrap()
 }
