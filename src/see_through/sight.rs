@@ -206,7 +206,7 @@ impl Window {
     /// The nearest first: outlines recede by a part of the window only.
     fn is_deeper_than_cross(&self, old: &Depths, [column, row]: Sample, new: f32) -> bool {
         let Rect { columns, rows } = &old.rect;
-        (1..=self.radius).all(|step| {
+        (1..=self.radius.min(LONGEST_LOOK)).all(|step| {
             let across = [column.checked_sub(step), Some(column + step)].into_iter().flatten();
             let along = [row.checked_sub(step), Some(row + step)].into_iter().flatten();
             across.filter(|c| columns.contains(c)).all(|c| self.is_deeper(old.at(c, row), new))
@@ -216,6 +216,10 @@ impl Window {
         })
     }
 }
+
+/// So far along a row and a column: with a width as large as the scene, each of half a million samples
+/// would look all across the picture.
+const LONGEST_LOOK: usize = 64;
 
 /// Samples that are looked at together.
 const CHUNK: usize = 32;
