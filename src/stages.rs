@@ -151,6 +151,24 @@ impl Stages<'_> {
     }
 }
 
+/// Points and triangles of a cone without floor. Its foot runs out and in again, so that the boxes of very
+/// many of its borders overlap.
+///
+/// ```text
+///      .
+///     / \
+///    /\/\/\
+/// ```
+pub fn zigzag_cone(sides: u32) -> (Vec<[f32; 3]>, Vec<u32>) {
+    let foot = |step: u32| {
+        let (sin, cos) = (f64::from(step) / f64::from(sides) * std::f64::consts::TAU).sin_cos();
+        let radius = 1.0 + f64::from(step % 2) / 8.0;
+        [(cos * radius) as f32, 0.0, (-sin * radius) as f32]
+    };
+    let points = (0..sides).map(foot).chain([[0.0, 1.0, 0.0]]).collect();
+    (points, (0..sides).flat_map(|k| [sides, k, (k + 1) % sides]).collect())
+}
+
 /// The mesh over `#vertices by 3` points and `#triangles by 3` indices, split at folds of more than a
 /// degree.
 pub fn split(points: &[[f32; 3]], indices: &[u32]) -> MeshBuffers {

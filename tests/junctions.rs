@@ -229,9 +229,7 @@ fn assert_chamfered(
     (percent, segments): (f32, u32),
     expected: [u32; 2],
 ) {
-    let (turn, offset) = (DMat3::IDENTITY, DVec3::ZERO);
-    let layout =
-        Layout { turn, offset, most_steps: 0, seed: 0, is_merged: false, is_overlaid: false };
+    let layout = Layout::exact(DMat3::IDENTITY, DVec3::ZERO);
     let mesh = grids(boxes, &layout);
     let width = Width::PercentOfExtent(percent);
     let scale = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, height]];
@@ -286,14 +284,9 @@ fn what_stands_on_a_side_may_be_off_its_plane_by_rounding() {
     let cut = face(0, &[0b1000_0000]);
     let faces = vec![cut, whole(), whole(), whole(), whole(), whole()];
     let grid = Grid { low: [0.0, 2.0, 2.0], high: [0.1, 2.1, 2.1], faces };
-    let layout = Layout {
-        turn: DMat3::from_diagonal(DVec3::splat(35_266.472_636_604_07)),
-        offset: DVec3::ZERO,
-        most_steps: 3,
-        seed: 3_153_447_839,
-        is_merged: false,
-        is_overlaid: false,
-    };
+    let turn = DMat3::from_diagonal(DVec3::splat(35_266.472_636_604_07));
+    let exact = Layout::exact(turn, DVec3::ZERO);
+    let layout = Layout { most_steps: 3, seed: 3_153_447_839, ..exact };
     let mesh = grids(&[grid], &layout);
     let options = Options::default().with_width(Width::PercentOfExtent(1.0));
     let mut result = chamfer(&mesh.as_mesh(), &options).unwrap();
@@ -324,14 +317,9 @@ fn a_piece_cuts_no_face_beside() {
     let none = Cells { copies: 0, ..whole() };
     let faces = vec![whole(), end, none, top, whole(), whole()];
     let grid = Grid { low: [2.0, 0.0, 0.0], high: [4.0, 0.1, 0.1], faces };
-    let layout = Layout {
-        turn: DMat3::from_diagonal(DVec3::splat(0.002_373_857_498_374_955_5)),
-        offset: DVec3::ZERO,
-        most_steps: 2,
-        seed: 2_697_759_575,
-        is_merged: false,
-        is_overlaid: false,
-    };
+    let turn = DMat3::from_diagonal(DVec3::splat(0.002_373_857_498_374_955_5));
+    let exact = Layout::exact(turn, DVec3::ZERO);
+    let layout = Layout { most_steps: 2, seed: 2_697_759_575, ..exact };
     let cube = vec![whole(); 6];
     let cube = Grid { low: [2.0; 3], high: [3.0; 3], faces: cube };
     let mesh = grids(&[grid, cube], &layout);
@@ -357,14 +345,7 @@ fn pieces_keep_to_the_plane_of_their_triangle() {
     faces[4] = face(0, &[0b1000_0000]);
     let grid = Grid { low: [0.0; 3], high: [1.0; 3], faces };
     for (out, above) in [(0.0, 6e-6), (32.0, 6e-5)] {
-        let layout = Layout {
-            turn: DMat3::IDENTITY,
-            offset: DVec3::new(out, 0.0, 0.0),
-            most_steps: 0,
-            seed: 0,
-            is_merged: false,
-            is_overlaid: false,
-        };
+        let layout = Layout::exact(DMat3::IDENTITY, DVec3::new(out, 0.0, 0.0));
         let mut mesh = grids(std::slice::from_ref(&grid), &layout);
         let place = [0.875 + out as f32, 1.0, 0.0];
         let standing = mesh.positions.iter_mut().filter(|at| **at == place);

@@ -45,14 +45,10 @@ fn an_edge_is_hard_where_it_turns_enough_as_it_is_measured() {
 fn an_edge_is_soft_where_it_hardly_turns_as_it_is_measured() {
     let whole = Cells { across: 0, along: vec![0], diagonals: 0, copies: 1 };
     let grid = Grid { low: [0.0; 3], high: [1.0; 3], faces: vec![whole; 6] };
-    let layout = Layout {
-        turn: DMat3::from_cols(DVec3::X, DVec3::new(0.978_277_138_646_977_6, 1.0, 0.0), DVec3::Z),
-        offset: DVec3::ZERO,
-        most_steps: 0,
-        seed: 0,
-        is_merged: false,
-        is_overlaid: false,
-    };
+    let layout = Layout::exact(
+        DMat3::from_cols(DVec3::X, DVec3::new(0.978_277_138_646_977_6, 1.0, 0.0), DVec3::Z),
+        DVec3::ZERO,
+    );
     let leaning = grids(&[grid], &layout);
     for (scale, expected) in [([1.0; 3], 12), ([8.0, 0.125, 1.0], 10)] {
         let options = Options::default()
@@ -122,9 +118,7 @@ fn cells_of_one_face_still_end_on_one_line() {
     let faces =
         [face(0, [0; 2]), face(0b0100_0100, [0b10, 0]), face(0, [0; 2]), face(0, [0b100; 2])];
     let faces = faces.into_iter().chain([face(0, [0; 2]), face(0, [0; 2])]).collect();
-    let (turn, offset) = (DMat3::IDENTITY, DVec3::ZERO);
-    let layout =
-        Layout { turn, offset, most_steps: 0, seed: 0, is_merged: false, is_overlaid: false };
+    let layout = Layout::exact(DMat3::IDENTITY, DVec3::ZERO);
     let mesh = grids(&[Grid { low: [0.0; 3], high: [1.0, 1.0, 3.0], faces }], &layout);
     let options = Options::default()
         .with_width(Width::PercentOfExtent(1.0))

@@ -89,18 +89,10 @@ mod tests {
     use super::*;
     use crate::mesh::Mesh;
 
-    //     /\/\/\       the foot of a cone: its borders run out and in again, so that the boxes of very many
-    //    /      \      overlap
     #[test]
     fn of_many_slanted_borders_few_are_compared() {
         let sides = 2000_u32;
-        let foot = |step: u32| {
-            let (sin, cos) = (f64::from(step) / f64::from(sides) * std::f64::consts::TAU).sin_cos();
-            let radius = 1.0 + f64::from(step % 2) / 8.0;
-            [(cos * radius) as f32, 0.0, (-sin * radius) as f32]
-        };
-        let points: Vec<[f32; 3]> = (0..sides).map(foot).chain([[0.0, 1.0, 0.0]]).collect();
-        let indices: Vec<u32> = (0..sides).flat_map(|k| [sides, k, (k + 1) % sides]).collect();
+        let (points, indices) = crate::stages::zigzag_cone(sides);
         let counts = [indices.len() as u32];
         let mesh = Mesh {
             positions: &points,

@@ -402,18 +402,10 @@ fn what_lies_on_the_chamfer_but_for_rounding_is_covered() {
     });
 }
 
-//     /\/\/\       the foot of a cone: its borders run out and in again, so that the boxes of very many
-//    /      \      overlap
 #[test]
 fn of_many_slanted_borders_few_are_asked() {
     let sides = 2000_u32;
-    let foot = |step: u32| {
-        let (sin, cos) = (f64::from(step) / f64::from(sides) * std::f64::consts::TAU).sin_cos();
-        let radius = 1.0 + f64::from(step % 2) / 8.0;
-        [(cos * radius) as f32, 0.0, (-sin * radius) as f32]
-    };
-    let points: Vec<[f32; 3]> = (0..sides).map(foot).chain([[0.0, 1.0, 0.0]]).collect();
-    let indices: Vec<u32> = (0..sides).flat_map(|k| [sides, k, (k + 1) % sides]).collect();
+    let (points, indices) = crate::stages::zigzag_cone(sides);
     let mesh = crate::stages::split(&points, &indices);
     let stages = crate::stages::stages_of(&mesh, 1e-4);
     let contacts = contacts(&stages.view, &stages.topology, &stages.faces, &Unwatched).unwrap();

@@ -54,6 +54,13 @@ pub struct Layout {
     pub is_overlaid: bool,
 }
 
+impl Layout {
+    /// Each coordinate as near as it can be, and nothing shared.
+    pub fn exact(turn: DMat3, offset: DVec3) -> Layout {
+        Layout { turn, offset, most_steps: 0, seed: 0, is_merged: false, is_overlaid: false }
+    }
+}
+
 /// The mesh of all boxes; a submesh each.
 pub fn grids(boxes: &[Grid], layout: &Layout) -> MeshBuffers {
     let mut mesh = MeshBuffers::default();
