@@ -1,8 +1,9 @@
 //! Prints how long a chamfer takes in terms of meshoptimizer's position remap, in one run.
 //!
-//! `cargo run --release --example ratios -- [--rounds N] [--least] [--full] [--cubes N]`
+//! `cargo run --release --example ratios -- [--rounds N] [--least] [--full] [--cubes N | --terrain N]`
 //! `cargo run --release --example ratios -- --corpus [--rounds N] [--least]`
 //!
+//! A terrain is one connected mesh, shaded flat, of `N` by `N` quads; 708 by 708 are a million triangles.
 //! Times are medians; `--least` takes the least instead, for machines that have other work to do.
 
 #[path = "../benches/support/models.rs"]
@@ -12,11 +13,18 @@ mod models;
 #[path = "../tests/corpus/measure.rs"]
 mod measure;
 
+#[path = "../tests/support/shaded.rs"]
+mod shaded;
+
+#[allow(dead_code)]
+#[path = "../tests/support/worst.rs"]
+mod worst;
+
 use std::hint::black_box;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use chamfer::{MeshBuffers, Options, Verify, Width, chamfer};
+use chamfer::{MeshBuffers, Options, Stage, Verify, Width, chamfer};
 use chamfer_formats as formats;
 use chamfer_formats::ReadOptions;
 use models::{CUBES, copy, cube_field, options, position_remap, smooth_sphere, stage_times};
@@ -43,6 +51,9 @@ fn main() {
     if let Some(cubes) = value_of(&arguments, "--cubes").and_then(|n| n.parse().ok()) {
         let name = format!("cube field, {} triangles", cubes * 12);
         return table(&name, &cube_field(cubes), verify, rounds);
+    }
+    if let Some(across) = value_of(&arguments, "--terrain").and_then(|n| n.parse().ok()) {
+        return table("terrain", &worst::terrain(across, true), verify, rounds);
     }
     for cubes in CUBES {
         table(&format!("cube field, {} triangles", cubes * 12), &cube_field(cubes), verify, rounds);
@@ -114,12 +125,30 @@ fn table(name: &str, mesh: &MeshBuffers, verify: Verify, rounds: usize) {
     let whole = |options| median(rounds, || drop(black_box(chamfer(&mesh.as_mesh(), &options))));
     row("chamfer, one thread", whole(one), remap);
     row("chamfer, two threads", whole(two), remap);
-    let runs: Vec<_> = (0..rounds).map(|_| stage_times(mesh, &one)).collect();
-    for (place, (stage, _)) in runs[0].iter().enumerate() {
-        let mut times: Vec<Duration> = runs.iter().map(|run| run[place].1).collect();
-        row(&format!("  {stage:?}").to_lowercase(), middle(&mut times), remap);
+    println!("stages of the whole mesh at once: one thread, two threads");
+    let [alone, shared] = [one, two].map(|options| middle_stage_times(mesh, &options, rounds));
+    for ((stage, alone), (_, shared)) in alone.iter().zip(&shared) {
+        let [alone, shared] = [alone, shared].map(Duration::as_secs_f64);
+        let name = format!("  {stage:?}").to_lowercase();
+        println!(
+            "{name:<24}{:>10.2} ms{:>10.2} ms{:>8.2}",
+            alone * 1e3,
+            shared * 1e3,
+            shared / alone
+        );
     }
     println!();
+}
+
+fn middle_stage_times(
+    mesh: &MeshBuffers,
+    options: &Options,
+    rounds: usize,
+) -> Vec<(Stage, Duration)> {
+    let runs: Vec<_> = (0..rounds).map(|_| stage_times(mesh, options)).collect();
+    let middle_of =
+        |place: usize| middle(&mut runs.iter().map(|run| run[place].1).collect::<Vec<_>>());
+    runs[0].iter().enumerate().map(|(place, &(stage, _))| (stage, middle_of(place))).collect()
 }
 
 fn median(rounds: usize, mut call: impl FnMut()) -> Duration {

@@ -22,13 +22,14 @@ use std::collections::BTreeMap;
 use crate::breaks::same_chart;
 use crate::chamfers::Chamfers;
 use crate::error::Error;
-use crate::ids::{Cluster, Corner, Few, Id, IdVec, Sector, Triangle, Vertex};
+use crate::ids::{Cluster, Corner, Id, IdVec, Sector, Triangle, Vertex};
 use crate::placement::Placement;
 use crate::report::Blend;
 use crate::resample::blended_normal;
 use crate::scale::Space;
 use crate::sectors::Sectors;
 use crate::surface::Surface;
+use crate::threads::Threads;
 use crate::topology::Topology;
 use crate::view::View;
 use crate::watch::{Watch, each};
@@ -53,13 +54,13 @@ pub fn attributes(
     weld: &Weld,
     chamfers: Chamfers,
     placement: &Placement,
-    watch: &dyn Watch,
+    (threads, watch): (&Threads, &dyn Watch),
 ) -> Result<Attributes, Error> {
     let vertex_at = surface.view.mesh.indices.to_vec();
     watch.worked(vertex_at.len())?;
     // At a seam both far vertices of a strip are copied.
     let copies = 2 * chamfers.edges.hard.iter().filter(|edge| edge.seams != 0).count();
-    let mut attributes = Attributes {
+    let attributes = Attributes {
         streams: Streams::of_source(space.source, chamfers.sectors.fans.len(), copies),
         vertex_at: IdVec::from_vec(vertex_at),
     };
@@ -68,20 +69,17 @@ pub fn attributes(
     let has_moved: Vec<bool> = sectors.map(|sector| placement.has_moved(sector)).collect();
     let has_moved = IdVec::from_vec(has_moved);
     watch.worked(has_moved.len())?;
-    let mut taken = staying(surface, chamfers.sectors, &has_moved, watch)?;
-    let mut parted = Vec::new();
-    each(has_moved.len(), watch, |sector: Sector| {
+    let taken = staying(surface, chamfers.sectors, &has_moved, watch)?;
+    let mut moving = Moving { taken, parted: Vec::new(), attributes };
+    let note = |moving: &Moving, sector: Sector, notes: &mut Notes| {
         if has_moved[sector] {
-            move_sector(
-                (space, surface),
-                chamfers.sectors,
-                placement,
-                sector,
-                (&mut taken, &mut parted),
-                &mut attributes,
-            );
+            let streams = &moving.attributes.streams;
+            notes.add((space, surface), chamfers.sectors, placement, (streams, sector));
         }
-    })?;
+    };
+    let work = (has_moved.len(), watch);
+    threads.blocks_then(work, &mut moving, note, Moving::take)?;
+    let Moving { parted, mut attributes, .. } = moving;
     attributes.streams.look_up(weld);
     add_parted((space, surface), placement, &parted, &mut attributes, watch)?;
     if has_moved.iter().any(|&has_moved| has_moved) {
@@ -112,58 +110,103 @@ fn staying(
 /// A corner whose vertex another sector has taken, and its own sector.
 type Parted = (Sector, Corner);
 
-/// Gives each vertex of a sector its new place: in its own index if that is free; else it is noted,
-/// and past the source vertices its number among those noted stands for it.
-fn move_sector(
-    (space, surface): (Space, Surface),
-    sectors: &Sectors,
-    placement: &Placement,
-    sector: Sector,
-    (taken, parted): (&mut IdVec<Vertex, bool>, &mut Vec<Parted>),
-    attributes: &mut Attributes,
-) {
-    let sources = surface.view.mesh.positions.len() as u32;
-    let mut seen: Few<Seen> = Few::new();
-    for corner in sectors.corners(surface.topology, sector) {
-        let vertex = surface.view.vertex_at(corner);
-        if let Some(known) = seen.iter().find(|seen| seen.vertex == vertex) {
-            attributes.vertex_at[corner] = known.output;
-            continue;
+/// What is known while sectors move.
+struct Moving {
+    /// `#vertices`: whether some sector has a source vertex already.
+    taken: IdVec<Vertex, bool>,
+    parted: Vec<Parted>,
+    attributes: Attributes,
+}
+
+impl Moving {
+    /// Gives each vertex of the sectors noted its new place: in its own index if that is free; else it is
+    /// noted, and past the source vertices its number among those noted stands for it.
+    fn take(&mut self, notes: &mut Notes) {
+        let sources = self.taken.len() as u32;
+        for place in 0..notes.moved.len() {
+            let (before, own) = notes.moved.split_at_mut(place);
+            let own = &mut own[0];
+            own.output = match before.get(own.twin as usize) {
+                Some(twin) => twin.output,
+                None if self.taken[own.vertex] => {
+                    self.parted.push((own.sector, own.corner));
+                    sources + self.parted.len() as u32 - 1
+                }
+                None => {
+                    self.taken[own.vertex] = true;
+                    self.attributes.streams.set(own.vertex, &own.row, own.blends);
+                    own.vertex.0
+                }
+            };
         }
-        seen.push(Seen { vertex, output: NONE, row: Row::EMPTY });
-        let Some((own, others)) = seen.split_last_mut() else { continue };
-        let streams = &mut attributes.streams;
-        let blends = blends(surface.view, placement, sector, corner);
-        fill(space, placement, streams, (sector, blends), &mut own.row);
-        own.output = twin_of(space.source, streams, others, own).unwrap_or_else(|| {
-            if taken[vertex] {
-                parted.push((sector, corner));
-                return sources + parted.len() as u32 - 1;
-            }
-            taken[vertex] = true;
-            streams.set(vertex, &own.row, blends);
-            vertex.0
-        });
-        attributes.vertex_at[corner] = own.output;
+        for &(corner, moved) in &notes.corners {
+            self.attributes.vertex_at[corner] = notes.moved[moved as usize].output;
+        }
+        notes.moved.clear();
+        notes.corners.clear();
     }
 }
 
-/// A source vertex of a sector, where it moves, and what stands for it there.
-struct Seen {
-    vertex: Vertex,
-    output: u32,
-    row: Row,
+/// Where the vertices of some sectors go.
+#[derive(Default)]
+struct Notes {
+    moved: Vec<Moved>,
+    /// The corners of the sectors, each with the place of its vertex among those.
+    corners: Vec<(Corner, u32)>,
 }
 
-/// The vertex of a sector that another one of it has become equal to, though they differed before:
-/// their normals were less than a degree apart.
-fn twin_of(view: &View, streams: &Streams, others: &[Seen], own: &Seen) -> Option<u32> {
-    let is_twin = |other: &&Seen| {
+/// A source vertex of a sector, with its values where it moves.
+struct Moved {
+    sector: Sector,
+    /// The first of the sector that has the vertex.
+    corner: Corner,
+    vertex: Vertex,
+    blends: [Blend; 2],
+    row: Row,
+    /// The place of one that it has become equal to, or none.
+    twin: u32,
+    /// What stands for it in the result, once that is known.
+    output: u32,
+}
+
+impl Notes {
+    fn add(
+        &mut self,
+        (space, surface): (Space, Surface),
+        sectors: &Sectors,
+        placement: &Placement,
+        (streams, sector): (&Streams, Sector),
+    ) {
+        let first = self.moved.len();
+        for corner in sectors.corners(surface.topology, sector) {
+            let vertex = surface.view.vertex_at(corner);
+            let known = self.moved[first..].iter().position(|moved| moved.vertex == vertex);
+            let place = known.map_or(self.moved.len(), |known| first + known);
+            self.corners.push((corner, place as u32));
+            if known.is_some() {
+                continue;
+            }
+            let blends = blends(surface.view, placement, sector, corner);
+            let (row, twin, output) = (Row::EMPTY, NONE, NONE);
+            self.moved.push(Moved { sector, corner, vertex, blends, row, twin, output });
+            let (others, own) = self.moved.split_at_mut(place);
+            let (others, own) = (&others[first..], &mut own[0]);
+            fill(space, placement, streams, (sector, blends), &mut own.row);
+            let twin = twin_of(space.source, streams, others, own);
+            own.twin = twin.map_or(NONE, |twin| (first + twin) as u32);
+        }
+    }
+}
+
+/// The place of the vertex of a sector that another one of it has become equal to, though they differed
+/// before: their normals were less than a degree apart.
+fn twin_of(view: &View, streams: &Streams, others: &[Moved], own: &Moved) -> Option<usize> {
+    let is_twin = |other: &Moved| {
         streams.are_equal(&other.row, &own.row)
             && !(view.normal(other.vertex) == view.normal(own.vertex)
                 && same_chart(view, other.vertex, own.vertex))
     };
-    others.iter().find(is_twin).map(|twin| twin.output)
+    others.iter().position(is_twin)
 }
 
 /// Appends the vertices that were noted, and puts them in the place of their numbers.

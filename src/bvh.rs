@@ -55,6 +55,12 @@ impl Aabb {
         along(0) & along(1) & along(2)
     }
 
+    #[inline]
+    fn holds(&self, point: &[f32; 3]) -> bool {
+        let along = |k: usize| (self.low[k] <= point[k]) & (point[k] <= self.high[k]);
+        along(0) & along(1) & along(2)
+    }
+
     fn middle_and_half(&self) -> (DVec3, DVec3) {
         let [low, high] = [self.low, self.high].map(|corner| DVec3::from(corner.map(f64::from)));
         ((low + high) / 2.0, (high - low) / 2.0)
@@ -75,6 +81,8 @@ impl Aabb {
 /// What comes within a distance of a line.
 #[derive(Clone, Copy)]
 pub(crate) struct Rod {
+    /// On the line, as near as single precision tells.
+    place: [f32; 3],
     /// Across the line and one of the axes each (the separating axes of a line and a box), and how far
     /// the line lies along them.
     across: [(DVec3, f64); 3],
@@ -85,11 +93,16 @@ impl Rod {
     /// Around a line through a point, of a unit direction.
     pub fn new(from: DVec3, along: DVec3, far: f64) -> Rod {
         let across = DVec3::AXES.map(|axis| along.cross(axis));
-        Rod { across: across.map(|across| (across, from.dot(across))), far }
+        let place = from.as_vec3().to_array();
+        Rod { place, across: across.map(|across| (across, from.dot(across))), far }
     }
 
     /// Whether it has nothing to do with a box. For certain: some that it passes by are not told.
     fn misses(&self, bounds: &Aabb) -> bool {
+        // Of the large boxes most hold what is looked for.
+        if bounds.holds(&self.place) {
+            return false;
+        }
         let (middle, half) = bounds.middle_and_half();
         self.across.iter().any(|&(across, place)| {
             (middle.dot(across) - place).abs() - half.dot(across.abs()) > self.far

@@ -37,11 +37,18 @@ const MANY: usize = 1024;
 /// What lies within so many tolerances of an edge, across it, rests on it.
 const HOLD_REACH: f64 = 2.0;
 
+/// What rests on an edge is within so many tolerances of it, its own included.
+const HELD: f64 = HOLD_REACH + 1.0;
+
 /// What rests on an edge within so many tolerances of an end alone rests on that end.
 const HOLD_SLACK: f64 = 4.0;
 
 /// So many steps it takes to ask what rests on an edge, as a watch counts them.
 pub const ASKED: usize = 8;
+
+/// So many edges that follow one another are asked about at once: they lie side by side mostly, and most
+/// of what is large has nothing near it.
+const TOGETHER: usize = 64;
 
 /// A line that may rest on the mesh.
 #[derive(Clone)]
@@ -229,6 +236,16 @@ fn around(points: [DVec3; 2], reach: f64) -> Aabb {
     Aabb::around(&[low, high].map(|point| point.as_vec3().to_array()))
 }
 
+/// For each so many edges that follow one another, whether something may rest near one of them.
+pub struct Near(Vec<bool>);
+
+impl Near {
+    /// Whether something may rest near the edge of this number.
+    pub fn may_hold(&self, edge: usize) -> bool {
+        self.0.get(edge / TOGETHER).is_some_and(|&is_near| is_near)
+    }
+}
+
 impl Contacts {
     /// The same with other names for the half-edges of the mesh, where these have not moved.
     pub fn renamed(&self, name: impl Fn(Corner) -> Corner) -> Contacts {
@@ -253,6 +270,25 @@ impl Contacts {
         self.tolerance
     }
 
+    /// Near which edges something may rest, as far as so many of them together tell: within a distance of
+    /// each, by [`Contacts::beside`] a width, by [`Contacts::holds`] none.
+    pub fn near<Edge>(
+        &self,
+        edges: &[Edge],
+        ends_and_width: impl Fn(&Edge) -> ([DVec3; 2], f64),
+    ) -> Near {
+        let around = |edge: &Edge| {
+            let (ends, width) = ends_and_width(edge);
+            around(ends, width + self.tolerance * HELD)
+        };
+        let is_near = |some: &[Edge]| {
+            let bounds = some.iter().map(around).fold(Aabb::EMPTY, Aabb::union);
+            self.tree.overlapping(bounds).next().is_some()
+        };
+        let is_empty = self.rims.is_empty();
+        Near(if is_empty { Vec::new() } else { edges.chunks(TOGETHER).map(is_near).collect() })
+    }
+
     /// The stretches that lie in the wedge that an edge loses at full width.
     pub fn beside(
         &self,
@@ -272,11 +308,8 @@ impl Contacts {
 
     /// Whether something rests on an edge, elsewhere than at its ends alone.
     pub fn holds(&self, view: &View, topology: &Topology, faces: &Faces, side: Corner) -> bool {
-        if self.rims.is_empty() {
-            return false;
-        }
         let ends = [side, side.next()].map(|corner| view.position_at(corner));
-        if self.beside_edge(ends, self.tolerance * 3.0).next().is_none() {
+        if self.beside_edge(ends, self.tolerance * HELD).next().is_none() {
             return false;
         }
         let is_ball = |rim: &Rim| {

@@ -8,14 +8,15 @@ use crate::breaks::{is_hard, seam_between};
 use crate::contacts::{ASKED, Contacts};
 use crate::error::Error;
 use crate::faces::{Faces, is_blurred, long_side};
-use crate::ids::{Corner, Edge, IdVec, Triangle, Vertex};
+use crate::ids::{Corner, Edge, Id, IdVec, Triangle, Vertex};
 use crate::mesh::UV_CHANNELS;
 use crate::report::Reason;
 use crate::selection::Selection;
+use crate::threads::Threads;
 use crate::tolerance::BACK_TO_BACK_COSINE;
 use crate::topology::Topology;
 use crate::view::View;
-use crate::watch::Watch;
+use crate::watch::{Times, Watch};
 use crate::weld::Weld;
 
 pub use parted::{Parted, parted};
@@ -111,35 +112,42 @@ pub fn edges(
     (topology, faces): (&Topology, &Faces),
     contacts: &Contacts,
     selection: &Selection,
-    watch: &dyn Watch,
+    (threads, watch): (&Threads, &dyn Watch),
 ) -> Result<Edges, Error> {
-    let mut hard = IdVec::default();
-    let mut chamfered_at = IdVec::filled(Edge::NONE, view.corner_count());
-    for corner in topology.twin.ids() {
+    let sides = threads.filter_watched(view.corner_count(), watch, |corner: Corner| {
         let twin = topology.twin[corner];
-        if twin.is_none() || twin < corner || !is_hard(view, corner, twin) {
-            continue;
-        }
-        watch.worked(ASKED)?;
-        let widths = selection.widths(topology, faces, [corner, twin]);
-        let skipped = obstacle(view, topology, faces, [corner, twin])
-            .or(widths.is_none().then_some(Reason::NotSelected))
-            .or_else(|| contacts.holds(view, topology, faces, corner).then_some(Reason::Contact));
-        let edge = hard.push(HardEdge {
-            sides: [corner, twin],
-            skipped,
-            seams: seam_channels(view, corner, twin),
-            widths: widths.unwrap_or_default(),
-        });
-        if skipped.is_none() {
-            chamfered_at[corner] = edge;
-            chamfered_at[twin] = edge;
-        }
+        twin.is_some() && corner < twin && is_hard(view, corner, twin)
+    })?;
+    let ends = |&side: &Corner| [side, side.next()].map(|corner| view.position_at(corner));
+    let near = contacts.near(&sides, |side| (ends(side), 0.0));
+    let hard = threads.map(sides.len(), &Times(ASKED, watch), |edge: Edge| {
+        let side = sides[edge.index()];
+        let is_held = || near.may_hold(edge.index()) && contacts.holds(view, topology, faces, side);
+        hard_edge(view, (topology, faces), selection, [side, topology.twin[side]], is_held)
+    })?;
+    let mut chamfered_at = IdVec::filled(Edge::NONE, view.corner_count());
+    for (edge, hard) in hard.ids().zip(hard.iter()).filter(|(_, hard)| hard.skipped.is_none()) {
+        hard.sides.iter().for_each(|&side| chamfered_at[side] = edge);
     }
-    hard.shrink();
     let spanned = spanned(view, topology, faces, &chamfered_at);
     let parted = parted(view, topology, faces, &hard, &chamfered_at);
     Ok(Edges { hard, chamfered_at, spanned, parted })
+}
+
+/// What is asked of the edge between two half-edges, and why it is not chamfered if so.
+fn hard_edge(
+    view: &View,
+    (topology, faces): (&Topology, &Faces),
+    selection: &Selection,
+    sides: [Corner; 2],
+    is_held: impl FnOnce() -> bool,
+) -> HardEdge {
+    let widths = selection.widths(topology, faces, sides);
+    let skipped = obstacle(view, topology, faces, sides)
+        .or(widths.is_none().then_some(Reason::NotSelected))
+        .or_else(|| is_held().then_some(Reason::Contact));
+    let seams = seam_channels(view, sides[0], sides[1]);
+    HardEdge { sides, skipped, seams, widths: widths.unwrap_or_default() }
 }
 
 /// The corners across from the long sides of lines that reach such a side to a chamfered edge.
@@ -256,7 +264,8 @@ mod tests {
         let faces = faces(&view, &topology, (&Threads::default(), &Unwatched)).unwrap();
         let contacts = contacts(&view, &topology, &faces, &Unwatched).unwrap();
         let selection = selection(&view, &weld, &Options::default());
-        let edges = edges(&view, (&topology, &faces), &contacts, &selection, &Unwatched).unwrap();
+        let work: (&Threads, &dyn Watch) = (&Threads::default(), &Unwatched);
+        let edges = edges(&view, (&topology, &faces), &contacts, &selection, work).unwrap();
         edges.hard.iter().map(|edge| edge.skipped).collect()
     }
 

@@ -401,7 +401,8 @@ pub(crate) fn shape(
     done(Some(Stage::Contacts))?;
     let selection = selection(view, &weld, options);
     let ask = &mut || done(None);
-    let edges = edges(view, (&topology, &faces), &contacts, &selection, &Caller::new(ask))?;
+    let work = (threads, &Caller::new(ask) as &dyn Watch);
+    let edges = edges(view, (&topology, &faces), &contacts, &selection, work)?;
     done(Some(Stage::Edges))?;
     memory::ask(memory::of_sectors(edges.hard.len()))?;
     let ask = &mut || done(None);
@@ -497,7 +498,7 @@ fn make(
     // The stages to come take far more memory than these, so what they do not read is given back.
     drop(room);
     let most = Most { offsets, shares: &shares };
-    let rests = &rests(surface, chamfers, contacts, most, &watch)?;
+    let rests = &rests(surface, chamfers, contacts, most, (threads, &watch))?;
     let given = &Given { offsets, rests, ..*asked };
     let limits = limits(given, &shares, options.verify, &watch)?;
     drop(shares);
@@ -522,10 +523,12 @@ fn make(
     let round = Rounds { view, chamfers, placement, profile };
     let search: Option<&Search> = (options.verify != Verify::Fast).then_some(&search);
     let rounding = rounding(round, &patches, options.segments, (threads, &watch), search)?;
-    let verdicts = verdicts(view, chamfers, &limits, (&patches, rounding.as_ref()), &watch)?;
+    let work = (threads, &watch as &dyn Watch);
+    let verdicts = verdicts(view, chamfers, &limits, (&patches, rounding.as_ref()), work)?;
     done(Some(Stage::Patches))?;
     let ask = &mut || done(None);
-    let attributes = attributes(space, surface, weld, chamfers, placement, &Caller::new(ask))?;
+    let work = (threads, &Caller::new(ask) as &dyn Watch);
+    let attributes = attributes(space, surface, weld, chamfers, placement, work)?;
     done(Some(Stage::Attributes))?;
     let ask = &mut || done(None);
     let work = (threads, &Caller::new(ask) as &dyn Watch);

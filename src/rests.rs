@@ -3,14 +3,15 @@
 use glam::DVec3;
 
 use crate::chamfers::Chamfers;
-use crate::contacts::{ASKED, Contacts, Cut, Stretch, Wedge};
+use crate::contacts::{Contacts, Cut, Stretch, Wedge};
 use crate::edges::HardEdge;
 use crate::error::Error;
-use crate::ids::{Edge, IdVec, Sector};
+use crate::ids::{Edge, Id, IdVec, Sector};
 use crate::math::unit;
 use crate::offsets::Offset;
 use crate::strips;
 use crate::surface::Surface;
+use crate::threads::Threads;
 use crate::watch::Watch;
 
 /// For each hard edge, the stretches of border in the wedge that it loses where its
@@ -35,21 +36,28 @@ pub fn rests(
     chamfers: Chamfers,
     contacts: &Contacts,
     most: Most,
-    watch: &dyn Watch,
+    (threads, watch): (&Threads, &dyn Watch),
 ) -> Result<Rests, Error> {
     let mut rests = Rests { tolerance: contacts.tolerance(), ..Rests::default() };
     if contacts.is_empty() {
         return Ok(rests);
     }
     let Surface { view, topology, faces } = surface;
-    for edge in chamfers.edges.hard.iter() {
-        if edge.skipped.is_none() {
+    let hard = &chamfers.edges.hard;
+    let ends = |edge: &HardEdge| {
+        [edge.sides[0], edge.sides[0].next()].map(|corner| view.position_at(corner))
+    };
+    let near = contacts.near(hard.iter().as_slice(), |edge| (ends(edge), edge.widest()));
+    watch.worked(hard.len())?;
+    let note = |_: &Rests, id: Edge, notes: &mut Rests| {
+        let edge = &hard[id];
+        if edge.skipped.is_none() && near.may_hold(id.index()) {
             let width = edge.widest().min(most.width(surface, chamfers, edge));
-            rests.stretches.extend(contacts.beside(view, topology, faces, (edge.sides, width)));
+            notes.stretches.extend(contacts.beside(view, topology, faces, (edge.sides, width)));
         }
-        rests.ends.push(rests.stretches.len() as u32);
-        watch.worked(ASKED)?;
-    }
+        notes.ends.push(notes.stretches.len() as u32);
+    };
+    threads.blocks_then((hard.len(), watch), &mut rests, note, Rests::take)?;
     Ok(rests)
 }
 
@@ -76,6 +84,15 @@ impl Most<'_> {
 }
 
 impl Rests {
+    /// Takes those of the edges that follow.
+    fn take(&mut self, next: &mut Rests) {
+        let before = self.stretches.len() as u32;
+        self.stretches.append(&mut next.stretches);
+        for end in std::mem::take(&mut next.ends) {
+            self.ends.push(before + end);
+        }
+    }
+
     /// Whether all that rests beside an edge is still covered where its sides are pulled to these
     /// ends: `[side][end]`, both sides in the direction of the first.
     pub fn are_kept(&self, edge: Edge, wedge: &Wedge, pulled: [[DVec3; 2]; 2]) -> bool {

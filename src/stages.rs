@@ -24,7 +24,7 @@ use crate::surface::Surface;
 use crate::threads::Threads;
 use crate::topology::{Topology, topology};
 use crate::view::{View, view};
-use crate::watch::Unwatched;
+use crate::watch::{Unwatched, Watch};
 use crate::weld::{Weld, weld};
 
 /// What each stage has made of a mesh.
@@ -63,7 +63,8 @@ pub fn stages_of_mesh<'a>(mesh: Mesh<'a>, options: &Options) -> Stages<'a> {
     let faces = faces(&view, &topology, (&threads, &Unwatched)).unwrap();
     let contacts = contacts(&view, &topology, &faces, &Unwatched).unwrap();
     let selection = selection(&view, &weld, options);
-    let edges = edges(&view, (&topology, &faces), &contacts, &selection, &Unwatched).unwrap();
+    let work: (&Threads, &dyn Watch) = (&threads, &Unwatched);
+    let edges = edges(&view, (&topology, &faces), &contacts, &selection, work).unwrap();
     let sectors = sectors(&view, &topology, &edges, &contacts, &Unwatched).unwrap();
     let surface = Surface { view: &view, topology: &topology, faces: &faces };
     let chamfers = Chamfers { edges: &edges, sectors: &sectors };
@@ -79,7 +80,7 @@ pub fn stages_of_mesh<'a>(mesh: Mesh<'a>, options: &Options) -> Stages<'a> {
         (room, narrowed)
     };
     let most = Most { offsets: &narrowed, shares: &room.shares() };
-    let rests = rests(surface, chamfers, &contacts, most, &Unwatched).unwrap();
+    let rests = rests(surface, chamfers, &contacts, most, (&threads, &Unwatched)).unwrap();
     Stages {
         view,
         weld,
@@ -134,7 +135,8 @@ impl Stages<'_> {
     }
 
     pub fn attributes(&self, placement: &Placement) -> Attributes {
-        attributes(self.space(), self.surface(), &self.weld, self.chamfers(), placement, &Unwatched)
+        let work: (&Threads, &dyn Watch) = (&self.threads, &Unwatched);
+        attributes(self.space(), self.surface(), &self.weld, self.chamfers(), placement, work)
             .unwrap()
     }
 
@@ -189,7 +191,6 @@ mod tests {
     use super::*;
     use crate::error::Error;
     use crate::shapes;
-    use crate::watch::Watch;
 
     /// Stops when it is told for the last time that it bears.
     struct Bears(Cell<usize>);
@@ -218,7 +219,7 @@ mod tests {
     fn each_stage_that_may_take_long_tells_its_watch() {
         let plate = shapes::plate();
         let stages = stages_of(&plate, 0.5);
-        let Stages { view, topology, faces, edges, weld, .. } = &stages;
+        let Stages { view, topology, faces, weld, .. } = &stages;
         let contacts_of = |watch: &dyn Watch| contacts(view, topology, faces, watch);
         let found = contacts_of(&Unwatched).unwrap();
         let selection = selection(view, weld, &Options::default());
@@ -226,11 +227,10 @@ mod tests {
         let Stages { offsets: vectors, rests: held, deep, threads, .. } = &stages;
         let given = &Given { surface, chamfers, offsets: vectors, rests: held, deep, threads };
         let open = room(given, &Unwatched).unwrap().shares();
-        let twelve = edges.hard.len();
-        assert_eq!(
-            times(|watch| super::edges(view, (topology, faces), &found, &selection, watch)),
-            twelve
-        );
+        let found_edges = |watch: &dyn Watch| {
+            super::edges(view, (topology, faces), &found, &selection, (threads, watch))
+        };
+        assert_eq!(times(found_edges), 2, "once for all sides, once for those that are hard");
         assert_eq!(times(|watch| offsets(surface, chamfers, None, (threads, watch))), 1);
         assert!(times(|watch| room(given, watch)) > 1);
         let evened = |watch: &dyn Watch| evenness(given, room(given, &Unwatched)?, 0.5, watch);
@@ -244,12 +244,12 @@ mod tests {
     fn what_may_rest_on_something_is_gathered_and_asked_under_a_watch() {
         let open = shapes::open_box();
         let stages = stages_of(&open, 0.05);
-        let Stages { view, topology, faces, edges, room, narrowed, .. } = &stages;
+        let Stages { view, topology, faces, room, narrowed, threads, .. } = &stages;
         let (surface, chamfers) = (stages.surface(), stages.chamfers());
         assert!(times(|watch| contacts(view, topology, faces, watch)) >= 1);
         let found = contacts(view, topology, faces, &Unwatched).unwrap();
         let most = Most { offsets: narrowed, shares: &room.shares() };
-        let asked = times(|watch| rests(surface, chamfers, &found, most, watch));
-        assert_eq!(asked, edges.hard.len());
+        let asked = times(|watch| rests(surface, chamfers, &found, most, (threads, watch)));
+        assert_eq!(asked, 2, "once what is near, once what rests");
     }
 }

@@ -11,8 +11,9 @@ use crate::report::{EdgeVerdict, Outcome, Reason, Totals};
 use crate::rounding::Rounding;
 use crate::sectors::Sectors;
 use crate::strips;
+use crate::threads::Threads;
 use crate::view::View;
-use crate::watch::{Watch, each};
+use crate::watch::Watch;
 
 /// `#hard edges`, and their sum.
 ///
@@ -23,21 +24,30 @@ pub fn verdicts(
     chamfers: Chamfers,
     limits: &Limits,
     (patches, rounding): (&Patches, Option<&Rounding>),
-    watch: &dyn Watch,
+    (threads, watch): (&Threads, &dyn Watch),
 ) -> Result<(Vec<EdgeVerdict>, Totals), Error> {
     let Chamfers { edges, sectors } = chamfers;
-    let mut verdicts = Vec::with_capacity(edges.hard.len());
-    let mut sum = Sum::default();
-    each(edges.hard.len(), watch, |edge: Edge| {
+    let told = &mut Told { verdicts: Vec::with_capacity(edges.hard.len()), sum: Sum::default() };
+    let note = |_: &Told, edge: Edge, notes: &mut Vec<Judged>| {
         let is_open = !patches.strip(edge).triangles.is_empty();
         let segments = if is_open { segments(rounding, edge) } else { 0 };
         let edge = &edges.hard[edge];
         let at = strips::corners(edge).map(|corner| sectors.sector_of[corner]);
         let verdict = verdict(view, (sectors, at), limits, (edge, is_open));
-        sum.add(view, (edge, &verdict), counting_ends(limits, at, &verdict));
-        verdicts.push(EdgeVerdict { segments, ..verdict });
+        let counting = counting_ends(limits, at, &verdict);
+        notes.push(judged(view, edge, EdgeVerdict { segments, ..verdict }, counting));
+    };
+    threads.blocks_then((edges.hard.len(), watch), told, note, |told, notes| {
+        notes.iter().for_each(|judged| told.sum.add(judged));
+        told.verdicts.extend(notes.drain(..).map(|judged| judged.verdict));
     })?;
-    Ok((verdicts, sum.totals()))
+    Ok((std::mem::take(&mut told.verdicts), told.sum.totals()))
+}
+
+/// The verdicts on some edges, and their sum.
+struct Told {
+    verdicts: Vec<EdgeVerdict>,
+    sum: Sum,
 }
 
 /// The sectors at an edge stand in the order of [`strips::corners`].
@@ -137,8 +147,23 @@ fn counting_ends(limits: &Limits, at: [Sector; 4], verdict: &EdgeVerdict) -> [bo
     [moves[1] || moves[2], moves[0] || moves[3]]
 }
 
+/// A verdict, and what its edge counts for.
+struct Judged {
+    verdict: EdgeVerdict,
+    length: f64,
+    /// At each end at which a width was asked for, the share of it that it got.
+    got: [Option<f64>; 2],
+}
+
+fn judged(view: &View, edge: &HardEdge, verdict: EdgeVerdict, counting: [bool; 2]) -> Judged {
+    let [from, to] = [edge.sides[0], edge.sides[0].next()].map(|c| view.position_at(c));
+    let share = |end: usize| (f64::from(verdict.widths[end]) / edge.widths[end]).min(1.0);
+    let got = [0, 1].map(|end| counting[end].then(|| share(end)));
+    Judged { verdict, length: from.distance(to), got }
+}
+
 /// What is told of all edges, in the making.
-#[derive(Default)]
+#[derive(Clone, Copy, Default)]
 struct Sum {
     totals: Totals,
     /// The lengths of edges by the widths that their ends got, in terms of those asked for.
@@ -146,12 +171,7 @@ struct Sum {
 }
 
 impl Sum {
-    fn add(
-        &mut self,
-        view: &View,
-        (edge, verdict): (&HardEdge, &EdgeVerdict),
-        counting: [bool; 2],
-    ) {
+    fn add(&mut self, Judged { verdict, length, got }: &Judged) {
         let totals = &mut self.totals;
         totals.hard_edges += 1;
         match verdict.outcome {
@@ -159,11 +179,9 @@ impl Sum {
             Outcome::Narrowed => totals.narrowed += 1,
             Outcome::Skipped => totals.skipped[verdict.reason] += 1,
         }
-        let [from, to] = [edge.sides[0], edge.sides[0].next()].map(|c| view.position_at(c));
-        let length = from.distance(to);
-        for end in (0..2).filter(|&end| counting[end]) {
+        for share in got.iter().flatten() {
             totals.counted += length;
-            self.got += length * (f64::from(verdict.widths[end]) / edge.widths[end]).min(1.0);
+            self.got += length * share;
         }
     }
 
@@ -186,7 +204,8 @@ mod tests {
         let stages = stages_of(mesh, width);
         let limits = stages.limits(Verify::Fast);
         let patches = stages.patches(&limits.placement);
-        verdicts(&stages.view, stages.chamfers(), &limits, (&patches, None), &Unwatched).unwrap()
+        let work: (&Threads, &dyn Watch) = (&stages.threads, &Unwatched);
+        verdicts(&stages.view, stages.chamfers(), &limits, (&patches, None), work).unwrap()
     }
 
     #[test]
