@@ -20,7 +20,7 @@ pub struct Foot {
 
 /// Past so many times a triangle's sides its streams tell nothing, and single precision cannot add
 /// the weights up to 1 any more.
-const MOST_WEIGHT: f64 = 1024.0;
+pub const MOST_WEIGHT: f64 = 1024.0;
 
 impl Foot {
     /// No way at all.

@@ -434,10 +434,10 @@ mod tests {
         let options = Options { width: Width::Units(0.8), ..Options::default() };
         let stages = stages_with(&slab, &options);
         let given = Given { offsets: &stages.narrowed, ..given_of(&stages) };
-        let room = stages.room.shares();
+        let room = &stages.shares;
         let is_unlike = |sector: &Sector| stages.narrowed[*sector].fronts != [1.0; 2];
         let sector = room.ids().find(is_unlike).unwrap();
-        let mut limits = bounded(&given, &room, &Unwatched).unwrap();
+        let mut limits = bounded(&given, room, &Unwatched).unwrap();
         limits.placement.set(sector, taken * room[sector]);
         limits.reason[sector] = Reason::Folds;
         give_way(&given, &room, &mut limits, &Unwatched).unwrap();

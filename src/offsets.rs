@@ -119,7 +119,7 @@ pub fn offsets(
         unfold(view, topology, sectors, sector, spread);
         let fan = &sectors.fans[sector];
         let chosen = course(surface, chamfers.edges, fan, spread)
-            .and_then(|course| place(view, faces, spread, &course));
+            .and_then(|course| place(surface, spread, &course));
         let offset = chosen.unwrap_or(Offset::none(fan.first));
         Offset { is_plain: !fan.holds_hard && is_plain(view, faces, spread), ..offset }
     })?;

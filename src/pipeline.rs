@@ -494,7 +494,7 @@ fn make(
     let asked = &Given { surface, chamfers, offsets, rests: &Rests::default(), deep, threads };
     let room = evenness(asked, room(asked, &watch)?, options.evenness.into(), &watch)?;
     let offsets = &*narrowed(surface, chamfers.sectors, offsets, &room.fronts, &watch)?;
-    let shares = room.shares();
+    let shares = room.shares(&Given { offsets, ..*asked }, &watch)?;
     // The stages to come take far more memory than these, so what they do not read is given back.
     drop(room);
     let most = Most { offsets, shares: &shares };

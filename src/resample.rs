@@ -7,14 +7,17 @@ use glam::DVec3;
 
 use crate::breaks::{is_hard, same_chart};
 use crate::edges::seam_channels;
-use crate::foot::{Foot, locate};
-use crate::ids::{Corner, Few, Triangle, Vertex};
+use crate::foot::{Foot, MOST_WEIGHT, locate};
+use crate::ids::{Corner, Few, Sector, Triangle, Vertex};
 use crate::math::unit;
 use crate::offsets::Offset;
 use crate::report::Blend;
 use crate::sectors::Sectors;
 use crate::surface::Surface;
 use crate::view::View;
+
+/// So much nearer than the farthest place that can be told, for the sake of rounding.
+const TOLD_SAFETY: f64 = 1.0005;
 
 /// Where a sector's full offset takes one of its corners on the surface: the triangle that the
 /// offset lies on, or one of the corner's own vertex if the surface breaks between the two and that
@@ -59,6 +62,25 @@ pub fn chart_foot(surface: Surface, sectors: &Sectors, offset: &Offset, corner: 
         }
         _ => usual,
     }
+}
+
+/// The share of a sector's offset up to which all its corners can tell what is there: past so many times
+/// the sides of a small triangle nobody could, and what is painted there would be torn.
+pub fn told_share(surface: Surface, sectors: &Sectors, offset: &Offset, sector: Sector) -> f64 {
+    let reach = if offset.is_plain {
+        offset.foot.reach()
+    } else {
+        let may_be_far = |corner: &Corner| {
+            let [next, prev] = [corner.next(), corner.prev()]
+                .map(|other| surface.view.position_at(other) - surface.view.position_at(*corner));
+            let longest = next.length_squared().max(prev.length_squared());
+            offset.vector.length_squared() * longest
+                > MOST_WEIGHT * MOST_WEIGHT * next.cross(prev).length_squared()
+        };
+        let small = sectors.corners(surface.topology, sector).filter(may_be_far);
+        small.map(|c| chart_foot(surface, sectors, offset, c).reach()).fold(0.0, f64::max)
+    };
+    if reach > MOST_WEIGHT { MOST_WEIGHT / (reach * TOLD_SAFETY) } else { 1.0 }
 }
 
 fn foot(
@@ -184,6 +206,20 @@ mod tests {
         let normal = stages.view.normal(Vertex(9));
         let blend = Blend { vertices: [9; 3], weights: [0.3, 0.3, 0.4] };
         assert_eq!(blended_normal(&stages.view, &blend), normal);
+    }
+
+    #[test]
+    fn a_place_is_told_up_to_a_thousand_sides_away() {
+        let cube = shapes::cube(1.0);
+        for (width, expected) in [(0.1, 1.0), (1000.0, 1.0), (4096.0, 0.25)] {
+            let stages = stages_of(&cube, width);
+            let (sector, offset) = (Sector(0), stages.offsets[Sector(0)]);
+            for is_plain in [offset.is_plain, false] {
+                let offset = Offset { is_plain, ..offset };
+                let told = told_share(stages.surface(), &stages.sectors, &offset, sector);
+                assert!((told - expected).abs() < 0.001, "{width}: {told}");
+            }
+        }
     }
 
     //   v---.      each triangle of a cube has a texture of its own, and all have one value at one corner

@@ -17,6 +17,7 @@ use crate::given::Given;
 use crate::ids::{Corner, Few, Id, IdVec, Sector, Triangle};
 use crate::math::area_vector;
 use crate::offsets::parts;
+use crate::resample::told_share;
 use crate::watch::{Watch, sort, stretches};
 
 /// A triangle may give away all but this share of its area. Somewhat more than what validity asks
@@ -35,9 +36,20 @@ pub struct Room {
 }
 
 impl Room {
-    /// `#sectors`: of the front that has more.
-    pub fn shares(&self) -> IdVec<Sector, f64> {
-        IdVec::from_vec(self.fronts.iter().map(|[first, last]| first.max(*last)).collect())
+    /// `#sectors`: of the front that has more, of offsets that pull each as far as it has room
+    /// (`given`); as far as what is painted on the mesh can be told.
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`] where the watch stops it.
+    pub fn shares(&self, given: &Given, watch: &dyn Watch) -> Result<IdVec<Sector, f64>, Error> {
+        let Given { surface, chamfers, offsets, .. } = *given;
+        let is_painted = surface.view.is_painted();
+        given.threads.map(self.fronts.len(), watch, |sector| {
+            let [first, last] = self.fronts[sector];
+            let share = first.max(last);
+            let told = || told_share(surface, chamfers.sectors, &offsets[sector], sector);
+            if is_painted && share > 0.0 { share.min(told()) } else { share }
+        })
     }
 }
 

@@ -16,7 +16,7 @@ use crate::options::{Options, Verify, Width};
 use crate::patches::{Patches, patches};
 use crate::placement::Placement;
 use crate::rests::{Most, Rests, rests};
-use crate::room::{Room, room};
+use crate::room::room;
 use crate::scale::Space;
 use crate::sectors::{Sectors, sectors};
 use crate::selection::selection;
@@ -38,7 +38,8 @@ pub struct Stages<'a> {
     pub offsets: IdVec<Sector, Offset>,
     /// With what each edge of a sector has room for.
     pub narrowed: IdVec<Sector, Offset>,
-    pub room: Room,
+    /// How far each sector may go for the room that there is.
+    pub shares: IdVec<Sector, f64>,
     pub rests: Rests,
     pub deep: IdVec<Cluster, bool>,
     pub threads: Threads,
@@ -70,16 +71,17 @@ pub fn stages_of_mesh<'a>(mesh: Mesh<'a>, options: &Options) -> Stages<'a> {
     let chamfers = Chamfers { edges: &edges, sectors: &sectors };
     let offsets = offsets(surface, chamfers, None, (&threads, &Unwatched)).unwrap();
     let deep = deep(&topology, &sectors, &Unwatched).unwrap();
-    let (room, narrowed) = {
+    let (narrowed, shares) = {
         let (offsets, rests, deep, threads) = (&offsets, &Rests::default(), &deep, &threads);
         let given = &Given { surface, chamfers, offsets, rests, deep, threads };
         let room = room(given, &Unwatched).unwrap();
         let room = evenness(given, room, options.evenness.into(), &Unwatched).unwrap();
         let narrowed =
             narrowed(surface, &sectors, offsets, &room.fronts, &Unwatched).unwrap().into_owned();
-        (room, narrowed)
+        let shares = room.shares(&Given { offsets: &narrowed, ..*given }, &Unwatched).unwrap();
+        (narrowed, shares)
     };
-    let most = Most { offsets: &narrowed, shares: &room.shares() };
+    let most = Most { offsets: &narrowed, shares: &shares };
     let rests = rests(surface, chamfers, &contacts, most, (&threads, &Unwatched)).unwrap();
     Stages {
         view,
@@ -90,7 +92,7 @@ pub fn stages_of_mesh<'a>(mesh: Mesh<'a>, options: &Options) -> Stages<'a> {
         sectors,
         offsets,
         narrowed,
-        room,
+        shares,
         rests,
         deep,
         threads,
@@ -121,9 +123,9 @@ impl Stages<'_> {
 
     pub fn limits(&self, verify: Verify) -> Limits<'_> {
         let (surface, chamfers) = (self.surface(), self.chamfers());
-        let Stages { narrowed, room, rests, deep, threads, .. } = self;
+        let Stages { narrowed, shares, rests, deep, threads, .. } = self;
         let given = &Given { surface, chamfers, offsets: narrowed, rests, deep, threads };
-        limits(given, &room.shares(), verify, &Unwatched).unwrap()
+        limits(given, shares, verify, &Unwatched).unwrap()
     }
 
     fn space(&self) -> Space<'_> {
@@ -226,7 +228,7 @@ mod tests {
         let (surface, chamfers) = (stages.surface(), stages.chamfers());
         let Stages { offsets: vectors, rests: held, deep, threads, .. } = &stages;
         let given = &Given { surface, chamfers, offsets: vectors, rests: held, deep, threads };
-        let open = room(given, &Unwatched).unwrap().shares();
+        let open = &stages.shares;
         let found_edges = |watch: &dyn Watch| {
             super::edges(view, (topology, faces), &found, &selection, (threads, watch))
         };
@@ -235,7 +237,7 @@ mod tests {
         assert!(times(|watch| room(given, watch)) > 1);
         let evened = |watch: &dyn Watch| evenness(given, room(given, &Unwatched)?, 0.5, watch);
         assert!(times(evened) > 1);
-        let limited = |verify| times(|watch| limits(given, &open, verify, watch));
+        let limited = |verify| times(|watch| limits(given, open, verify, watch));
         assert!(limited(Verify::Fast) > 8);
         assert!(limited(Verify::Full) > limited(Verify::Fast));
     }
@@ -244,11 +246,11 @@ mod tests {
     fn what_may_rest_on_something_is_gathered_and_asked_under_a_watch() {
         let open = shapes::open_box();
         let stages = stages_of(&open, 0.05);
-        let Stages { view, topology, faces, room, narrowed, threads, .. } = &stages;
+        let Stages { view, topology, faces, shares, narrowed, threads, .. } = &stages;
         let (surface, chamfers) = (stages.surface(), stages.chamfers());
         assert!(times(|watch| contacts(view, topology, faces, watch)) >= 1);
         let found = contacts(view, topology, faces, &Unwatched).unwrap();
-        let most = Most { offsets: narrowed, shares: &room.shares() };
+        let most = Most { offsets: narrowed, shares };
         let asked = times(|watch| rests(surface, chamfers, &found, most, (threads, watch)));
         assert_eq!(asked, 2, "once what is near, once what rests");
     }

@@ -104,6 +104,11 @@ impl<'a> View<'a> {
         self.rounding() * LINE_HEIGHT
     }
 
+    /// Whether the mesh has a texture or colours.
+    pub fn is_painted(&self) -> bool {
+        !self.mesh.colors.is_empty() || self.mesh.uvs.iter().any(|uv| uv.components > 0)
+    }
+
     /// The same with other vertices at its corners, at the same positions.
     pub fn with_indices<'b>(&self, indices: &'b [u32]) -> View<'b>
     where

@@ -3,12 +3,13 @@
 use glam::DVec3;
 
 use super::{Blade, Course, Offset, arms};
-use crate::breaks::seam_between;
+use crate::breaks::{is_hard, same_chart, seam_between};
 use crate::faces::Faces;
 use crate::foot::{Foot, locate};
-use crate::ids::Corner;
+use crate::ids::{Corner, Few};
 use crate::math::{area_vector, unit};
 use crate::mesh::UV_CHANNELS;
+use crate::surface::Surface;
 use crate::tolerance::{LEVEL_COSINE, LEVEL_HEIGHT};
 use crate::view::View;
 
@@ -16,10 +17,13 @@ use crate::view::View;
 /// place: then a larger triangle in its plane is asked.
 const FARTHEST: f64 = 16.0;
 
+/// So many triangles beyond a fan are looked at for a larger one.
+const MOST_BEYOND: usize = 16;
+
 /// The offset in space; none where the corner has no plane. Vector and foot lie in one plane, so
 /// that the foot blends to the very place.
-pub fn place(view: &View, faces: &Faces, spread: &[Blade], course: &Course) -> Option<Offset> {
-    let within = course.corner;
+pub fn place(surface: Surface, spread: &[Blade], course: &Course) -> Option<Offset> {
+    let (Surface { view, faces, .. }, within) = (surface, course.corner);
     let on = |plane: Corner| {
         let vector = way(view, faces, course, plane);
         let foot = locate(view, carrier(faces, plane), view.position_at(within), vector)?;
@@ -31,9 +35,14 @@ pub fn place(view: &View, faces: &Faces, spread: &[Blade], course: &Course) -> O
     }
     let steadiest = steadiest(view, faces, spread, within);
     let steady = if steadiest == within { own } else { on(steadiest)? };
-    let is_level = own.0.distance(steady.0) <= view.resolution * LEVEL_HEIGHT;
+    let is_level = |one: DVec3, other: DVec3| one.distance(other) <= view.resolution * LEVEL_HEIGHT;
     let is_near = own.1.reach() <= steady.1.reach().max(FARTHEST);
-    sound(faces, course, if is_level && is_near { own } else { steady })
+    let told = if is_level(own.0, steady.0) && is_near { own } else { steady };
+    if told.1.reach() <= FARTHEST {
+        return sound(faces, course, told);
+    }
+    let beyond = on(largest_beyond(surface, steadiest)).filter(|far| is_level(far.0, told.0));
+    sound(faces, course, beyond.unwrap_or(told))
 }
 
 fn sound(faces: &Faces, course: &Course, (vector, foot): (DVec3, Foot)) -> Option<Offset> {
@@ -76,17 +85,66 @@ fn steadiest(view: &View, faces: &Faces, spread: &[Blade], corner: Corner) -> Co
     if spread.len() == 1 {
         return corner;
     }
-    let area = |corner: &Corner| area_vector(view.triangle(corner.triangle())).length_squared();
-    let (arms, own) = (arms(view, corner), faces.normal[corner.triangle()]);
-    let holds_own = |other: &Corner| {
+    let level = chart_of(view, spread, corner).filter(holds_plane_of(view, faces, corner));
+    largest(view, level, corner)
+}
+
+/// Whether a triangle's plane holds that of a corner.
+fn holds_plane_of(view: &View, faces: &Faces, corner: Corner) -> impl Fn(&Corner) -> bool {
+    let (at, own) = (view.position_at(corner), faces.normal[corner.triangle()]);
+    let arms = arms(view, corner);
+    move |other| {
         let normal = faces.normal[other.triangle()];
-        let is_near = |arm: &DVec3| arm.dot(normal).abs() <= view.resolution * LEVEL_HEIGHT;
+        let beside = view.position_at(*other) - at;
+        let is_near = |way: &DVec3| way.dot(normal).abs() <= view.resolution * LEVEL_HEIGHT;
         let leans_alike = normal.dot(own) > LEVEL_COSINE;
-        leans_alike && arms.iter().all(is_near) && !faces.is_line(other.triangle())
+        let is_level = arms.iter().chain([&beside]).all(is_near);
+        leans_alike && is_level && !faces.is_line(other.triangle())
+    }
+}
+
+/// The corner of the largest triangle of some; another one unless it is larger than that one's.
+fn largest(view: &View, corners: impl Iterator<Item = Corner>, other: Corner) -> Corner {
+    let area = |corner: &Corner| area_vector(view.triangle(corner.triangle())).length_squared();
+    let largest = corners.max_by(|one, other| area(one).total_cmp(&area(other)));
+    largest.filter(|largest| area(largest) > area(&other)).unwrap_or(other)
+}
+
+/// The same of the triangles around that of a corner, from side to side as far as they are shaded flat
+/// as it is and its chart goes: a small triangle tells nothing of where a wide chamfer ends.
+fn largest_beyond(surface: Surface, corner: Corner) -> Corner {
+    let Surface { view, topology, faces } = surface;
+    let holds_plane = holds_plane_of(view, faces, corner);
+    let normal = view.normal_at(corner);
+    let holds_own = |other: &Corner| {
+        let mut corners = other.triangle().corners().into_iter();
+        corners.all(|own| view.normal_at(own) == normal) && holds_plane(other)
     };
-    let level = chart_of(view, spread, corner).filter(holds_own);
-    let largest = level.max_by(|one, other| area(one).total_cmp(&area(other)));
-    largest.filter(|largest| area(largest) > area(&corner)).unwrap_or(corner)
+    let mut found: Few<Corner> = [corner].into_iter().collect();
+    let mut done = 0;
+    while done < found.len() && found.len() < MOST_BEYOND {
+        for side in found[done].triangle().corners() {
+            let across = topology.twin[side];
+            let is_new =
+                |across: Corner| found.iter().all(|known| known.triangle() != across.triangle());
+            if across.is_some()
+                && goes_on(view, side, across)
+                && holds_own(&across)
+                && is_new(across)
+            {
+                found.push(across);
+            }
+        }
+        done += 1;
+    }
+    largest(view, found.iter().copied(), corner)
+}
+
+/// Whether all streams go on from a half-edge to its twin.
+fn goes_on(view: &View, side: Corner, across: Corner) -> bool {
+    let ends = [(side, across.next()), (side.next(), across)];
+    let is_one = |(one, other)| same_chart(view, view.vertex_at(one), view.vertex_at(other));
+    !is_hard(view, side, across) && ends.into_iter().all(is_one)
 }
 
 /// The corners of a fan from one seam to the next around a corner.
@@ -100,4 +158,59 @@ fn chart_of(view: &View, spread: &[Blade], corner: Corner) -> impl Iterator<Item
     let charts = spread.chunk_by(move |one, other| !is_seam(one, other));
     let holds = move |chart: &&[Blade]| chart.iter().any(|blade| blade.corner == corner);
     charts.filter(holds).flatten().map(|blade| blade.corner)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ids::Vertex;
+    use crate::mesh::MeshBuffers;
+    use crate::shapes::Builder;
+    use crate::stages::stages_of;
+
+    /// The corner of a cube, each face with a small triangle right there.
+    ///
+    /// ```text
+    ///  .-----.
+    ///  |   ' |
+    ///  | .   |
+    ///  |\----'
+    /// ```
+    fn corner_with_small_triangles() -> MeshBuffers {
+        let (small, mut mesh) = (0.001, Builder::with_uvs());
+        let along = |axis: usize, way: f32| [0, 1, 2].map(|k| if k == axis { way } else { 0.0 });
+        for [one, other] in [[0, 1], [1, 2], [2, 0]] {
+            let across = [0, 1, 2].map(|k| if k == one || k == other { 1.0 } else { 0.0 });
+            mesh.polygon(&[
+                along(one, small),
+                [0.0; 3],
+                along(other, small),
+                along(other, 1.0),
+                across,
+                along(one, 1.0),
+            ]);
+        }
+        mesh.finish()
+    }
+
+    #[test]
+    fn past_a_small_triangle_the_face_around_it_tells_what_is_there() {
+        let mesh = corner_with_small_triangles();
+        let stages = stages_of(&mesh, 0.1);
+        let at_tip = |offset: &&Offset| {
+            offset.moves() && stages.view.position_at(offset.within) == DVec3::ZERO
+        };
+        let offsets: Vec<&Offset> = stages.offsets.iter().filter(at_tip).collect();
+        assert_eq!(offsets.len(), 3);
+        for Offset { foot, vector, .. } in offsets {
+            assert!(foot.reach() <= FARTHEST, "{foot:?}");
+            let blend = foot.blend(&stages.view, 1.0);
+            let place: DVec3 = (0..3)
+                .map(|k| {
+                    stages.view.position(Vertex(blend.vertices[k])) * f64::from(blend.weights[k])
+                })
+                .sum();
+            assert!(place.distance(*vector) < 1e-7, "{place} instead of {vector}");
+        }
+    }
 }
