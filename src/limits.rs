@@ -440,7 +440,7 @@ mod tests {
         let mut limits = bounded(&given, room, &Unwatched).unwrap();
         limits.placement.set(sector, taken * room[sector]);
         limits.reason[sector] = Reason::Folds;
-        give_way(&given, &room, &mut limits, &Unwatched).unwrap();
+        give_way(&given, room, &mut limits, &Unwatched).unwrap();
         assert_eq!(limits.reason[sector], Reason::Folds);
         let way = limits.placement.point[sector] - limits.placement.base(sector);
         let narrow = way.y.abs();
