@@ -1,5 +1,6 @@
 //! Edges: which of them are hard, and which of those are chamfered.
 
+mod noise;
 mod parted;
 
 use glam::DVec3;
@@ -113,11 +114,16 @@ pub fn edges(
     selection: &Selection,
     watch: &dyn Watch,
 ) -> Result<Edges, Error> {
+    let noise = noise::noise(view, topology);
     let mut hard = IdVec::default();
     let mut chamfered_at = IdVec::filled(Edge::NONE, view.corner_count());
     for corner in topology.twin.ids() {
         let twin = topology.twin[corner];
-        if twin.is_none() || twin < corner || !is_hard(view, corner, twin) {
+        if twin.is_none()
+            || twin < corner
+            || !is_hard(view, corner, twin)
+            || is_noise(view, &noise, [corner, twin])
+        {
             continue;
         }
         watch.worked(ASKED)?;
@@ -140,6 +146,16 @@ pub fn edges(
     let spanned = spanned(view, topology, faces, &chamfered_at);
     let parted = parted(view, topology, faces, &hard, &chamfered_at);
     Ok(Edges { hard, chamfered_at, spanned, parted })
+}
+
+/// Whether the normals of two sides differ by chance wherever they do.
+fn is_noise(view: &View, noise: &[Corner], sides: [Corner; 2]) -> bool {
+    let is_soft_at = |side: Corner, other: Corner| {
+        let normals = [side, other.next()].map(|corner| view.normal_at(corner));
+        noise.binary_search(&side).is_ok() || !view.normals_differ(normals)
+    };
+    let [side, other] = sides;
+    !noise.is_empty() && is_soft_at(side, other) && is_soft_at(other, side)
 }
 
 /// The corners across from the long sides of lines that reach such a side to a chamfered edge.
