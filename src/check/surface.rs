@@ -151,6 +151,9 @@ impl<'a> Surface<'a> {
     /// Sorted: the clusters where some normals differ across an edge but by less than they are off
     /// their triangles, and none otherwise.
     fn round_clusters(&self) -> Vec<u32> {
+        if self.mesh.normals.is_empty() {
+            return Vec::new();
+        }
         let mut round = self.clusters_where(Step::is_round);
         if !round.is_empty() {
             let sharp = self.clusters_where(|step| !step.is_round());
