@@ -15,6 +15,7 @@ mod junctions;
 mod loops;
 mod matching;
 mod nearest;
+mod noise;
 mod origins;
 mod pieces;
 mod rules;

@@ -1,5 +1,6 @@
 //! Edges: which of them are hard, and which of those are chamfered.
 
+mod noise;
 mod parted;
 
 use glam::DVec3;
@@ -114,9 +115,11 @@ pub fn edges(
     selection: &Selection,
     (threads, watch): (&Threads, &dyn Watch),
 ) -> Result<Edges, Error> {
+    let noise = noise::noise(view, topology, (threads, watch))?;
     let sides = threads.filter_watched(view.corner_count(), watch, |corner: Corner| {
         let twin = topology.twin[corner];
-        twin.is_some() && corner < twin && is_hard(view, corner, twin)
+        let is_edge = twin.is_some() && corner < twin && is_hard(view, corner, twin);
+        is_edge && !is_noise(view, &noise, [corner, twin])
     })?;
     let ends = |&side: &Corner| [side, side.next()].map(|corner| view.position_at(corner));
     let near = contacts.near(&sides, |side| (ends(side), 0.0));
@@ -132,6 +135,16 @@ pub fn edges(
     let spanned = spanned(view, topology, faces, &chamfered_at);
     let parted = parted(view, topology, faces, &hard, &chamfered_at);
     Ok(Edges { hard, chamfered_at, spanned, parted })
+}
+
+/// Whether the normals of two sides differ by chance wherever they do.
+fn is_noise(view: &View, noise: &[Corner], sides: [Corner; 2]) -> bool {
+    let is_soft_at = |side: Corner, other: Corner| {
+        let normals = [side, other.next()].map(|corner| view.normal_at(corner));
+        noise.binary_search(&side).is_ok() || !view.normals_differ(normals)
+    };
+    let [side, other] = sides;
+    !noise.is_empty() && is_soft_at(side, other) && is_soft_at(other, side)
 }
 
 /// What is asked of the edge between two half-edges, and why it is not chamfered if so.

@@ -13,6 +13,18 @@ pub const ALIKE_SHARE: f64 = 0.4;
 /// Two normals that both differ from a third one by less than 0.4 degrees differ by less than one.
 pub const ALIKE_COSINE: f64 = 0.999_975_630_705_4;
 
+/// Normals of a round surface that differ by more than this are no noise, whatever else they do: twice
+/// the sine of half of five degrees. Noise of one degree makes four of them.
+pub const NOISE: f64 = 0.087_238_774_730_672_5;
+
+/// Two differences of normals are one where they are off each other by no more than this share: noise
+/// hits another difference so nearly once in a hundred times.
+pub const NOISE_SHARE: f64 = 0.25;
+
+/// Of a round surface each face is a chord, from whose normal that of the surface turns by less than
+/// 45 degrees (twice the sine of half of them): a square has no more. What has no normal is farther off.
+pub const CHORD_TURN: f64 = 0.765_366_864_730_179_6;
+
 /// Two faces back to back: their normals are opposite to within a tenth of a degree. Between them
 /// there is nothing to cut off.
 pub const BACK_TO_BACK_COSINE: f64 = -0.999_998_476_913_288;

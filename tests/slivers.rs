@@ -1,8 +1,8 @@
 //! Slivers that exporters leave: triangles that are hardly more than a line, or nothing else. Each
 //! mesh is the smallest one of its kind.
 
-use chamfer::check::check;
-use chamfer::{Chamfered, MeshBuffers, Options, Reason, Verify, Width, chamfer};
+use chamfer::check::{Rule, check};
+use chamfer::{Chamfered, MeshBuffers, Options, Reason, TriangleKind, Verify, Width, chamfer};
 
 const UP: [f32; 3] = [0.0, 1.0, 0.0];
 
@@ -199,6 +199,35 @@ fn a_line_that_is_shaded_like_no_face_goes_along_with_their_chamfer() {
             mesh.indices.reverse();
             mesh.indices.chunks_exact_mut(3).for_each(<[u32]>::reverse);
         }
+    }
+}
+
+/// A line that goes along with the edge beside it needs no verdict, but the edge does.
+#[test]
+fn the_edge_beside_a_line_has_a_verdict() {
+    for parts in 2..5 {
+        let mesh = box_with_cut_front(parts, [1.0, 0.0, 0.0]);
+        let mut result = chamfered(&mesh, Width::Units(0.05));
+        let is_top = |vertex: u32| mesh.positions[vertex as usize][1..] == [1.0, 1.0];
+        let is_long = |[a, b]: [u32; 2]| {
+            let [a, b] = [a, b].map(|vertex| mesh.positions[vertex as usize][0]);
+            (a - b).abs() == 2.0
+        };
+        let top = result.verdicts.iter().position(|verdict| {
+            verdict.vertices.into_iter().all(is_top) && is_long(verdict.vertices)
+        });
+        result.verdicts.remove(top.unwrap());
+        result.totals.hard_edges -= 1;
+        result.totals.chamfered -= 1;
+        for source in result.triangle_sources.iter_mut() {
+            if source.kind == TriangleKind::Edge && source.index as usize >= top.unwrap() {
+                source.index = source.index.saturating_sub(1);
+            }
+        }
+        let findings = check(&mesh.as_mesh(), &result, Verify::Fast);
+        // The edge itself, and the lines' short sides.
+        let sides = parts + 1;
+        assert_eq!(findings.count(Rule::Verdicts), sides, "{parts}: {findings}");
     }
 }
 

@@ -3,8 +3,8 @@
 
 use chamfer::check::{Rule, check, compare};
 use chamfer::{
-    Chamfered, EdgeFactor, Factors, Held, Mesh, MeshBuffers, Options, Outcome, Reason, UvBuffer,
-    Verify, Width, chamfer, shapes,
+    Chamfered, EdgeFactor, Factors, Held, Mesh, MeshBuffers, Options, Outcome, Piece, Reason,
+    UvBuffer, Verify, Width, chamfer, shapes,
 };
 
 type Point = [f32; 3];
@@ -33,6 +33,20 @@ fn chamfered(mesh: &MeshBuffers) -> Chamfered {
         result
     });
     full
+}
+
+/// How many pieces of source triangles lie beside no earlier one of theirs.
+fn apart(result: &Chamfered) -> usize {
+    let source = |piece: &Piece| result.triangle_sources[piece.triangle as usize].index;
+    let shared = |one: &Piece, other: &Piece| {
+        one.corners.iter().filter(|corner| other.corners.contains(corner)).count()
+    };
+    let is_apart = |(place, piece): &(usize, &Piece)| {
+        let mut earlier = result.pieces[..*place].iter().filter(|one| source(one) == source(piece));
+        let is_first = earlier.clone().next().is_none();
+        !is_first && !earlier.any(|one| shared(one, piece) == 2)
+    };
+    result.pieces.iter().enumerate().filter(is_apart).count()
 }
 
 /// The ends of the edges that are left for a reason, lower first.
@@ -429,6 +443,22 @@ fn what_rests_on_a_part_of_a_long_edge_stays_covered() {
     assert!(findings.is_sound(), "{findings}");
     let [verdict] = result.verdicts[..] else { panic!("{:?}", result.verdicts) };
     assert_eq!((verdict.outcome, verdict.reason), (Outcome::Narrowed, Reason::Contact));
+}
+
+/// The same on parts of a side that has been brought together with others: pieces of a piece.
+#[test]
+fn all_pieces_of_a_triangle_lie_beside_an_earlier_one() {
+    let mut most = 0;
+    for place in 0..32 {
+        let (width, at) = (Width::Units(0.02), 0.125 * place as f32);
+        let mesh = roof_on_wall(&[0.0, 1.0, 2.5, 4.0], &[[0.0, 4.0]], FRONT);
+        let held = [Held { from: [at, -0.5, 0.0], to: [at + 0.1, -0.5, 0.0], radius: 0.51 }];
+        let mesh = Mesh { held: &held, ..mesh.as_mesh() };
+        let result = chamfer(&mesh, &Options::default().with_width(width)).unwrap();
+        assert_eq!(apart(&result), 0, "{at}");
+        most = most.max(result.pieces.len());
+    }
+    assert!(most > 7, "{most}");
 }
 
 //  .-----------.      of a wide round chamfer: M goes back as far as to the diagonal of the roof, so

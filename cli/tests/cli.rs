@@ -503,17 +503,37 @@ fn a_file_without_triangles_is_sound_on_both_ways() {
     folder.run("check a.stl a.glb").exits(0);
 }
 
-/// A cube of six faces that do not quite meet.
-fn cracked_cube() -> String {
+/// A cube of six faces, of whose vertices each is so far off, along x.
+fn loose_cube(first: usize, off: impl Fn(usize) -> f32) -> String {
     let mesh = chamfer::shapes::plain_cube(1.0);
-    let crack = |vertex: usize| if vertex.is_multiple_of(2) { 1e-7 } else { 0.0 };
     let points = mesh.positions.iter().enumerate();
-    let points = points.map(|(v, [x, y, z])| format!("v {} {y} {z}\n", x + crack(v)));
+    let points = points.map(|(v, [x, y, z])| format!("v {} {y} {z}\n", x + off(v)));
     let face = |corners: &[u32]| {
-        let [a, b, c] = [0, 1, 2].map(|corner| corners[corner] + 1);
+        let [a, b, c] = [0, 1, 2].map(|corner| first + corners[corner] as usize + 1);
         format!("f {a} {b} {c}\n")
     };
     points.chain(mesh.indices.chunks_exact(3).map(face)).collect()
+}
+
+/// One whose faces do not quite meet.
+fn cracked_cube() -> String {
+    loose_cube(0, |vertex| if vertex.is_multiple_of(2) { 1e-7 } else { 0.0 })
+}
+
+/// Copies lie on each other once they are welded, and four faces meet at each edge of the result: a
+/// check that has not welded them finds two there at most, and says what may be.
+#[test]
+fn copies_that_were_welded_are_checked_as_such() {
+    let copies = loose_cube(0, |_| 0.0) + &loose_cube(24, |vertex| (vertex % 3) as f32 * 5e-7);
+    let folder = Folder::with(&[("a.obj", &copies), ("c.obj", &loose_cube(0, |_| 0.0))]);
+    let run = folder.run("a.obj -o b.obj --weld auto").exits(0);
+    assert!(run.out().contains("24 hard edges: 24 full"), "{}", run.out());
+    let run = folder.run("check a.obj b.obj").exits(1);
+    assert!(run.out().contains("chamfered with --weld, check it with the same"), "{}", run.out());
+    folder.run("check a.obj b.obj --weld auto").exits(0);
+    folder.run("c.obj -o d.obj").exits(0);
+    let run = folder.run("check c.obj a.obj --width 0.1").exits(1);
+    assert!(!run.out().contains("--weld"), "{}", run.out());
 }
 
 #[test]

@@ -271,6 +271,10 @@ fn print_compared(path: &Path, percent: f32, before: &Mesh, after: &Chamfered) {
     if !found.is_sound() || others > 0 {
         let name = path.display();
         println!("by the two alone, {name} at {percent} %, {others} edges measured otherwise:");
+        let unlike = found.edges.iter().zip(&told).find(|(found, told)| found != told);
+        if let Some((found, told)) = unlike {
+            println!("the first: {found:?}\nas told: {told:?}");
+        }
         println!("{found}");
     }
 }

@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use anyhow::{Result, ensure};
+
 /// The start of a file that is something else, what that is, and what to do.
 const CONTENTS: [(&[u8], &str); 12] = [
     (
@@ -51,6 +53,38 @@ pub fn of_content(bytes: &[u8]) -> Option<&'static str> {
     CONTENTS.into_iter().find(|(start, _)| starts(start)).map(|(_, what)| what)
 }
 
+/// Refuses a text of two bytes for each letter.
+///
+/// # Errors
+/// Where it is one: says so.
+pub fn check_encoding(text: &[u8]) -> Result<()> {
+    ensure!(!is_utf_16(text), "this is text in UTF-16: save it as UTF-8, and read that");
+    Ok(())
+}
+
+/// Whether a text is one of two bytes for each letter, by its mark or its first letters: nothing that
+/// a text begins with here has a zero byte.
+fn is_utf_16(text: &[u8]) -> bool {
+    matches!(
+        text,
+        [0xFF, 0xFE, ..]
+            | [0xFE, 0xFF, ..]
+            | [0, 1..=255, 0, 1..=255, ..]
+            | [1..=255, 0, 1..=255, 0, ..]
+    )
+}
+
+/// A text in UTF-8, whatever it was in.
+pub fn in_utf_8(text: Vec<u8>) -> Vec<u8> {
+    if !is_utf_16(&text) {
+        return text;
+    }
+    let is_big = matches!(text[..], [0xFE, 0xFF, ..] | [0, 1..=255, ..]);
+    let bytes_to = if is_big { u16::from_be_bytes } else { u16::from_le_bytes };
+    let letters: Vec<u16> = text.chunks_exact(2).map(|pair| bytes_to([pair[0], pair[1]])).collect();
+    String::from_utf16_lossy(&letters).trim_start_matches('\u{feff}').to_owned().into_bytes()
+}
+
 /// What to do with a model of a format that nothing here reads.
 pub fn of_ending(path: &Path) -> Option<&'static str> {
     let ending = path.extension()?.to_str()?;
@@ -69,6 +103,19 @@ mod tests {
         assert!(of_content(b"").unwrap().contains("empty"));
         assert_eq!(of_content(b"v 0 0 0"), None);
         assert_eq!(of_content(b"glTF\x02"), None);
+    }
+
+    #[test]
+    fn texts_of_two_bytes_a_letter_are_told_and_turned() {
+        for text in ["newmtl a\nKd 1 0 0\n", "\u{feff}newmtl é\n"] {
+            for bytes_of in [u16::to_le_bytes, u16::to_be_bytes] {
+                let bytes: Vec<u8> = text.encode_utf16().flat_map(bytes_of).collect();
+                assert!(check_encoding(&bytes).is_err());
+                assert_eq!(in_utf_8(bytes), text.trim_start_matches('\u{feff}').as_bytes());
+            }
+            assert!(check_encoding(text.as_bytes()).is_ok());
+            assert_eq!(in_utf_8(text.into()), text.as_bytes());
+        }
     }
 
     #[test]

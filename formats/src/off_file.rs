@@ -11,6 +11,7 @@ use chamfer::{Chamfered, MeshBuffers, UvBuffer, split_by_angle};
 use crate::document::{
     Document, Encoded, Format, NormalsRead, OutputFile, ReadOptions, SourceMesh,
 };
+use crate::foreign::check_encoding;
 use crate::polygon::triangulate;
 use crate::{glb, weld};
 
@@ -31,6 +32,7 @@ pub struct OffDocument {
 /// Where it is binary or cut off, a face names a vertex that is not there, or a position is not
 /// finite.
 pub fn decode(path: &Path, bytes: &[u8], options: &ReadOptions) -> Result<OffDocument> {
+    check_encoding(bytes)?;
     let text = std::str::from_utf8(bytes).ok().context("not text: binary OFF is not read")?;
     let mut lines = Lines::new(text);
     let kind = Kind::read(&mut lines)?;

@@ -13,6 +13,7 @@ use crate::document::{
     Document, Encoded, Format, Normals, NormalsRead, OutputFile, ReadOptions, SourceMesh,
     no_direction,
 };
+use crate::foreign::check_encoding;
 use crate::polygon::triangulate;
 use crate::{glb, weld};
 
@@ -33,6 +34,7 @@ pub struct PlyDocument {
 /// # Errors
 /// Where it is cut off, a face names a vertex that is not there, or a position is not finite.
 pub fn decode(path: &Path, bytes: &[u8], options: &ReadOptions) -> Result<PlyDocument> {
+    check_encoding(bytes)?;
     let parser = Parser::<DefaultElement>::new();
     let mut reader = Reader::new(Cursor::new(bytes));
     let header = parser.read_header(&mut reader).context("its header cannot be read")?;

@@ -192,6 +192,26 @@ mod tests {
     }
 
     #[test]
+    fn a_text_in_utf_16_says_so() {
+        let texts = [
+            ("a.obj", "v 0 0 0\n"),
+            ("a.stl", "solid a\nendsolid a\n"),
+            ("a.ply", "ply\nformat ascii 1.0\nend_header\n"),
+            ("a.off", "OFF\n0 0 0\n"),
+            ("a.gltf", "{\"asset\": {\"version\": \"2.0\"}}"),
+        ];
+        for (path, text) in texts {
+            for text in [text.to_owned(), format!("\u{feff}{text}")] {
+                let bytes = text.encode_utf16().flat_map(u16::to_le_bytes).collect();
+                let told = decode(Path::new(path), bytes, &ReadOptions::default()).err();
+                let told = told.map(|error| error.to_string());
+                let said = "this is text in UTF-16: save it as UTF-8, and read that";
+                assert_eq!(told.as_deref(), Some(said), "{path}");
+            }
+        }
+    }
+
+    #[test]
     fn an_stl_usually_becomes_a_glb() {
         assert_eq!(row(Format::Stl).usual_output().format, Format::Glb);
         assert_eq!(row(Format::Obj).usual_output().format, Format::Obj);

@@ -12,6 +12,7 @@ use chamfer::{Chamfered, MeshBuffers, split_by_angle};
 use crate::document::{
     Document, Encoded, Format, NormalsRead, OutputFile, ReadOptions, SourceMesh,
 };
+use crate::foreign::check_encoding;
 use crate::glb;
 use crate::weld;
 
@@ -76,6 +77,9 @@ fn parse(bytes: &[u8]) -> Result<Vec<Triangle>> {
     // The length decides first: "solid" begins many a binary header.
     if length != Some(bytes.len() as u64) && is_ascii(bytes) {
         return parse_ascii(bytes);
+    }
+    if length != Some(bytes.len() as u64) {
+        check_encoding(bytes)?;
     }
     let (Some(announced), Some(length)) = (announced, length) else {
         bail!("neither ASCII nor binary STL: {} bytes hold no binary header", bytes.len());

@@ -1,5 +1,6 @@
 //! A mesh welded by position: its edges, borders and connected parts.
 
+use super::noise::Step;
 use super::stored::{normal_with_area, normals_to, vector};
 use crate::groups::Groups;
 use crate::mesh::Mesh;
@@ -40,6 +41,8 @@ pub(super) struct Surface<'a> {
     rounding: f64,
     /// How normals go along with the mesh; none where it stands as it is.
     normals_to: Option<DMat3>,
+    /// Sorted: the clusters of a round surface around which normals may differ by chance.
+    round: Vec<u32>,
 }
 
 impl<'a> Surface<'a> {
@@ -57,13 +60,18 @@ impl<'a> Surface<'a> {
             }
         }
         half_edges.sort_unstable();
-        Surface { mesh, cluster_of, half_edges, rounding: rounding(mesh), normals_to: None }
+        let (rounding, round) = (rounding(mesh), Vec::new());
+        Surface { mesh, cluster_of, half_edges, rounding, normals_to: None, round }.with_noise()
     }
 
     /// The same of a mesh that stands scaled so, column by column. Normals that are one there need not
     /// be so where the mesh comes from, nor need those that face along with a triangle.
     pub fn standing(self, scale: Option<[[f32; 3]; 3]>) -> Surface<'a> {
-        Surface { normals_to: normals_to(scale), ..self }
+        Surface { normals_to: normals_to(scale), ..self }.with_noise()
+    }
+
+    fn with_noise(self) -> Surface<'a> {
+        Surface { round: self.round_clusters(), ..self }
     }
 
     /// The half-edges of each welded edge: first those in one direction, then the others.
@@ -131,9 +139,57 @@ impl<'a> Surface<'a> {
         &self.cluster_of
     }
 
-    /// Whether two opposite half-edges have the same normals at both ends.
+    /// Whether two opposite half-edges have the same normals at both ends, but for noise.
     pub fn is_soft(&self, a: &HalfEdge, b: &HalfEdge) -> bool {
-        [0, 1].iter().all(|&end| self.share_normal([a.corners[end], b.corners[1 - end]]))
+        [0, 1].iter().all(|&end| {
+            self.share_normal([a.corners[end], b.corners[1 - end]])
+                || self.round.binary_search(&self.cluster(a.corners[end])).is_ok()
+                    && self.step(a, b, end).is_noise()
+        })
+    }
+
+    /// Sorted: the clusters where some normals differ across an edge but by less than they are off
+    /// their triangles, and none otherwise.
+    fn round_clusters(&self) -> Vec<u32> {
+        if self.mesh.normals.is_empty() {
+            return Vec::new();
+        }
+        let mut round = self.clusters_where(Step::is_round);
+        if !round.is_empty() {
+            let sharp = self.clusters_where(|step| !step.is_round());
+            round.retain(|cluster| sharp.binary_search(cluster).is_err());
+        }
+        round
+    }
+
+    /// Sorted: where a normal differs so from all of those across an edge.
+    fn clusters_where(&self, holds: impl Fn(&Step) -> bool) -> Vec<u32> {
+        let differs = |one: &HalfEdge, other: &HalfEdge, end: usize| {
+            !self.share_normal([one.corners[end], other.corners[1 - end]])
+                && holds(&self.step(one, other, end))
+        };
+        let mut found = Vec::new();
+        for (forward, backward) in self.edges() {
+            for (ones, others) in [(forward, backward), (backward, forward)] {
+                for (one, end) in ones.iter().flat_map(|one| [(one, 0), (one, 1)]) {
+                    if !others.is_empty() && others.iter().all(|other| differs(one, other, end)) {
+                        found.push(self.cluster(one.corners[end]));
+                    }
+                }
+            }
+        }
+        found.sort_unstable();
+        found.dedup();
+        found
+    }
+
+    fn step(&self, one: &HalfEdge, other: &HalfEdge, end: usize) -> Step {
+        let [near, far] = [end, 1 - end].map(|end| [one.corners[end], other.corners[1 - end]]);
+        let normals = |corners: [u32; 2]| corners.map(|at| self.shading(at).normalize_or_zero());
+        let [a, b] = normals(far);
+        let facing = |corner: u32| Some(self.facing(corner / 3)?.normalize());
+        let facings = facing(near[0]).zip(facing(near[1])).map(|(one, other)| [one, other]);
+        Step { normals: normals(near), facings, beyond: a - b }
     }
 
     /// Whether the normals of two corners are the same, as nearly as importers store them.

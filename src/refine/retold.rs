@@ -1,5 +1,6 @@
 //! A result of a refined mesh with all its elements named as those of the source.
 
+use super::shape::side_by_side;
 use super::{Refined, WHOLE};
 use crate::ids::{Few, Triangle};
 use crate::mesh::Mesh;
@@ -149,6 +150,9 @@ fn join_submeshes(elements: &Elements, told: &mut Chamfered) {
         let mut pieces: Vec<usize> =
             parts().flat_map(|k| first_piece(k)..starts[k] + kept(k)).collect();
         pieces.sort_by_key(|&place| sources[place].index);
+        let whole =
+            |source: u32| starts[submesh] + (source - sources[starts[submesh]].index) as usize;
+        put_side_by_side(&mut pieces, told, whole);
         all.extend(pieces.into_iter().map(|place| place..place + 1));
         all.extend(parts().map(|k| starts[k] + kept(k)..starts[k + 1]));
         told.mesh.submesh_index_counts.push(parts().map(|k| counts[k]).sum());
@@ -165,6 +169,26 @@ fn join_submeshes(elements: &Elements, told: &mut Chamfered) {
     told.pieces.iter_mut().for_each(|p| p.triangle = place_of[p.triangle as usize]);
     told.pieces.sort_unstable_by_key(|piece| piece.triangle);
     (told.triangle_sources, told.mesh.indices) = (sources, indices);
+}
+
+/// Puts the pieces of each triangle, which stand together, behind such as they lie beside, from the one
+/// on that stands for the whole: a piece that is in pieces itself is told by any of them.
+fn put_side_by_side(pieces: &mut [usize], told: &Chamfered, whole: impl Fn(u32) -> usize) {
+    let corners = |place: usize| {
+        let found = told.pieces.binary_search_by_key(&(place as u32), |piece| piece.triangle);
+        found.map_or(&[][..], |found| &told.pieces[found].corners)
+    };
+    let are_beside = |one: &usize, other: &usize| {
+        let [one, other] = [*one, *other].map(corners);
+        one.iter().filter(|corner| other.contains(corner)).count() == 2
+    };
+    let source = |place: usize| told.triangle_sources[place].index;
+    for of_one in pieces.chunk_by_mut(|&one, &other| source(one) == source(other)) {
+        let mut all = vec![whole(source(of_one[0]))];
+        all.extend_from_slice(of_one);
+        side_by_side(&mut all, are_beside);
+        of_one.copy_from_slice(&all[1..]);
+    }
 }
 
 /// The end that a vertex on an edge is nearer to.

@@ -194,21 +194,21 @@ pub fn pieces(
         None => cut(whole, points, &mut pieces),
         Some(middle) => cut_around(whole, &points, middle, &mut pieces),
     }
-    side_by_side(pieces)
-}
-
-/// The first one, and then such as lie beside an earlier one.
-fn side_by_side(mut pieces: Vec<[CutCorner; 3]>) -> Vec<[CutCorner; 3]> {
     let shared = |one: &[CutCorner; 3], other: &[CutCorner; 3]| {
         one.iter().filter(|(vertex, _)| other.iter().any(|(own, _)| own == vertex)).count()
     };
+    side_by_side(&mut pieces, |one, other| shared(one, other) == 2);
+    pieces
+}
+
+/// The first one, and then such as lie beside an earlier one.
+pub(super) fn side_by_side<T>(pieces: &mut [T], are_beside: impl Fn(&T, &T) -> bool) {
     for done in 1..pieces.len() {
         let (before, rest) = pieces.split_at(done);
-        let is_beside = |piece: &[CutCorner; 3]| before.iter().any(|one| shared(one, piece) == 2);
+        let is_beside = |piece: &T| before.iter().any(|one| are_beside(one, piece));
         let next = rest.iter().position(is_beside).unwrap_or(0);
         pieces[done..=done + next].rotate_right(1);
     }
-    pieces
 }
 
 /// Joins all vertices on the sides to one inside.

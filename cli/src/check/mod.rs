@@ -17,6 +17,7 @@ use chamfer::check::{Extras, Findings, MeasuredEdge, Rule, compare_with};
 use chamfer::{Chamfered, EdgeVerdict, MeshBuffers, Outcome, Reason};
 use chamfer_formats as formats;
 use chamfer_formats::paths::identity;
+use chamfer_formats::weld::nearly_touching;
 use chamfer_formats::{Document, Instance, NormalsRead, Place, ReadOptions};
 
 use crate::args::{CheckArgs, CheckDepth};
@@ -239,6 +240,9 @@ fn check_pair(source: Side, result: Side, wanted: Wanted, args: &CheckArgs) -> M
         check.expect(expected.width, &left_without_need(&findings, expected));
         check.expect_widths(&wider_than_asked(&findings, expected));
         check.expect_hard(&unasked.iter().map(|edge| edge.vertices).collect::<Vec<_>>());
+    }
+    if !check.defects.is_empty() {
+        (check.nearly_touching, _) = nearly_touching(&before.positions, &before.indices);
     }
     check
 }

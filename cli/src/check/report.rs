@@ -152,6 +152,10 @@ pub struct MeshCheck {
     /// The width asked for, otherwise what most chamfers stay within, in mesh units.
     #[serde(skip)]
     pub width: Option<f32>,
+    /// How many vertices of the source only rounding may have set apart from others, where something
+    /// is wrong: chamfering may have joined them.
+    #[serde(skip)]
+    pub nearly_touching: usize,
 }
 
 /// What can be counted and measured in a mesh or in all.
@@ -304,6 +308,7 @@ impl MeshCheck {
             defects: defects.collect(),
             unchecked: unchecked.collect(),
             width: usual_width(&findings.edges),
+            nearly_touching: 0,
         }
     }
 

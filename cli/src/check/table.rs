@@ -124,6 +124,13 @@ fn remarks(mesh: &MeshCheck) -> Vec<String> {
         let first = defect.first.join(", ");
         lines.push(format!("{name}: {}: {} ({first}{more})", defect.rule, defect.count));
     }
+    if mesh.nearly_touching > 0 {
+        lines.push(format!(
+            "{name}: note: {} vertices of the source nearly touch others; if it was chamfered with \
+             --weld, check it with the same",
+            mesh.nearly_touching
+        ));
+    }
     if mesh.matched_by == "geometry" {
         let lost = mesh.not_found;
         lines.push(format!(

@@ -3,6 +3,7 @@
 use anyhow::{Context, Result, bail};
 
 use crate::document::Format;
+use crate::foreign::check_encoding;
 
 const MAGIC: &[u8] = b"glTF";
 const JSON_CHUNK: &[u8] = b"JSON";
@@ -26,6 +27,7 @@ pub fn parse(bytes: &[u8]) -> Result<Container<'_>> {
 }
 
 fn parse_plain(bytes: &[u8]) -> Result<Container<'_>> {
+    check_encoding(bytes)?;
     let json = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
     if !matches!(json.trim_ascii_start().first(), Some(b'{' | b'[')) {
         let start = String::from_utf8_lossy(&bytes[..bytes.len().min(SHOWN)]).into_owned();

@@ -182,6 +182,42 @@ mod tests {
         assert_eq!(unfiltered(vec![0; 8], 8, "ACME"), None);
     }
 
+    /// Each filter, within a step of what went in: directions, turns, places and colours.
+    #[test]
+    fn what_went_through_a_filter_comes_back() {
+        fn filtered<T: Number + Copy>(encoded: &[[T; 4]], filter: &str) -> Vec<u8> {
+            let mut bytes = Vec::new();
+            encoded.as_flattened().iter().for_each(|&number| number.push(&mut bytes));
+            unfiltered(bytes, 4 * size_of::<T>(), filter).unwrap()
+        }
+        fn shares<const N: usize>(bytes: &[u8], share: fn([u8; N]) -> f32) -> Vec<f32> {
+            bytes.chunks_exact(N).map(|part| share(part.try_into().unwrap())).collect()
+        }
+        let is_near = |found: &[f32], values: &[f32], step: f32| {
+            let is_near = |(a, b): (&f32, &f32)| (a - b).abs() <= step;
+            found.len() == values.len() && found.iter().zip(values).all(is_near)
+        };
+        let byte = |[byte]: [u8; 1]| f32::from(byte as i8) / 127.0;
+        let short = |bytes| f32::from(i16::from_le_bytes(bytes)) / 32767.0;
+        let directions = [[0.36, -0.48, 0.8, 0.0], [-0.6, 0.0, -0.8, 0.0]];
+        let found = filtered(&meshopt::encode_filter_oct::<i8>(&directions, 8), "OCTAHEDRAL");
+        assert!(is_near(&shares(&found, byte), directions.as_flattened(), 0.02));
+        let found = filtered(&meshopt::encode_filter_oct::<i16>(&directions, 16), "OCTAHEDRAL");
+        assert!(is_near(&shares(&found, short), directions.as_flattened(), 1e-4));
+        let turns = [[0.5, -0.5, 0.5, 0.5], [0.0, 0.6, 0.0, 0.8]];
+        let found = filtered(&meshopt::encode_filter_quat(&turns, 16), "QUATERNION");
+        assert!(is_near(&shares(&found, short), turns.as_flattened(), 1e-3));
+        let places = [[1.5, -1000.0, 0.001], [0.0, 3.25, -7.0]];
+        let mode = meshopt::EncodeExpMode::Separate;
+        let encoded = meshopt::encode_filter_exp(&places, 15, mode);
+        let found = unfiltered(words(encoded.as_flattened().to_vec()), 12, "EXPONENTIAL").unwrap();
+        assert!(is_near(&shares(&found, f32::from_le_bytes), places.as_flattened(), 0.1));
+        let colors = [[1.0, 0.5, 0.25, 1.0], [0.0, 0.0, 1.0, 0.5]];
+        let found = filtered(&meshopt::encode_filter_color::<u8>(&colors, 8), "COLOR");
+        let found = shares(&found, |[byte]: [u8; 1]| f32::from(byte) / 255.0);
+        assert!(is_near(&found, colors.as_flattened(), 0.02));
+    }
+
     #[test]
     fn nonsense_is_refused_before_memory_is_asked_for() {
         let error = |mode, stride, count| {

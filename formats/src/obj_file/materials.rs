@@ -7,6 +7,7 @@ use anyhow::{Context, Result};
 
 use super::parse::{Item, Obj, line_end};
 use crate::document::OutputFile;
+use crate::foreign::in_utf_8;
 use crate::glb::Material;
 use crate::paths::{identity, read_beside};
 use crate::pictures::Picture;
@@ -48,7 +49,7 @@ pub fn known(obj: &Obj, folder: &Path) -> Result<(Vec<Material>, Vec<String>)> {
     let (mut materials, mut left_out): (Vec<Material>, Vec<String>) = Default::default();
     for library in libraries(obj, folder) {
         let beside = library.parent().unwrap_or(Path::new(""));
-        let text = read(folder, &library)?;
+        let text = in_utf_8(read(folder, &library)?);
         for line in lines(&text) {
             let line = line.trim_ascii();
             let end = line.iter().position(u8::is_ascii_whitespace).unwrap_or(line.len());
@@ -109,7 +110,7 @@ fn lines(text: &[u8]) -> impl Iterator<Item = &[u8]> {
 
 /// The files that the lines of a material library name, as paths from the folder of the model.
 fn textures(folder: &Path, library: &Path) -> Result<Vec<PathBuf>> {
-    let text = read(folder, library)?;
+    let text = in_utf_8(read(folder, library)?);
     let beside = library.parent().unwrap_or(Path::new(""));
     let mut names = Vec::new();
     for line in lines(&text) {
@@ -185,6 +186,21 @@ mod tests {
         fs::write(folder.path().join("a.mtl"), library.replace('\n', "\r")).unwrap();
         let of_old = known(&obj, folder.path()).unwrap();
         assert_eq!((of_old.0.len(), of_old.0[0].color, of_old.1), (2, red.color, left_out));
+    }
+
+    #[test]
+    fn a_library_may_be_in_utf_16() {
+        let folder = tempfile::tempdir().unwrap();
+        let library = "\u{feff}newmtl red\r\nKd 1 0 0\r\nmap_Kd wood.png\r\n";
+        let bytes: Vec<u8> = library.encode_utf16().flat_map(u16::to_le_bytes).collect();
+        fs::write(folder.path().join("a.mtl"), bytes).unwrap();
+        fs::write(folder.path().join("wood.png"), "").unwrap();
+        let obj = parse(b"mtllib a.mtl\n").unwrap();
+        let (materials, _) = known(&obj, folder.path()).unwrap();
+        assert_eq!(materials.len(), 1);
+        assert_eq!((&*materials[0].name, materials[0].color), ("red", [1.0, 0.0, 0.0, 1.0]));
+        let found = textures(folder.path(), Path::new("a.mtl")).unwrap();
+        assert_eq!(found, [PathBuf::from("wood.png")]);
     }
 
     #[test]

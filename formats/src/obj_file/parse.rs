@@ -5,6 +5,8 @@ use std::collections::BTreeSet;
 
 use anyhow::{Context, Result, anyhow, bail};
 
+use crate::foreign::check_encoding;
+
 /// What stands in an OBJ file.
 #[derive(Debug, Default)]
 pub struct Obj {
@@ -112,9 +114,7 @@ pub enum Item {
 /// Names the first line that makes no sense.
 pub fn parse(bytes: &[u8]) -> Result<Obj> {
     let mut parser = Parser::default();
-    if is_utf_16(bytes) {
-        bail!("this is text in UTF-16: save it as UTF-8, and read that");
-    }
+    check_encoding(bytes)?;
     let text = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes);
     parser.obj.slips.byte_order_mark = text.len() < bytes.len();
     for (number, line) in Lines::new(text) {
@@ -129,18 +129,6 @@ pub fn parse(bytes: &[u8]) -> Result<Obj> {
 
 /// That of UTF-8, which some editors write in front of a text.
 const BYTE_ORDER_MARK: &[u8] = b"\xEF\xBB\xBF";
-
-/// Whether a text is one of two bytes for each letter, by its mark or its first letters: nothing that an
-/// OBJ file begins with has a zero byte.
-fn is_utf_16(bytes: &[u8]) -> bool {
-    matches!(
-        bytes,
-        [0xFF, 0xFE, ..]
-            | [0xFE, 0xFF, ..]
-            | [0, 1..=255, 0, 1..=255, ..]
-            | [1..=255, 0, 1..=255, 0, ..]
-    )
-}
 
 /// What ends the lines of a text: as of old a carriage return, where there is no line feed at all.
 pub fn line_end(text: &[u8]) -> u8 {
