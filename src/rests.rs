@@ -38,7 +38,10 @@ pub fn rests(
     most: Most,
     (threads, watch): (&Threads, &dyn Watch),
 ) -> Result<Rests, Error> {
-    let mut rests = Rests { tolerance: contacts.tolerance(), ..Rests::default() };
+    // What is found was cut off at the tolerance, so many a place is just as far beside the chamfer:
+    // there rounding is not to decide.
+    let tolerance = contacts.tolerance() + surface.view.resolution;
+    let mut rests = Rests { tolerance, ..Rests::default() };
     if contacts.is_empty() {
         return Ok(rests);
     }

@@ -291,13 +291,19 @@ fn meeting_borders(topology: &Topology) -> Vec<Cluster> {
             && !topology.is_collapsed(corner.triangle())
             && !topology.is_hidden(*corner)
     };
-    let borders = topology.twin.ids().filter(is_border);
-    let mut starts: Vec<Cluster> = borders.map(|corner| topology.cluster_at[corner]).collect();
-    starts.sort_unstable();
-    let mut meeting: Vec<Cluster> =
-        starts.windows(2).filter(|pair| pair[0] == pair[1]).map(|pair| pair[0]).collect();
-    meeting.dedup();
+    let borders: Vec<Corner> = topology.twin.ids().filter(is_border).collect();
+    // Where one is that of a hidden face, a border that leads to a cluster need not lead away again.
+    let mut meeting = met_twice(borders.iter().map(|&border| topology.cluster_at[border]));
+    meeting.extend(met_twice(borders.iter().map(|border| topology.cluster_at[border.next()])));
+    meeting.sort_unstable();
     meeting
+}
+
+/// The clusters that come more than once.
+fn met_twice(clusters: impl Iterator<Item = Cluster>) -> Vec<Cluster> {
+    let mut sorted: Vec<Cluster> = clusters.collect();
+    sorted.sort_unstable();
+    sorted.windows(2).filter(|pair| pair[0] == pair[1]).map(|pair| pair[0]).collect()
 }
 
 fn add_ring(sectors: &mut Sectors, first: Sector) {

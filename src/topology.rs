@@ -16,7 +16,7 @@ use crate::ids::{Cluster, Corner, Id, IdVec, Triangle};
 use crate::view::View;
 use crate::watch::{Watch, each};
 use crate::weld::Weld;
-use crowded::Crowd;
+use crowded::{Crowd, Part};
 
 /// Half-edges over clusters.
 pub struct Topology {
@@ -140,7 +140,7 @@ fn join_all(view: &View, joined: &mut Topology, watch: &dyn Watch) -> Result<(),
         }
     })?;
     if !crowds.is_empty() {
-        let mut parts = parts(joined);
+        let mut parts = Parts::new(joined);
         // What is left over depends on which faces are of one part: those edges come last.
         let (even, uneven): (Vec<_>, Vec<_>) =
             crowds.into_iter().partition(|crowd| is_even(&spokes[crowd.clone()], joined));
@@ -153,13 +153,37 @@ fn join_all(view: &View, joined: &mut Topology, watch: &dyn Watch) -> Result<(),
     Ok(())
 }
 
-/// `#triangles`: what is connected across edges of two sides.
-fn parts(joined: &Topology) -> Groups {
-    let mut parts = Groups::singles(joined.twin.len() / 3);
-    for corner in joined.twin.ids().filter(|&corner| joined.twin[corner].is_some()) {
-        parts.join(corner.triangle().0, joined.twin[corner].triangle().0);
+/// What is connected, across edges of two sides and of those crowds that are paired.
+struct Parts {
+    groups: Groups,
+    /// `#triangles`: of each, how many sides and how many triangles were connected with it before any
+    /// crowd was paired.
+    held: Vec<[u32; 2]>,
+}
+
+impl Parts {
+    fn new(joined: &Topology) -> Parts {
+        let mut groups = Groups::singles(joined.twin.len() / 3);
+        for corner in joined.twin.ids().filter(|&corner| joined.twin[corner].is_some()) {
+            groups.join(corner.triangle().0, joined.twin[corner].triangle().0);
+        }
+        let first = groups.clone().labels();
+        let mut counts = vec![0; first.len()];
+        first.iter().for_each(|&first| counts[first as usize] += 1);
+        let sides = |triangle: Triangle| {
+            triangle.corners().iter().filter(|&&side| joined.twin[side].is_some()).count() as u32
+        };
+        let held =
+            |(triangle, &first): (_, &u32)| [sides(Triangle(triangle)), counts[first as usize]];
+        let held = (0..).zip(&first).map(held).collect();
+        Parts { groups, held }
     }
-    parts
+
+    fn of(&mut self, half_edge: Corner) -> Part {
+        let triangle = half_edge.triangle();
+        let [sides, size] = self.held[triangle.index()];
+        Part { number: self.groups.first_of(triangle.0), sides, size }
+    }
 }
 
 /// All half-edges, sorted by the lower of their two clusters (counting sort).
@@ -214,7 +238,7 @@ fn join_two([one, other]: [Corner; 2], joined: &mut Topology) {
 
 /// Pairs the half-edges of an edge of more sides. Parts grow with each pair, so that of solids that
 /// are there twice each keeps its own faces all around.
-fn join_crowd(view: &View, edge: &[Spoke], parts: &mut Groups, joined: &mut Topology) {
+fn join_crowd(view: &View, edge: &[Spoke], parts: &mut Parts, joined: &mut Topology) {
     let first = edge[0].half_edge;
     joined.touching.extend(edge[1..].iter().map(|spoke| [first, spoke.half_edge]));
     let near = joined.cluster_at[first].min(edge[0].far);
@@ -222,7 +246,7 @@ fn join_crowd(view: &View, edge: &[Spoke], parts: &mut Groups, joined: &mut Topo
         .iter()
         .map(|spoke| spoke.half_edge)
         .partition(|&half_edge| joined.cluster_at[half_edge] == near);
-    let mut part = |half_edge: Corner| parts.first_of(half_edge.triangle().0);
+    let mut part = |half_edge: Corner| parts.of(half_edge);
     let Crowd { pairs, hidden, is_contact } = crowded::crowd(view, &forth, &back, &mut part);
     joined.doubled.extend(crowded::doubled(view, &pairs).as_flattened());
     joined.hidden.extend(hidden);
@@ -230,7 +254,7 @@ fn join_crowd(view: &View, edge: &[Spoke], parts: &mut Groups, joined: &mut Topo
         joined.contacts.extend(pairs.as_flattened());
     }
     for pair in pairs {
-        parts.join(pair[0].triangle().0, pair[1].triangle().0);
+        parts.groups.join(pair[0].triangle().0, pair[1].triangle().0);
         joined.marry(pair);
     }
 }

@@ -62,14 +62,16 @@ fn is_too_fine(totals: &Totals) -> bool {
 }
 
 /// Of the real models, so many have the very same totals in each way.
-const LEAST_ALIKE: f64 = 0.95;
+fn least_alike(way: Retold) -> f64 {
+    match way {
+        // No number that is computed changes.
+        Retold::Renumbered(_) | Retold::Turned(_) => 1.0,
+        _ => 0.95,
+    }
+}
 
 /// By so much the mean width of the others is off at most.
-const MOST_OFF: f32 = 0.05;
-
-/// Lids that lie on each other in dozens of layers: who belongs to whom is anybody's guess, and goes
-/// by number.
-const LAYERED: &str = "khr_BoxAnimated";
+const MOST_OFF: f32 = 0.02;
 
 #[test]
 fn nearly_all_real_models_get_the_same_in_every_way() {
@@ -84,13 +86,13 @@ fn nearly_all_real_models_get_the_same_in_every_way() {
                 let is_alike = have_same_counts(&one, &other);
                 (meshes, alike) = (meshes + 1, alike + usize::from(is_alike));
                 let place = format!("{way:?}, {file}/{}", source.name);
-                assert!(off(&one, &other) <= MOST_OFF || file == LAYERED, "{place}");
+                assert!(off(&one, &other) <= MOST_OFF, "{place}");
                 // Farther out, a line may be too low to be told from a triangle.
                 let is_blurred = way == Retold::Moved && is_too_fine(&other) && !is_too_fine(&one);
                 assert!(one.hard_edges == other.hard_edges || is_blurred, "{place}");
             }
         }
         let share = alike as f64 / f64::from(meshes.max(1));
-        assert!(share >= LEAST_ALIKE || meshes == 0, "{way:?}: {alike} of {meshes}");
+        assert!(share >= least_alike(way) || meshes == 0, "{way:?}: {alike} of {meshes}");
     }
 }

@@ -402,6 +402,31 @@ fn what_lies_on_the_chamfer_but_for_rounding_is_covered() {
     });
 }
 
+// What is found was cut off at the tolerance, and so lies that far beside the chamfer, but for rounding.
+#[test]
+fn what_is_covered_to_within_rounding_of_the_tolerance_is_kept() {
+    let (mesh, behind) = (cube(), EDGE.map(|[x, y, z]| [x, y, z - 0.04]));
+    let held = [Held { from: behind[0], to: behind[1], radius: 0.0 }];
+    let options = Options { width: Width::Units(0.1), ..Options::default() };
+    let stages = crate::stages::stages_of_mesh(Mesh { held: &held, ..mesh.as_mesh() }, &options);
+    let (surface, view) = (stages.surface(), &stages.view);
+    let edge = side(view, [EDGE[1], EDGE[0]]);
+    let hard = stages.edges.hard.ids().find(|&e| stages.edges.hard[e].sides.contains(&edge));
+    let sides = stages.edges.hard[hard.unwrap()].sides;
+    let wedge = Wedge::new(view, surface.faces, sides).unwrap();
+    let along = |by: DVec3| wedge.ends().map(|at| at - by);
+    let is_kept = |beyond: f64| {
+        // So wide on top that the chamfer runs so far beyond the line.
+        let wide = 0.1 * (behind[0][2].mul_add(-1.0, 1.0) as f64 + beyond) / (0.1 - beyond);
+        let (front, top) = (along(DVec3::Y * 0.1), along(DVec3::Z * wide));
+        let is_front = surface.faces.normal[sides[0].triangle()] == DVec3::Z;
+        let pulled = if is_front { [front, top] } else { [top, front] };
+        stages.rests.are_kept(hard.unwrap(), &wedge, pulled)
+    };
+    let (tolerance, step) = (tolerance(view), view.resolution);
+    assert!(is_kept(tolerance + 0.5 * step) && !is_kept(tolerance + 1.5 * step));
+}
+
 #[test]
 fn of_many_slanted_borders_few_are_asked() {
     let sides = 2000_u32;

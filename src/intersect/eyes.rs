@@ -18,13 +18,10 @@ use super::Triangle;
 use super::crowds::{Around, CROWD, Counts, place, side};
 use crate::bvh::Aabb;
 use crate::error::Error;
-use crate::watch::Watch;
+use crate::watch::{Watch, sort, stretches};
 
 /// The tip of a cone, the middle of its floor, and the middle of the fill that its tip becomes.
 const MOST: usize = 3;
-
-/// So many steps it takes for each triangle to find where they crowd, as a watch counts them.
-const STEPS_OF_CROWDS: usize = 2;
 
 /// What a part is seen from.
 pub struct Eyes(SmallVec<[Around; 8]>);
@@ -35,18 +32,15 @@ impl Eyes {
     /// # Errors
     /// [`Error::Cancelled`] where the watch stops it.
     pub fn of(triangles: &[Triangle], watch: &dyn Watch) -> Result<Eyes, Error> {
-        let told = || watch.worked(STEPS_OF_CROWDS * triangles.len());
-        let middle = mean(triangles);
+        let middle = mean(triangles, watch)?;
         let mut eyes = Eyes(SmallVec::new());
         eyes.0.push(Around::point(middle));
-        let crowded = crowded_places(triangles, &told)?;
-        told()?;
+        let crowded = crowded_places(triangles, watch)?;
         for (number, &at) in crowded.iter().enumerate() {
             eyes.0.push(Around::point(at));
             eyes.0.extend(axis([at, if number == 0 { middle } else { crowded[0] }]));
         }
-        eyes.0.extend(crowded_side(triangles, &told)?.and_then(axis));
-        told()?;
+        eyes.0.extend(crowded_side(triangles, watch)?.and_then(axis));
         Ok(eyes)
     }
 
@@ -69,42 +63,53 @@ fn axis(ends: [[f32; 3]; 2]) -> Option<Around> {
     (ends[0] != ends[1]).then(|| Around::line(ends))
 }
 
-fn mean(triangles: &[Triangle]) -> [f32; 3] {
-    let points = triangles.as_flattened();
-    let sum: DVec3 = points.iter().map(|point| DVec3::from(point.map(f64::from))).sum();
-    (sum / points.len().max(1) as f64).as_vec3().to_array()
+fn mean(triangles: &[Triangle], watch: &dyn Watch) -> Result<[f32; 3], Error> {
+    let (points, mut sum) = (triangles.as_flattened(), DVec3::ZERO);
+    for stretch in stretches(points.len(), watch) {
+        points[stretch?].iter().for_each(|&point| sum += wide(point));
+    }
+    Ok((sum / points.len().max(1) as f64).as_vec3().to_array())
 }
-
-/// Tells the watch that all triangles have been looked at once more.
-type Told<'a> = dyn Fn() -> Result<(), Error> + 'a;
 
 /// The positions at which the most corners are, if they are many.
 fn crowded_places(
     triangles: &[Triangle],
-    told: &Told,
+    watch: &dyn Watch,
 ) -> Result<SmallVec<[[f32; 3]; MOST]>, Error> {
     let places = triangles.as_flattened().iter().map(|&point| place(point));
-    let most = most_common(&mut crowded(places, told)?);
+    let most = most_common(&mut crowded(places, watch)?, watch)?;
     Ok(most.iter().map(|place| place.map(f32::from_bits)).collect())
 }
 
 /// The ends of the edge on which the most sides lie, if they are many.
-fn crowded_side(triangles: &[Triangle], told: &Told) -> Result<Option<[[f32; 3]; 2]>, Error> {
+fn crowded_side(triangles: &[Triangle], watch: &dyn Watch) -> Result<Option<[[f32; 3]; 2]>, Error> {
     let sides = |triangle| (0..3).map(move |k| side(triangle, k));
-    let most = most_common(&mut crowded(triangles.iter().flat_map(sides), told)?);
+    let most = most_common(&mut crowded(triangles.iter().flat_map(sides), watch)?, watch)?;
     Ok(most.first().map(|ends| ends.map(|place| place.map(f32::from_bits))))
 }
 
 /// All that may come as often as in a crowd: sorting these takes a fraction of what sorting all does.
-fn crowded<T: Hash>(all: impl Iterator<Item = T> + Clone, told: &Told) -> Result<Vec<T>, Error> {
-    let counts = Counts::new(all.clone().count(), all.clone());
-    told()?;
-    Ok(all.filter(|each| counts.are_many(each)).collect())
+fn crowded<T: Hash>(
+    all: impl Iterator<Item = T> + Clone,
+    watch: &dyn Watch,
+) -> Result<Vec<T>, Error> {
+    let mut asked = Ok(());
+    let counted = all.clone().map_while(|each| {
+        asked = watch.worked(1);
+        asked.is_ok().then_some(each)
+    });
+    let counts = Counts::new(all.clone().count(), counted);
+    asked?;
+    let many = all.map(|each| watch.worked(1).map(|()| counts.are_many(&each).then_some(each)));
+    many.filter_map(Result::transpose).collect()
 }
 
 /// Those that come most often, if that is as often as in a crowd; of equals the least.
-fn most_common<T: Ord + Copy>(all: &mut [T]) -> SmallVec<[T; MOST]> {
-    all.sort_unstable();
+fn most_common<T: Ord + Copy>(
+    all: &mut [T],
+    watch: &dyn Watch,
+) -> Result<SmallVec<[T; MOST]>, Error> {
+    sort(all, watch)?;
     let groups = all.chunk_by(|one, other| one == other);
     let mut most: SmallVec<[&[T]; MOST + 1]> = SmallVec::new();
     for group in groups.filter(|group| group.len() >= usize::from(CROWD)) {
@@ -112,7 +117,7 @@ fn most_common<T: Ord + Copy>(all: &mut [T]) -> SmallVec<[T; MOST]> {
         most.insert(at, group);
         most.truncate(MOST);
     }
-    most.iter().map(|group| group[0]).collect()
+    Ok(most.iter().map(|group| group[0]).collect())
 }
 
 /// Far more than what is lost in the products below, relative to their largest terms.
@@ -209,6 +214,25 @@ mod tests {
         (0..2 * points).map(|step| [[0.0, 1.0, 0.0], rim(step), rim(step + 1)]).collect()
     }
 
+    /// The most steps at a time.
+    struct Longest(std::cell::Cell<usize>);
+
+    impl Watch for Longest {
+        fn worked(&self, steps: usize) -> Result<(), Error> {
+            self.0.set(self.0.get().max(steps));
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn where_triangles_crowd_is_told_step_by_step() {
+        let apart = |k: u32| [[k as f32, 0.0, 0.0], [k as f32, 1.0, 0.0], [k as f32, 0.0, 1.0]];
+        let triangles: Vec<Triangle> = (0..20_000).map(apart).collect();
+        let longest = Longest(0.into());
+        assert!(Eyes::of(&triangles, &longest).is_ok());
+        assert!((1..1000).contains(&longest.0.get()), "{} at a time", longest.0.get());
+    }
+
     fn eyes(triangles: &[Triangle]) -> SmallVec<[Around; 8]> {
         Eyes::of(triangles, &Unwatched).unwrap().0
     }
@@ -234,7 +258,7 @@ mod tests {
     #[test]
     fn what_is_crowded_is_kept_and_hardly_anything_else() {
         let all: Vec<u32> = (0..1000).chain([7; 31]).chain([2000; 31]).collect();
-        let kept = crowded(all.iter().copied(), &|| Ok(())).unwrap();
+        let kept = crowded(all.iter().copied(), &Unwatched).unwrap();
         assert_eq!(kept.iter().filter(|&&each| each == 7).count(), 32);
         assert!(kept.len() < 100, "{}", kept.len());
     }
@@ -243,7 +267,7 @@ mod tests {
     fn the_most_crowded_are_found_in_order() {
         let mut all: Vec<u32> =
             [[3; 40].as_slice(), &[1; 50], &[2; 60], &[5; 32], &[4; 31]].concat();
-        assert_eq!(most_common(&mut all).as_slice(), [2, 1, 3]);
+        assert_eq!(most_common(&mut all, &Unwatched).unwrap().as_slice(), [2, 1, 3]);
     }
 
     const FLOOR: Triangle = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]];

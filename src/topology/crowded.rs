@@ -43,13 +43,24 @@ pub struct Hidden {
     pub behind: Corner,
 }
 
+/// What a face is connected with by other edges.
+#[derive(Clone, Copy)]
+pub struct Part {
+    /// The same for all faces of it.
+    pub number: u32,
+    /// How many sides of the face itself, and how many triangles, were connected before any crowd was
+    /// paired.
+    pub sides: u32,
+    pub size: u32,
+}
+
 /// Pairs half-edges that run forth with some that run back. What is in one part already, as the
 /// caller tells, stays together where the faces leave a choice.
 pub fn crowd(
     view: &View,
     forth: &[Corner],
     back: &[Corner],
-    part: &mut dyn FnMut(Corner) -> u32,
+    part: &mut dyn FnMut(Corner) -> Part,
 ) -> Crowd {
     if forth.is_empty() || back.is_empty() {
         return Crowd::default();
@@ -113,15 +124,35 @@ struct Face {
     /// Such a face has its air where angles are larger, and its solid where they are smaller.
     runs_forth: bool,
     inward: DVec3,
-    /// What it is connected with by other edges.
-    part: u32,
+    part: Part,
     /// Grows with the angle about the edge, from 0 to 4.
     angle: f64,
     /// Which of the directions it lies in.
     ray: usize,
 }
 
-/// The faces around an edge, by angle, and then by number.
+impl Face {
+    /// Which of the faces in one direction comes first, whatever their numbers: of two that face each
+    /// other there, the one that looks forth, as between solids that stand flush; then the one that is
+    /// held by more, as a sheet may be laid out of whole faces and scraps of them; then the one that
+    /// ends nearer to where it begins.
+    fn order(&self, view: &View, other: &Face) -> Ordering {
+        let forth = other.runs_forth.cmp(&self.runs_forth);
+        let [held, held_other] = [self, other].map(|face| (face.part.sides, face.part.size));
+        let [near, near_other] = [self, other].map(|face| face.reach(view));
+        let nearer = near[0].total_cmp(&near_other[0]).then(near[1].total_cmp(&near_other[1]));
+        forth.then(held_other.cmp(&held)).then(nearer).then(self.half_edge.cmp(&other.half_edge))
+    }
+
+    /// How far the corner across is from both ends of the edge, squared.
+    fn reach(&self, view: &View) -> [f64; 2] {
+        let [across, start, end] = [self.half_edge.prev(), self.half_edge, self.half_edge.next()]
+            .map(|corner| view.position_at(corner));
+        [start, end].map(|end| across.distance_squared(end))
+    }
+}
+
+/// The faces around an edge, by direction, and in each as they are ordered there.
 struct Around {
     faces: Vec<Face>,
     /// Where the faces of each direction begin, and where the last ones end.
@@ -150,7 +181,7 @@ impl Around {
         view: &View,
         forth: &[Corner],
         back: &[Corner],
-        part: &mut dyn FnMut(Corner) -> u32,
+        part: &mut dyn FnMut(Corner) -> Part,
     ) -> Around {
         let axis = unit(view.position_at(forth[0].next()) - view.position_at(forth[0]));
         let reference = inward(view, forth[0], axis);
@@ -176,6 +207,9 @@ impl Around {
             faces[place].ray = rays.len() - 1;
         }
         rays.push(faces.len());
+        for ray in rays.windows(2) {
+            faces[ray[0]..ray[1]].sort_by(|one, other| one.order(view, other));
+        }
         Around { faces, rays }
     }
 
@@ -207,7 +241,7 @@ impl Around {
         let is_choice = self.is_small() && forth.len().max(back.len()) > 1;
         for (shares, is_part) in [(true, true), (false, true), (true, false)] {
             let joins = |one: usize, other: usize| {
-                (!is_part || self.faces[one].part == self.faces[other].part)
+                (!is_part || self.part(one) == self.part(other))
                     && (!shares || self.share_vertices(view, one, other))
             };
             forth.retain(|&one| {
@@ -222,6 +256,10 @@ impl Around {
     /// Whether all faces can be compared with each other.
     fn is_small(&self) -> bool {
         self.faces.len() <= MOST_FACES
+    }
+
+    fn part(&self, place: usize) -> u32 {
+        self.faces[place].part.number
     }
 
     fn share_vertices(&self, view: &View, one: usize, other: usize) -> bool {
@@ -252,9 +290,9 @@ impl Around {
             return None;
         }
         let mut places: Vec<usize> = (0..self.faces.len()).collect();
-        places.sort_by_key(|&place| (self.faces[place].part, !self.faces[place].runs_forth, place));
+        places.sort_by_key(|&place| (self.part(place), !self.faces[place].runs_forth, place));
         let (mut pairs, mut rest) = (Vec::new(), [Vec::new(), Vec::new()]);
-        for own in places.chunk_by(|&a, &b| self.faces[a].part == self.faces[b].part) {
+        for own in places.chunk_by(|&a, &b| self.part(a) == self.part(b)) {
             match *own {
                 [one, other] if self.faces[one].runs_forth != self.faces[other].runs_forth => {
                     pairs.push([one, other].map(|place| self.faces[place].half_edge));
@@ -302,7 +340,11 @@ impl Around {
         // Of solids that lie on each other, each keeps its own faces.
         let same = pairs.chunk_by(|one, other| rays(one) == rays(other));
         same.flat_map(|pairs| {
-            let side = |k: usize| pairs.iter().map(|pair| pair[k]).collect();
+            let side = |k: usize| {
+                let mut side: Vec<usize> = pairs.iter().map(|pair| pair[k]).collect();
+                side.sort_unstable();
+                side
+            };
             self.matched(view, [side(0), side(1)])
         })
         .collect()
@@ -424,7 +466,7 @@ mod tests {
         let half_edges = (0..faces.len()).map(|face| Corner::new(3 * face));
         let looks_left = |corner: &Corner| matches!(faces[corner.index() / 3], Left(_));
         let (forth, back): (Vec<_>, Vec<_>) = half_edges.partition(looks_left);
-        crowd(&view, &forth, &back, &mut |corner| corner.0)
+        crowd(&view, &forth, &back, &mut |corner| Part { number: corner.0, sides: 0, size: 1 })
     }
 
     /// The pairs, each and all sorted, and what is left over behind what, as places of faces.
@@ -460,6 +502,51 @@ mod tests {
             assert_eq!(again.is_contact, first.is_contact);
         }
         (pairs, hidden, first.is_contact)
+    }
+
+    /// The pairs, each and all sorted, of faces of which some are held by more than others, and some
+    /// reach farther than others.
+    fn pairs_of(faces: &[(Look, u32, f32)]) -> Vec<[usize; 2]> {
+        let looks: Vec<Look> = faces.iter().map(|&(look, ..)| look).collect();
+        let mut mesh = fan(&looks);
+        for (face, &(.., reach)) in faces.iter().enumerate() {
+            mesh.positions[3 * face + 2][..2].iter_mut().for_each(|along| *along *= reach);
+        }
+        let mesh = mesh.as_mesh();
+        let view = view(&mesh, &Options::default()).unwrap();
+        let (forth, back): (Vec<_>, Vec<_>) = (0..faces.len())
+            .map(|face| Corner::new(3 * face))
+            .partition(|corner| matches!(looks[corner.index() / 3], Left(_)));
+        let held = |corner: Corner| faces[corner.index() / 3].1;
+        let mut part = |corner: Corner| Part { number: corner.0, sides: held(corner), size: 1 };
+        sorted(&crowd(&view, &forth, &back, &mut part)).0
+    }
+
+    //   0 1
+    //   # #| |         Two faces lie on each other in both places: a whole one of each, and a scrap.
+    //   # #|2|3
+    #[test]
+    fn of_faces_that_lie_on_each_other_those_that_are_held_go_on_together() {
+        let (whole, scrap) = (1, 0);
+        let walls = [
+            (Right(180.0), whole, 1.0),
+            (Right(180.0), scrap, 1.0),
+            (Left(270.0), whole, 1.0),
+            (Left(270.0), scrap, 1.0),
+        ];
+        assert_eq!(pairs_of(&walls), [[0, 2], [1, 3]]);
+        let swapped = [walls[1], walls[0], walls[2], walls[3]];
+        assert_eq!(pairs_of(&swapped), [[0, 3], [1, 2]]);
+        assert_eq!(pairs_of(&[walls[0], walls[1], walls[2]]), [[0, 2]]);
+        assert_eq!(pairs_of(&[walls[1], walls[0], walls[2]]), [[1, 2]]);
+    }
+
+    #[test]
+    fn of_faces_held_alike_the_nearer_one_goes_on_whichever_is_told_first() {
+        let [near, far, wall] =
+            [(Right(180.0), 0, 1.0), (Right(180.0), 0, 2.0), (Left(270.0), 0, 1.0)];
+        assert_eq!(pairs_of(&[near, far, wall]), [[0, 2]]);
+        assert_eq!(pairs_of(&[far, near, wall]), [[1, 2]]);
     }
 
     //  # # # # # #
