@@ -17,6 +17,7 @@ use crate::ids::{Cluster, Id, IdVec, Triangle, Vertex};
 use crate::memory;
 use crate::mesh::{MeshBuffers, Uv, UvBuffer};
 use crate::report::{Chamfered, EdgeVerdict, Piece, TriangleKind, TriangleSource, VertexSources};
+use crate::threads::Threads;
 use crate::view::View;
 use crate::watch::{Watch, each};
 use crate::weld::Weld;
@@ -38,6 +39,9 @@ const NEAR_WIDTHS: f64 = 4.0;
 /// With more pairs of near parts than this for each part, looking for them would take longer than
 /// blocks save.
 const MOST_PAIRS: usize = 32;
+
+/// So many results are put together at a time, and their memory is given back.
+const JOINED_AT_ONCE: usize = 16;
 
 /// Which elements of a mesh each block has: none twice, and all of them.
 pub struct Blocks {
@@ -256,7 +260,7 @@ pub fn join(
     view: &View,
     blocks: &Blocks,
     results: Vec<Chamfered>,
-    watch: &dyn Watch,
+    (threads, watch): (&Threads, &dyn Watch),
 ) -> Result<Chamfered, Error> {
     let vertices = VertexPlaces::new(view, blocks, &results);
     watch.worked(vertices.count)?;
@@ -264,19 +268,48 @@ pub fn join(
     watch.worked(vertices.count)?;
     let mut joined = empty(view, &vertices, &triangles, &results, watch)?;
     watch.worked(vertices.count)?;
-    for (block, result) in results.into_iter().enumerate() {
-        let own = (blocks.vertices.of(block), blocks.triangles.of(block));
-        watch.worked(result.triangle_sources.len())?;
-        let places = (vertices.of(block, own.0, &result), triangles.of(block, own.1));
-        put_vertices(&mut joined.mesh, &result.mesh, &places.0);
-        put_triangles(&mut joined, &result, own, (&places.0, &places.1));
-        put_verdicts(&mut joined, &result, own.0);
-        joined
-            .vertex_sources
-            .put_part(result.vertex_sources, &places.0, |vertex| own.0[vertex as usize].0);
+    let mut streams = std::mem::take(&mut joined.mesh);
+    joined.mesh.indices = std::mem::take(&mut streams.indices);
+    let mut left = results.into_iter().enumerate();
+    loop {
+        let some: Vec<_> = left.by_ref().take(JOINED_AT_ONCE).collect();
+        if some.is_empty() {
+            break;
+        }
+        watch.worked(some.iter().map(|(_, result)| result.triangle_sources.len()).sum())?;
+        put_some((&mut joined, &mut streams), blocks, (&vertices, &triangles), some, threads);
     }
+    joined.mesh = MeshBuffers { indices: std::mem::take(&mut joined.mesh.indices), ..streams };
     joined.pieces.sort_unstable_by_key(|piece| piece.triangle);
     Ok(joined)
+}
+
+/// The results of some blocks: the streams of their vertices, and beside these all else.
+fn put_some(
+    (joined, streams): (&mut Chamfered, &mut MeshBuffers),
+    blocks: &Blocks,
+    (vertices, triangles): (&VertexPlaces, &TrianglePlaces),
+    mut some: Vec<(usize, Chamfered)>,
+    threads: &Threads,
+) {
+    let places = |(block, result): &(usize, Chamfered)| {
+        vertices.of(*block, blocks.vertices.of(*block), result)
+    };
+    let places: Vec<Vec<u32>> = some.iter().map(places).collect();
+    let sources = some.iter_mut().map(|(_, result)| std::mem::take(&mut result.vertex_sources));
+    let sources: Vec<VertexSources> = sources.collect();
+    let some = || some.iter().zip(&places);
+    threads.both(
+        || some().for_each(|((_, own), places)| put_vertices(streams, &own.mesh, places)),
+        || {
+            for (((block, result), places), sources) in some().zip(sources) {
+                let own = (blocks.vertices.of(*block), blocks.triangles.of(*block));
+                put_triangles(joined, result, own, (places, &triangles.of(*block, own.1)));
+                put_verdicts(joined, result, own.0);
+                joined.vertex_sources.put_part(sources, places, |v| own.0[v as usize].0);
+            }
+        },
+    );
 }
 
 /// The triangles of a block's result, before its verdicts.

@@ -193,7 +193,8 @@ fn each_block(
         (counts(|part| part.mesh.positions.len()), counts(|part| part.triangle_sources.len()));
     memory::ask(memory::of_joined(&view.mesh, vertices, triangles))?;
     let ask = &mut || told(progress(SHARE_OF_BLOCKS));
-    let joined = join(view, blocks, results, &Caller::new(ask))?;
+    let work = (threads, &Caller::new(ask) as &dyn Watch);
+    let joined = join(view, blocks, results, work)?;
     told(progress(1.0))?;
     Ok(joined)
 }

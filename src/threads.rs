@@ -217,6 +217,17 @@ impl Threads {
         items.iter().map(|item| value(watch, item)).collect()
     }
 
+    /// Does two things that have nothing to do with each other.
+    pub fn both(&self, one: impl FnOnce() + Send, other: impl FnOnce() + Send) {
+        #[cfg(feature = "parallel")]
+        if let Some(pool) = &self.pool {
+            pool.join(one, other);
+            return;
+        }
+        one();
+        other();
+    }
+
     /// The ids that are such, in ascending order.
     pub fn filter<I: Id + Send>(
         &self,
@@ -303,6 +314,9 @@ mod tests {
             assert_eq!(next[9_999], 10_000);
             let counted = threads.map_large(&numbers[..9], || 0, |_, number| number + 1);
             assert_eq!(counted, (1..10).collect::<Vec<u32>>());
+            let (mut one, mut other) = (0, 0);
+            threads.both(|| one = 1, || other = 2);
+            assert_eq!((one, other), (1, 2));
             let odd = threads.filter(10_000, |vertex: Vertex| vertex.0 % 2 == 1);
             assert!(odd.into_iter().eq((0..5_000).map(|half| Vertex(2 * half + 1))));
         }
