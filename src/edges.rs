@@ -115,12 +115,15 @@ pub fn edges(
     selection: &Selection,
     (threads, watch): (&Threads, &dyn Watch),
 ) -> Result<Edges, Error> {
-    let noise = noise::noise(view, topology, (threads, watch))?;
-    let sides = threads.filter_watched(view.corner_count(), watch, |corner: Corner| {
+    let mut sides = threads.filter_watched(view.corner_count(), watch, |corner: Corner| {
         let twin = topology.twin[corner];
-        let is_edge = twin.is_some() && corner < twin && is_hard(view, corner, twin);
-        is_edge && !is_noise(view, &noise, [corner, twin])
+        twin.is_some() && corner < twin && is_hard(view, corner, twin)
     })?;
+    let noise = noise::noise(view, topology, &sides);
+    watch.worked(sides.len())?;
+    if !noise.is_empty() {
+        sides.retain(|&side| !is_noise(view, &noise, [side, topology.twin[side]]));
+    }
     let ends = |&side: &Corner| [side, side.next()].map(|corner| view.position_at(corner));
     let near = contacts.near(&sides, |side| (ends(side), 0.0));
     let hard = threads.map(sides.len(), &Times(ASKED, watch), |edge: Edge| {
@@ -144,7 +147,7 @@ fn is_noise(view: &View, noise: &[Corner], sides: [Corner; 2]) -> bool {
         noise.binary_search(&side).is_ok() || !view.normals_differ(normals)
     };
     let [side, other] = sides;
-    !noise.is_empty() && is_soft_at(side, other) && is_soft_at(other, side)
+    is_soft_at(side, other) && is_soft_at(other, side)
 }
 
 /// What is asked of the edge between two half-edges, and why it is not chamfered if so.

@@ -232,7 +232,7 @@ mod tests {
         let found_edges = |watch: &dyn Watch| {
             super::edges(view, (topology, faces), &found, &selection, (threads, watch))
         };
-        assert_eq!(times(found_edges), 3, "for noise, for all sides, and for those that are hard");
+        assert_eq!(times(found_edges), 3, "for all sides, for noise, and for those that are hard");
         assert_eq!(times(|watch| offsets(surface, chamfers, None, (threads, watch))), 1);
         assert!(times(|watch| room(given, watch)) > 1);
         let evened = |watch: &dyn Watch| evenness(given, room(given, &Unwatched)?, 0.5, watch);

@@ -2,18 +2,16 @@
 
 use glam::DVec3;
 
-use crate::error::Error;
 use crate::ids::{Cluster, Corner};
-use crate::threads::Threads;
 use crate::tolerance::{CHORD_TURN, NOISE, NOISE_SHARE};
 use crate::topology::Topology;
 use crate::view::View;
-use crate::watch::Watch;
 
 /// The square of the cosine of what normals may differ by, and somewhat less for rounding.
 const NEARLY_NOISE: f64 = 0.99;
 
-/// Half-edges, sorted, at whose start normals differ from those of the twin by chance alone.
+/// Of the half-edges at which normals differ (`hard`: one of each edge), those, sorted, at whose start they
+/// do by chance alone.
 ///
 /// ```text
 ///   \ |  /      The surface that the normals tell is round: they stand off their faces.
@@ -23,22 +21,18 @@ const NEARLY_NOISE: f64 = 0.99;
 /// ```
 ///
 /// Where another edge is sharp or flat, what differs beside it is its end.
-///
-/// # Errors
-/// [`Error::Cancelled`] where the watch stops it.
-pub fn noise(
-    view: &View,
-    topology: &Topology,
-    (threads, watch): (&Threads, &dyn Watch),
-) -> Result<Vec<Corner>, Error> {
-    let mut noise: Vec<Corner> = threads.filter_watched(view.corner_count(), watch, |side| {
-        let end = || end_at(view, topology, side);
-        may_be_noise(view, topology, side) && end().is_some_and(|end| end.is_by_chance(view))
-    })?;
+pub fn noise(view: &View, topology: &Topology, hard: &[Corner]) -> Vec<Corner> {
+    let half_edges = || hard.iter().flat_map(|&side| [side, topology.twin[side]]);
+    let end = |side: Corner| end_at(view, topology, side);
+    let is_by_chance = |side: &Corner| {
+        may_be_noise(view, topology, *side) && end(*side).is_some_and(|end| end.is_by_chance(view))
+    };
+    let mut noise: Vec<Corner> = half_edges().filter(is_by_chance).collect();
     if noise.is_empty() {
-        return Ok(noise);
+        return noise;
     }
-    let ends = || topology.twin.ids().flat_map(|side| end_at(view, topology, side));
+    noise.sort_unstable();
+    let ends = || half_edges().filter_map(end);
     let place = |corner: Corner| topology.cluster_at[corner];
     let mut places: Vec<Cluster> = noise.iter().map(|&corner| place(corner)).collect();
     places.sort_unstable();
@@ -47,7 +41,7 @@ pub fn noise(
     let mut sharp: Vec<Cluster> = sharp.map(|end| place(end.corners[0])).collect();
     sharp.sort_unstable();
     noise.retain(|&corner| sharp.binary_search(&place(corner)).is_err());
-    Ok(noise)
+    noise
 }
 
 /// Whether the normals at the start of a half-edge are as near to each other as noise leaves them, or
