@@ -96,7 +96,12 @@ impl Known<'_> {
         }
         let fan = &sectors.fans[sector];
         let before = self.sectors.sector_of[fan.first];
-        (before.is_some() && fan.moves_as(&self.sectors.fans[before])).then(|| self.offsets[before])
+        if before.is_none() || !fan.moves_as(&self.sectors.fans[before]) {
+            return None;
+        }
+        // It may lie on a triangle beside the fan.
+        let offset = self.offsets[before];
+        (!self.is_new[offset.foot.corner.triangle().index()]).then_some(offset)
     }
 }
 
