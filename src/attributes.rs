@@ -61,7 +61,7 @@ pub fn attributes(
     // At a seam both far vertices of a strip are copied.
     let copies = 2 * chamfers.edges.hard.iter().filter(|edge| edge.seams != 0).count();
     let attributes = Attributes {
-        streams: Streams::of_source(space.source, chamfers.sectors.fans.len(), copies),
+        streams: Streams::of_source(space.source, (chamfers.sectors.fans.len(), copies), watch)?,
         vertex_at: IdVec::from_vec(vertex_at),
     };
     watch.worked(attributes.streams.vertices.positions.len())?;

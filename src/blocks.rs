@@ -192,7 +192,7 @@ fn together(
     let boxes: Vec<Aabb> = boxes.iter().map(|own| own.grown(reach as f32)).collect();
     let tree = Tree::watched(&boxes, &[], watch)?;
     let mut near = Groups::singles(boxes.len());
-    let all = tree.open_leaves(|_| true);
+    let all = tree.open_leaves(|_| true, watch)?;
     for (count, (one, other)) in tree.pairs(&all).enumerate() {
         if count > MOST_PAIRS * boxes.len() {
             return Ok(None);

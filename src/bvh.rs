@@ -8,7 +8,7 @@
 use glam::DVec3;
 
 use crate::error::Error;
-use crate::watch::{Unwatched, Watch, sort};
+use crate::watch::{Unwatched, Watch, collect, sort, stretches};
 
 /// How many boxes a leaf holds: testing so few one by one costs less than another node.
 const LEAF_SIZE: usize = 4;
@@ -211,19 +211,14 @@ impl Tree {
     /// # Errors
     /// [`Error::Cancelled`] where the watch stops it.
     pub fn watched(boxes: &[Aabb], kin: &[Kin], watch: &dyn Watch) -> Result<Tree, Error> {
-        let curve = Curve::through(boxes);
-        let crowd = |number: usize| kin.get(number).map_or(0, Kin::crowd);
-        let mut places: Vec<(u64, u64, u32)> = boxes
-            .iter()
-            .enumerate()
-            .map(|(number, each)| (crowd(number), curve.place(each), number as u32))
-            .collect();
-        sort(&mut places, watch)?;
-        let order: Vec<u32> = places.iter().map(|&(.., number)| number).collect();
+        let order = in_order(boxes, kin, watch)?;
+        watch.worked(order.len())?;
+        let number = |place: usize| order[place] as usize;
+        let of_kin = if kin.is_empty() { 0 } else { order.len() };
         let mut tree = Tree {
             nodes: Vec::with_capacity(boxes.len()),
-            boxes: order.iter().map(|&number| boxes[number as usize]).collect(),
-            kin: order.iter().filter_map(|&number| kin.get(number as usize)).copied().collect(),
+            boxes: collect(order.len(), watch, |place| boxes[number(place)])?,
+            kin: collect(of_kin, watch, |place| kin[number(place)])?,
             node_kin: Vec::new(),
             views: Vec::new(),
             order,
@@ -235,22 +230,38 @@ impl Tree {
     }
 
     /// The same, where what is seen apart from an eye is apart too (`views: #eyes by #boxes`).
-    pub fn with_views(mut self, views: &[Vec<Aabb>]) -> Tree {
-        self.views = views.iter().map(|boxes| self.view(boxes)).collect();
-        self
+    pub fn with_views(self, views: &[Vec<Aabb>]) -> Tree {
+        self.with_views_watched(views, &Unwatched).unwrap_or_default()
     }
 
-    fn view(&self, boxes: &[Aabb]) -> View {
-        let places: Vec<Aabb> = self.order.iter().map(|&number| boxes[number as usize]).collect();
-        let mut nodes = vec![Aabb::EMPTY; self.nodes.len()];
-        // Those below a node come after it.
-        for node in (0..nodes.len()).rev() {
-            nodes[node] = match self.nodes[node].count {
-                0 => nodes[node + 1].union(nodes[self.nodes[node + 1].next as usize]),
-                _ => self.places(node).fold(Aabb::EMPTY, |all, place| all.union(places[place])),
-            };
+    /// The same, where that may be stopped.
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`] where the watch stops it.
+    pub fn with_views_watched(
+        mut self,
+        views: &[Vec<Aabb>],
+        watch: &dyn Watch,
+    ) -> Result<Tree, Error> {
+        let views: Result<_, Error> = views.iter().map(|boxes| self.view(boxes, watch)).collect();
+        self.views = views?;
+        Ok(self)
+    }
+
+    fn view(&self, boxes: &[Aabb], watch: &dyn Watch) -> Result<View, Error> {
+        let places = collect(self.order.len(), watch, |place| boxes[self.order[place] as usize])?;
+        let count = self.nodes.len();
+        let mut nodes = vec![Aabb::EMPTY; count];
+        for stretch in stretches(count, watch) {
+            // Those below a node come after it.
+            for node in stretch?.map(|back| count - 1 - back) {
+                nodes[node] = match self.nodes[node].count {
+                    0 => nodes[node + 1].union(nodes[self.nodes[node + 1].next as usize]),
+                    _ => self.places(node).fold(Aabb::EMPTY, |all, place| all.union(places[place])),
+                };
+            }
         }
-        View { nodes, places }
+        Ok(View { nodes, places })
     }
 
     /// The number of the box at a place.
@@ -378,9 +389,16 @@ impl Tree {
     }
 
     /// `#nodes`: in which leaves something is open, as is told of each number.
-    pub fn open_leaves(&self, is_open: impl Fn(u32) -> bool) -> Vec<bool> {
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`] where the watch stops it.
+    pub fn open_leaves(
+        &self,
+        is_open: impl Fn(u32) -> bool,
+        watch: &dyn Watch,
+    ) -> Result<Vec<bool>, Error> {
         let holds_open = |node: usize| self.places(node).any(|place| is_open(self.order[place]));
-        (0..self.nodes.len()).map(holds_open).collect()
+        collect(self.nodes.len(), watch, holds_open)
     }
 
     /// The pairs of places that are not apart, each once: those in open leaves (`open: #nodes`) with
@@ -435,6 +453,16 @@ impl Tree {
     }
 }
 
+/// The numbers of some boxes, crowd by crowd along the curve.
+fn in_order(boxes: &[Aabb], kin: &[Kin], watch: &dyn Watch) -> Result<Vec<u32>, Error> {
+    let curve = Curve::through(boxes, watch)?;
+    let crowd = |number: usize| kin.get(number).map_or(0, Kin::crowd);
+    let place = |number: usize| (crowd(number), curve.place(&boxes[number]), number as u32);
+    let mut places = collect(boxes.len(), watch, place)?;
+    sort(&mut places, watch)?;
+    collect(places.len(), watch, |place| places[place].2)
+}
+
 /// A curve through a box that visits each half of it, along one axis after the other, before the
 /// other half.
 struct Curve {
@@ -444,13 +472,16 @@ struct Curve {
 }
 
 impl Curve {
-    fn through(boxes: &[Aabb]) -> Curve {
-        let filled = boxes.iter().filter(|each| **each != Aabb::EMPTY);
-        let all = filled.fold(Aabb::EMPTY, |all, &each| all.union(each));
+    fn through(boxes: &[Aabb], watch: &dyn Watch) -> Result<Curve, Error> {
+        let mut all = Aabb::EMPTY;
+        for stretch in stretches(boxes.len(), watch) {
+            let filled = boxes[stretch?].iter().filter(|each| **each != Aabb::EMPTY);
+            all = filled.fold(all, |all, &each| all.union(each));
+        }
         // Halved, so that the length cannot overflow.
         let steps = (1 << (CURVE_BITS - 1)) as f32;
         let scale = [0, 1, 2].map(|axis| steps / (all.high[axis] / 2.0 - all.low[axis] / 2.0));
-        Curve { low: all.low, scale }
+        Ok(Curve { low: all.low, scale })
     }
 
     /// How far along it the middle of a box lies.
@@ -484,7 +515,7 @@ mod tests {
         let tree = Tree::new(boxes, &[]);
         let named = |(a, b): (usize, usize)| (tree.number(a), tree.number(b));
         let mut pairs: Vec<(u32, u32)> = tree
-            .pairs(&tree.open_leaves(|_| true))
+            .pairs(&tree.open_leaves(|_| true, &Unwatched).unwrap())
             .map(named)
             .map(|(a, b)| (a.min(b), a.max(b)))
             .collect();
@@ -562,7 +593,7 @@ mod tests {
     /// The numbers of all pairs of a tree, the lower one first, sorted.
     fn all_pairs(tree: &Tree) -> Vec<(u32, u32)> {
         let mut found: Vec<(u32, u32)> = tree
-            .pairs(&tree.open_leaves(|_| true))
+            .pairs(&tree.open_leaves(|_| true, &Unwatched).unwrap())
             .map(|(a, b)| (tree.number(a), tree.number(b)))
             .map(|(a, b)| (a.min(b), a.max(b)))
             .collect();
@@ -644,7 +675,7 @@ mod tests {
         let tree = Tree::new(&boxes, &[]);
         let is_open = |number: u32| number % 23 == 5;
         let mut found: Vec<(u32, u32)> = tree
-            .pairs(&tree.open_leaves(is_open))
+            .pairs(&tree.open_leaves(is_open, &Unwatched).unwrap())
             .map(|(a, b)| (tree.number(a), tree.number(b)))
             .filter(|&(a, b)| is_open(a) || is_open(b))
             .map(|(a, b)| (a.min(b), a.max(b)))

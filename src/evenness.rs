@@ -55,7 +55,7 @@ pub fn evenness(
     let mut leveling = Leveling { given, slope, lopsided, room, narrow: BinaryHeap::new() };
     leveling.narrow = leveling.seeds(watch)?;
     while let Some(Narrow { share, front }) = leveling.narrow.pop() {
-        watch.worked(1)?;
+        watch.worked(STEPS_OF_FRONT)?;
         if share == leveling.share(front) {
             for (other, most) in leveling.linked(front, share).into_iter().flatten() {
                 leveling.lower(other, most);
@@ -64,6 +64,9 @@ pub fn evenness(
     }
     Ok(leveling.room)
 }
+
+/// So many steps it takes to find a front in a large heap, and all that it is linked to.
+const STEPS_OF_FRONT: usize = 4;
 
 struct Leveling<'a> {
     given: &'a Given<'a>,

@@ -1,5 +1,8 @@
 //! Which elements belong together (union-find).
 
+use crate::error::Error;
+use crate::watch::{Watch, collect};
+
 /// A partition of the numbers from 0.
 #[derive(Clone)]
 pub struct Groups {
@@ -26,6 +29,14 @@ impl Groups {
     pub fn join(&mut self, a: u32, b: u32) {
         let [a, b] = [self.first_of(a), self.first_of(b)];
         self.parent[a.max(b) as usize] = a.min(b);
+    }
+
+    /// As [`Groups::labels`], telling a watch again and again.
+    ///
+    /// # Errors
+    /// What `watch` gives.
+    pub fn labels_watched(mut self, watch: &dyn Watch) -> Result<Vec<u32>, Error> {
+        collect(self.parent.len(), watch, |element| self.first_of(element as u32))
     }
 
     /// `#elements`: the smallest number of the group of each.

@@ -20,7 +20,7 @@ use crate::error::Error;
 use crate::tolerance::NEARLY_FLAT;
 #[cfg(any(test, feature = "check"))]
 use crate::watch::Unwatched;
-use crate::watch::Watch;
+use crate::watch::{Watch, collect};
 
 use eyes::Eyes;
 use eyes::{are_apart, are_apart_but_for_corner};
@@ -54,7 +54,7 @@ pub(crate) fn self_intersections(
             let of = |all: &[Triangle]| -> Vec<Triangle> {
                 part.iter().map(|&number| all[number as usize]).collect()
             };
-            let (own, before) = (of(triangles), || of(source));
+            let (own, before) = (of(triangles), || Ok(of(source)));
             let kin = crowds(&own).unwrap_or_default();
             let all = Asked { open: |_| true, pair: |_, _| true };
             let pairs = cutting_pairs(&own, &kin, before, &all, &Unwatched).unwrap_or_default();
@@ -80,19 +80,26 @@ pub(crate) struct Asked<Open, Pair> {
 pub(crate) fn cutting_pairs<Open: Fn(u32) -> bool, Pair: Fn(u32, u32) -> bool>(
     triangles: &[Triangle],
     kin: &[Kin],
-    source: impl Fn() -> Vec<Triangle>,
+    source: impl Fn() -> Result<Vec<Triangle>, Error>,
     asked: &Asked<Open, Pair>,
     watch: &dyn Watch,
 ) -> Result<Vec<(u32, u32)>, Error> {
     watch.worked(triangles.len())?;
-    let boxes: Vec<Aabb> = triangles.iter().map(bounds).collect();
+    let boxes = collect(triangles.len(), watch, |number| bounds(&triangles[number]))?;
     let tree = Tree::watched(&boxes, kin, watch)?;
+    // Giving back so much memory takes a while, too.
+    drop(boxes);
+    watch.worked(triangles.len())?;
     let few = triangles.len().saturating_mul(CROWDED);
     let mut pairs = match cutting_within(&tree, triangles, asked, few, watch)? {
         Some(pairs) => pairs,
         None => {
-            let eyes = Eyes::of(&[&source(), triangles].concat(), watch)?;
-            let tree = tree.with_views(&eyes.views(triangles, watch)?);
+            let source = source()?;
+            let count = source.len() + triangles.len();
+            let either =
+                |number| source.get(number).unwrap_or_else(|| &triangles[number - source.len()]);
+            let eyes = Eyes::of(&collect(count, watch, |number| *either(number))?, watch)?;
+            let tree = tree.with_views_watched(&eyes.views(triangles, watch)?, watch)?;
             watch.worked(triangles.len())?;
             cutting_within(&tree, triangles, asked, usize::MAX, watch)?.unwrap_or_default()
         }
@@ -110,7 +117,7 @@ fn cutting_within<Open: Fn(u32) -> bool, Pair: Fn(u32, u32) -> bool>(
     watch: &dyn Watch,
 ) -> Result<Option<Vec<(u32, u32)>>, Error> {
     let corners = |t: u32| &triangles[t as usize];
-    let (mut pairs, open) = (Vec::new(), tree.open_leaves(&asked.open));
+    let (mut pairs, open) = (Vec::new(), tree.open_leaves(&asked.open, watch)?);
     let steps = Cell::new(0);
     let step = || steps.set(steps.get() + 1);
     for (looked_at, (a, b)) in tree.pairs_counted(&open, &step).enumerate() {

@@ -19,7 +19,7 @@ use crate::offsets::narrow;
 use crate::options::Verify;
 use crate::placement::Placement;
 use crate::report::Reason;
-use crate::watch::{Watch, stretches};
+use crate::watch::{Watch, collect, sort, stretches};
 
 pub use elements::Element;
 
@@ -238,7 +238,7 @@ fn grow(
     sectors: impl Iterator<Item = Sector>,
     watch: &dyn Watch,
 ) -> Result<(), Error> {
-    for sector in in_turn(given, room, &limits.placement, sectors) {
+    for sector in in_turn(given, room, &limits.placement, sectors, watch)? {
         watch.worked(STEPS_OF_GROWTH)?;
         let (mut good, mut bad) = (limits.placement.share[sector], room[sector]);
         let mut found = obstacle(given, &mut limits.placement, sector, bad, None);
@@ -267,6 +267,7 @@ fn give_way(
     limits: &mut Limits,
     watch: &dyn Watch,
 ) -> Result<(), Error> {
+    watch.worked(room.len())?;
     let folds = |sector: &Sector| limits.reason[*sector] == Reason::Folds;
     let mut turned: Vec<Sector> = room.ids().filter(folds).collect();
     if turned.is_empty() {
@@ -315,16 +316,20 @@ fn in_turn(
     room: &IdVec<Sector, f64>,
     placement: &Placement,
     sectors: impl Iterator<Item = Sector>,
-) -> Vec<Sector> {
+    watch: &dyn Watch,
+) -> Result<Vec<Sector>, Error> {
     let is_asked = |sector: &Sector| {
         let ring = given.chamfers.sectors.fans[*sector].ring;
         placement.share[*sector] != room[*sector]
             && given.chamfers.sectors.ring(ring).len() <= LONGEST_GROWN
     };
-    let mut sectors: Vec<Sector> = sectors.filter(is_asked).collect();
+    let told = |sector: Sector| watch.worked(1).map(|()| is_asked(&sector).then_some(sector));
+    let sectors: Result<Vec<Sector>, Error> =
+        sectors.map(told).filter_map(Result::transpose).collect();
+    let sectors = sectors?;
     if sectors.len() > 1 {
         let center = given.surface.view.center();
-        sectors.sort_by_cached_key(|&sector| {
+        let key = |sector: Sector| {
             let (kept, lost) = (placement.share[sector], room[sector] - placement.share[sector]);
             let (base, way) = (placement.base(sector), given.offsets[sector].vector);
             let goal = base + way;
@@ -333,9 +338,12 @@ fn in_turn(
                 [lost, near, way.length(), kept, far].map(|l| (l as f32).to_bits());
             // Those of a shape that is the same on two sides are told apart by nothing else.
             (Reverse(lost), rest, Reverse(goal.to_array().map(in_order)))
-        });
+        };
+        let mut keyed = collect(sectors.len(), watch, |place| (key(sectors[place]), place as u32))?;
+        sort(&mut keyed, watch)?;
+        return collect(keyed.len(), watch, |place| sectors[keyed[place].1 as usize]);
     }
-    sectors
+    Ok(sectors)
 }
 
 /// Bits that sort as the numbers do, rounded, whatever their signs.
@@ -491,7 +499,7 @@ mod tests {
             let stages = stages_of(mesh, 0.1);
             let (given, placement) = (given_of(&stages), stages.placed(0.5));
             let room = IdVec::filled(1.0, stages.offsets.len());
-            let turns = in_turn(&given, &room, &placement, room.ids());
+            let turns = in_turn(&given, &room, &placement, room.ids(), &Unwatched).unwrap();
             let goal = |s: Sector| placement.base(s) + stages.offsets[s].vector;
             let round = |at: glam::DVec3| at.to_array().map(|x| (x * 1000.0).round() as i32);
             turns.into_iter().map(|sector| round(goal(sector))).collect()

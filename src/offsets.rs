@@ -27,7 +27,7 @@ use crate::threads::Threads;
 use crate::tolerance::{CREASE_COSINE, FLAT_COSINE, LEAST_SLIDE_SINE, LEVEL_COSINE};
 use crate::topology::Topology;
 use crate::view::View;
-use crate::watch::Watch;
+use crate::watch::{Times, Watch};
 
 use fronts::follow;
 pub use fronts::{narrow, narrowed, parts};
@@ -42,6 +42,9 @@ const MITER_LIMIT: f64 = 3.0;
 /// A vertex slides along a seam of the texture where that opens the narrower of its two edges by at
 /// least this share of the wider.
 const LEAST_BALANCE: f64 = 0.25;
+
+/// So many steps it takes to unfold a sector and to find its way, as a watch counts them.
+const STEPS_OF_SECTOR: usize = 4;
 
 /// Where a sector's vertex goes at full width.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -117,7 +120,8 @@ pub fn offsets(
 ) -> Result<IdVec<Sector, Offset>, Error> {
     let (Surface { view, topology, faces }, Chamfers { sectors, .. }) = (surface, chamfers);
     let count = sectors.fans.len();
-    let mut offsets = threads.map_with(count, watch, Vec::new, |spread, sector| {
+    let slow = &Times(STEPS_OF_SECTOR, watch);
+    let mut offsets = threads.map_with(count, slow, Vec::new, |spread, sector| {
         if let Some(offset) = known.and_then(|known| known.of(topology, sectors, sector)) {
             return offset;
         }
@@ -129,6 +133,7 @@ pub fn offsets(
         Offset { is_plain: !fan.holds_hard && is_plain(view, faces, spread), ..offset }
     })?;
     for followers in sectors.followers.chunk_by(|one, other| one.sector == other.sector) {
+        slow.worked(followers.len())?;
         let sector = followers[0].sector;
         let corners: Vec<Corner> = sectors.corners(topology, sector).collect();
         if let Some(offset) = follow(view, faces, &offsets, &corners, followers) {
@@ -136,6 +141,7 @@ pub fn offsets(
         }
     }
     for &corner in &sectors.spanned {
+        slow.worked(1)?;
         let fan: Vec<Corner> = sectors.corners(topology, sectors.sector_of[corner]).collect();
         if let Some(offset) = span(view, faces, sectors, &offsets, &fan) {
             offsets[sectors.sector_of[corner]] = offset;

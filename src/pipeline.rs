@@ -42,7 +42,7 @@ use crate::threads::Threads;
 use crate::topology::topology;
 use crate::unpaired::{Unpaired, unpaired, with_verdicts};
 use crate::verdicts::verdicts;
-use crate::view::{View, measured, view};
+use crate::view::{View, measured, view_watched};
 use crate::watch::{Caller, STEPS, Watch};
 use crate::weld::{Weld, weld};
 
@@ -140,7 +140,8 @@ fn chamfer_by_blocks(
     options: &Options,
     progress: &mut dyn FnMut(f32) -> ControlFlow<()>,
 ) -> Result<Chamfered, Error> {
-    turned_right(mesh, options, |view| {
+    let view = view_watched(mesh, options, &Caller::new(&mut || told(progress(0.0))))?;
+    turned_right(view, |view| {
         let ask = &mut || told(progress(0.0));
         let watch = Caller::new(ask);
         let weld = weld(&view.mesh, &watch)?;
@@ -222,7 +223,8 @@ pub fn chamfer_by_stages(
     after: &mut dyn FnMut(Stage) -> ControlFlow<()>,
 ) -> Result<Chamfered, Error> {
     let done = &mut |stage: Option<Stage>| stage.map_or(Ok(()), |stage| told(after(stage)));
-    turned_right(mesh, options, |view| {
+    let view = view_watched(mesh, options, &Caller::new(&mut || done(None)))?;
+    turned_right(view, |view| {
         done(Some(Stage::View))?;
         let weld = weld(&view.mesh, &Caller::new(&mut || done(None)))?;
         chamfer_welded(view, weld, options, done)
@@ -231,11 +233,9 @@ pub fn chamfer_by_stages(
 
 /// A mesh whose normals all point inward is done as if they pointed outward.
 fn turned_right(
-    mesh: &Mesh,
-    options: &Options,
+    view: View,
     chamfered: impl FnOnce(View) -> Result<Chamfered, Error>,
 ) -> Result<Chamfered, Error> {
-    let view = view(mesh, options)?;
     if !is_inside_out(&view) {
         return chamfered(view);
     }
@@ -452,13 +452,16 @@ fn chamfer_shape(
     (threads, done): (&Threads, &mut Done),
 ) -> Result<Chamfered, Error> {
     let made = make(space, (&shape, &offsets), options, (threads, done))?;
+    done(None)?;
     let Made { patches, rounding, charts, flaps, attributes, verdicts: (verdicts, totals) } = made;
     let largest_width = (shape.edges.widest(space.measured.width) / space.largest()) as f32;
     // What the output does not read is given back: it is where a call needs the most memory.
     let Shape { weld, topology, faces, contacts, edges, sectors } = shape;
     let (target, ask) = (options.chamfer_submesh, &mut || done(None));
     let watch = &Caller::new(ask);
-    drop((offsets, topology));
+    drop(offsets);
+    watch.worked(space.source.corner_count())?;
+    drop(topology);
     watch.worked(space.source.corner_count())?;
     drop((faces, contacts, edges, sectors));
     watch.worked(space.source.corner_count())?;
@@ -494,10 +497,12 @@ fn make(
     let deep = &deep(topology, chamfers.sectors, &watch)?;
     let asked = &Given { surface, chamfers, offsets, rests: &Rests::default(), deep, threads };
     let room = evenness(asked, room(asked, &watch)?, options.evenness.into(), &watch)?;
-    let offsets = &*narrowed(surface, chamfers.sectors, offsets, &room.fronts, &watch)?;
+    let narrowed = narrowed(surface, chamfers.sectors, offsets, &room.fronts, &watch)?;
+    let offsets = &*narrowed;
     let shares = room.shares(&Given { offsets, ..*asked }, &watch)?;
     // The stages to come take far more memory than these, so what they do not read is given back.
     drop(room);
+    watch.worked(view.corner_count())?;
     let most = Most { offsets, shares: &shares };
     let rests = &rests(surface, chamfers, contacts, most, (threads, &watch))?;
     let given = &Given { offsets, rests, ..*asked };
@@ -536,5 +541,10 @@ fn make(
     let charts = charts(surface, chamfers, placement, &patches, &attributes, work)?;
     done(Some(Stage::Charts))?;
     let flaps = flaps(surface, chamfers, placement);
+    // Giving back so much memory takes a while, too.
+    drop(limits);
+    done(None)?;
+    drop(narrowed);
+    done(None)?;
     Ok(Made { patches, rounding, charts, flaps, attributes, verdicts })
 }

@@ -57,7 +57,7 @@ pub fn split_by_angle(
     let counts = [u32::try_from(indices.len()).map_err(|_| Error::TooLarge)?];
     let mesh = Mesh { positions, indices, submesh_index_counts: &counts, ..Mesh::default() };
     check_indices(&mesh)?;
-    check_finite(&mesh)?;
+    check_finite(&mesh, &Unwatched)?;
     memory::ask(memory::of_normals(&mesh))?;
     split(positions, indices, &counts, angle_degrees)
 }

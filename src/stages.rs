@@ -193,6 +193,7 @@ mod tests {
     use super::*;
     use crate::error::Error;
     use crate::shapes;
+    use crate::view::view_watched;
 
     /// Stops when it is told for the last time that it bears.
     struct Bears(Cell<usize>);
@@ -240,6 +241,17 @@ mod tests {
         let limited = |verify| times(|watch| limits(given, open, verify, watch));
         assert!(limited(Verify::Fast) > 8);
         assert!(limited(Verify::Full) > limited(Verify::Fast));
+    }
+
+    #[test]
+    fn validating_a_mesh_and_telling_its_solids_apart_can_be_stopped() {
+        let (cube, options) = (shapes::cube(1.0), Options::default());
+        let mesh = cube.as_mesh();
+        let streams = 4 + crate::mesh::UV_CHANNELS;
+        assert_eq!(times(|watch| view_watched(&mesh, &options, watch)), 1 + streams);
+        let stages = stages_of(&cube, 0.1);
+        let solids = |watch: &dyn Watch| crate::topology::solids(&stages.topology, watch);
+        assert_eq!(times(solids), 2, "once what is joined, once its labels");
     }
 
     #[test]

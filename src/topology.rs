@@ -106,7 +106,7 @@ pub fn topology(view: &View, weld: &Weld, watch: &dyn Watch) -> Result<Topology,
     };
     join_all(view, &mut joined, watch)?;
     joined.sort();
-    solids::keep_sheets(view, &mut joined);
+    solids::keep_sheets(view, &mut joined, watch)?;
     Ok(joined)
 }
 

@@ -12,6 +12,7 @@ use crate::options::{ChamferSubmesh, MOST_SEGMENTS, Options, Width};
 use crate::tolerance::{
     ALIKE_COSINE, ALIKE_SHARE, HARD_COSINE, LEAST_ROUNDING, LINE_HEIGHT, RESOLUTION_STEPS,
 };
+use crate::watch::{Unwatched, Watch};
 
 /// New elements are fewer than eight for each source corner, so ids stay within 32 bits.
 pub const MAX_CORNERS: usize = u32::MAX as usize / 8;
@@ -46,11 +47,24 @@ pub struct Stored<'a> {
     pub back: DMat3,
 }
 
-/// Validates a mesh and the options that go with it.
+/// As [`view_watched`], with no one to tell.
 pub fn view<'a>(mesh: &Mesh<'a>, options: &Options) -> Result<View<'a>, Error> {
+    view_watched(mesh, options, &Unwatched)
+}
+
+/// Validates a mesh and the options that go with it.
+///
+/// # Errors
+/// The rule that is broken, and [`Error::Cancelled`] where the watch stops it.
+pub fn view_watched<'a>(
+    mesh: &Mesh<'a>,
+    options: &Options,
+    watch: &dyn Watch,
+) -> Result<View<'a>, Error> {
     check_lengths(mesh)?;
     check_indices(mesh)?;
-    check_finite(mesh)?;
+    watch.worked(mesh.indices.len())?;
+    check_finite(mesh, watch)?;
     memory::ask(memory::of_weld(mesh))?;
     if let ChamferSubmesh::Given(submesh) = options.chamfer_submesh {
         let submeshes = mesh.submesh_index_counts.len() as u32;
@@ -70,7 +84,7 @@ pub fn view<'a>(mesh: &Mesh<'a>, options: &Options) -> Result<View<'a>, Error> {
 
 /// A mesh that keeps all rules, where it is measured: see [`crate::scale`].
 pub fn measured<'a>(mesh: Mesh<'a>, options: &Options) -> Result<View<'a>, Error> {
-    check_finite(&mesh).map_err(|_| Error::BadScale)?;
+    check_finite(&mesh, &Unwatched).map_err(|_| Error::BadScale)?;
     let width = width_in_units(&mesh, options.width)?;
     let least_breadth = options.least_breadth.into();
     Ok(View { width, least_breadth, ..View::new(mesh, options.hard_angle) })
@@ -343,7 +357,14 @@ pub fn check_indices(mesh: &Mesh) -> Result<(), Error> {
 }
 
 /// Whether all values of all streams are finite.
-pub fn check_finite(mesh: &Mesh) -> Result<(), Error> {
+///
+/// # Errors
+/// The first that is not, and [`Error::Cancelled`] where the watch stops it.
+pub fn check_finite(mesh: &Mesh, watch: &dyn Watch) -> Result<(), Error> {
+    let check_stream = |stream, values: &[f32], components| {
+        check_stream(stream, values, components)?;
+        watch.worked(values.len())
+    };
     check_stream(Stream::Positions, mesh.positions.as_flattened(), 3)?;
     check_stream(Stream::Normals, mesh.normals.as_flattened(), 3)?;
     check_stream(Stream::Tangents, mesh.tangents.as_flattened(), 4)?;

@@ -71,6 +71,22 @@ pub fn each<I: Id>(count: usize, watch: &dyn Watch, mut act: impl FnMut(I)) -> R
     Ok(())
 }
 
+/// The values of all numbers below one; the watch is told of each stretch of them.
+///
+/// # Errors
+/// What `watch` gives.
+pub fn collect<T>(
+    count: usize,
+    watch: &dyn Watch,
+    mut value: impl FnMut(usize) -> T,
+) -> Result<Vec<T>, Error> {
+    let mut values = Vec::with_capacity(count);
+    for stretch in stretches(count, watch) {
+        values.extend(stretch?.map(&mut value));
+    }
+    Ok(values)
+}
+
 /// Sorts, and tells the watch again and again.
 ///
 /// # Errors
@@ -161,6 +177,16 @@ pub mod tests {
         each(1000, &sum, |triangle: Triangle| seen.push(triangle.0)).unwrap();
         assert_eq!(seen, (0..1000).collect::<Vec<u32>>());
         assert_eq!(sum.0.get(), [1000, 4]);
+    }
+
+    #[test]
+    fn values_are_collected_in_order_and_told() {
+        let sum = Sum::default();
+        let values = collect(1000, &sum, |number| number * 2).unwrap();
+        assert!(values.into_iter().eq((0..1000).map(|number| number * 2)));
+        assert_eq!(sum.0.get(), [1000, 4]);
+        let stopped = |last| collect(1000, &Count { told: Cell::new(0), last }, |number| number);
+        assert!([1, 4].map(stopped).iter().all(Result::is_err) && stopped(5).is_ok());
     }
 
     #[test]

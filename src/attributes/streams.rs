@@ -9,14 +9,16 @@ use smallvec::SmallVec;
 
 use super::Index;
 use crate::breaks::uv_at;
+use crate::error::Error;
 use crate::ids::{Cluster, Id, Vertex};
 use crate::math::unit;
-use crate::mesh::{MeshBuffers, Uv, UvBuffer};
+use crate::mesh::{MeshBuffers, UV_CHANNELS, UvBuffer};
 use crate::report::{Blend, VertexSource, VertexSources};
 use crate::resample::{blended_normal, weighted_sum};
 use crate::rounding::joined;
 use crate::tolerance::{LEAST_REST, ORTHOGONAL};
 use crate::view::{View, wide};
+use crate::watch::{Watch, stretches};
 use crate::weld::Weld;
 
 /// UV channels as bits.
@@ -146,26 +148,31 @@ pub struct Streams {
 impl Streams {
     /// The streams of the source as they are. So many of its vertices will move, about; and there
     /// is room for some more.
-    pub fn of_source(view: &View, moved: usize, room: usize) -> Streams {
+    pub fn of_source(
+        view: &View,
+        (moved, room): (usize, usize),
+        watch: &dyn Watch,
+    ) -> Result<Streams, Error> {
         let mesh = &view.mesh;
-        let uv = |uv: &Uv| UvBuffer {
-            components: uv.components,
-            values: copied(uv.values, room * uv.components as usize),
-        };
-        Streams {
+        let mut uvs: [UvBuffer; UV_CHANNELS] = Default::default();
+        for (copy, uv) in uvs.iter_mut().zip(&mesh.uvs) {
+            let values = copied(uv.values, room * uv.components as usize, watch)?;
+            *copy = UvBuffer { components: uv.components, values };
+        }
+        Ok(Streams {
             vertices: MeshBuffers {
-                positions: copied(mesh.positions, room),
-                normals: copied(mesh.normals, room),
-                tangents: copied(mesh.tangents, room),
-                colors: copied(mesh.colors, room),
-                uvs: mesh.uvs.each_ref().map(uv),
+                positions: copied(mesh.positions, room, watch)?,
+                normals: copied(mesh.normals, room, watch)?,
+                tangents: copied(mesh.tangents, room, watch)?,
+                colors: copied(mesh.colors, room, watch)?,
+                uvs,
                 ..MeshBuffers::default()
             },
             sources: VertexSources::with_room(mesh.positions.len(), moved, room),
             columns: columns(view),
             color_range: color_range(mesh.colors),
             index: Index::default(),
-        }
+        })
     }
 
     /// A vertex's value in a UV channel.
@@ -411,11 +418,13 @@ fn copy_few(from: &[f32], to: &mut [f32]) {
 }
 
 /// A copy with room for some more; an absent stream stays absent.
-fn copied<T: Copy>(values: &[T], room: usize) -> Vec<T> {
+fn copied<T: Copy>(values: &[T], room: usize, watch: &dyn Watch) -> Result<Vec<T>, Error> {
     let room = if values.is_empty() { 0 } else { room };
     let mut copy = Vec::with_capacity(values.len() + room);
-    copy.extend_from_slice(values);
-    copy
+    for stretch in stretches(values.len(), watch) {
+        copy.extend_from_slice(&values[stretch?]);
+    }
+    Ok(copy)
 }
 
 /// Equal values stay equal to the bit, whatever the weights.

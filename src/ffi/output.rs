@@ -10,6 +10,7 @@ use super::status::Failure;
 use super::types::*;
 use crate::memory;
 use crate::view::{check_finite, check_indices};
+use crate::watch::Unwatched;
 use crate::{
     Blend, Chamfered, EdgeFactor, EdgeVerdict, Error, Mesh, MeshBuffers, Outcome, Reason, Smoothed,
     Totals, TriangleKind, TriangleSource, Uv, UvBuffer, VertexSource, split_by_angle,
@@ -141,7 +142,7 @@ pub fn with_normals(mesh: &Mesh, angle_degrees: f32) -> Result<Chamfered, Failur
     // `split_by_angle` knows of no submeshes and no other streams.
     check_indices(mesh)?;
     // The normals are ignored, whatever they are; all else goes out again.
-    check_finite(&Mesh { normals: &[], ..*mesh })?;
+    check_finite(&Mesh { normals: &[], ..*mesh }, &Unwatched)?;
     memory::ask(memory::of_normals(mesh))?;
     let smoothed = split_by_angle(mesh.positions, mesh.indices, angle_degrees)?;
     let triangles = smoothed.indices.len() as u32 / 3;

@@ -10,17 +10,18 @@ use std::sync::OnceLock;
 use glam::DVec3;
 
 use crate::bvh::Kin;
+use crate::chamfers::Chamfers;
 use crate::error::Error;
 use crate::fills::{middle, ring_fill};
 use crate::flaps::is_open;
-use crate::ids::{Corner, Few, Id, IdVec, Ring, Sector};
+use crate::ids::{self, Corner, Edge, Few, Id, IdVec, Ring, Sector};
 use crate::intersect::{self, Asked, Triangle, cutting_pairs};
 use crate::memory;
 use crate::placement::Placement;
 use crate::report::Reason;
 use crate::strips;
 use crate::topology::solids;
-use crate::watch::Watch;
+use crate::watch::{Watch, collect, each, stretches};
 
 use super::crowds::{Crowd, Crowds, crowds};
 use super::elements::{Element, around, flap_joints, sectors_of};
@@ -51,7 +52,8 @@ pub fn resolve(given: &Given, limits: &mut Limits, watch: &dyn Watch) -> Result<
         let shrunk = shrink_cuts(given, limits, (part, watch), cuts)?;
         give_back(given, limits, (part, watch), (&shrunk, &free))?;
     }
-    Ok(())
+    drop(parts);
+    watch.worked(given.surface.view.corner_count())
 }
 
 /// Looks for what cuts where strips and fills are rounded, and lets the state have fewer rounded ones,
@@ -262,14 +264,17 @@ impl Part<'_> {
         watch: &dyn Watch,
     ) -> Result<Vec<Element>, Error> {
         let laid = self.lay_out(placement, open, rounded, watch)?;
-        let triangles: Vec<Triangle> = laid.iter().map(|each| each.corners).collect();
+        let triangles = collect(laid.len(), watch, |number| laid[number].corners)?;
         let open = |number: u32| laid[number as usize].is_open;
         let pair = |a: u32, b: u32| {
             let [a, b] = [a, b].map(|number| &laid[number as usize]);
             (a.is_open | b.is_open) & (a.is_changed | b.is_changed)
         };
-        let (kin, source) = (self.kin(placement, &laid, watch)?, || self.source_triangles());
+        let (kin, source) = (self.kin(placement, &laid, watch)?, || self.source_triangles(watch));
         let pairs = cutting_pairs(&triangles, &kin, source, &Asked { open, pair }, watch)?;
+        // Giving back so much memory takes a while, too.
+        drop(triangles);
+        watch.worked(laid.len())?;
         if pairs.is_empty() || self.was_cut(watch)? {
             return Ok(Vec::new());
         }
@@ -284,20 +289,24 @@ impl Part<'_> {
         if let Some(&known) = self.was_cut.get() {
             return Ok(known);
         }
-        let triangles = self.source_triangles();
+        let triangles = self.source_triangles(watch)?;
         let kin = intersect::crowds(&triangles).unwrap_or_default();
         let all = Asked { open: |_| true, pair: |_, _| true };
-        let was_cut = !cutting_pairs(&triangles, &kin, Vec::new, &all, watch)?.is_empty();
+        let was_cut = !cutting_pairs(&triangles, &kin, || Ok(Vec::new()), &all, watch)?.is_empty();
         Ok(*self.was_cut.get_or_init(|| was_cut))
     }
 
     /// The part as it was.
-    fn source_triangles(&self) -> Vec<Triangle> {
+    fn source_triangles(&self, watch: &dyn Watch) -> Result<Vec<Triangle>, Error> {
         let source = |element: &Element| match *element {
             Element::Surface(triangle) => Some(triangle.corners().map(|c| self.source(c))),
             Element::Strip(_) | Element::Fill(_) | Element::Flap(_) => None,
         };
-        self.elements.iter().filter_map(source).collect()
+        let mut triangles = Vec::with_capacity(self.elements.len());
+        for stretch in stretches(self.elements.len(), watch) {
+            triangles.extend(self.elements[stretch?].iter().filter_map(source));
+        }
+        Ok(triangles)
     }
 
     /// `#triangles`: where each lies as seen from where its crowd meets; none without any crowd.
@@ -399,59 +408,90 @@ impl Part<'_> {
     }
 }
 
+/// An element, and the solid that it belongs to.
+type Labelled = (u32, Element);
+
 /// The parts with chamfered edges.
 fn parts<'a>(given: &'a Given<'a>, watch: &dyn Watch) -> Result<Vec<Part<'a>>, Error> {
-    let label_of = solids(given.surface.topology);
-    watch.worked(label_of.len())?;
-    let label = |corner: Corner| label_of[corner.triangle().index()];
-    let mut is_chamfered = vec![false; label_of.len()];
-    let chamfered = || {
-        given
-            .chamfers
-            .edges
-            .hard
-            .ids()
-            .filter(|&edge| given.chamfers.edges.hard[edge].skipped.is_none())
-    };
-    chamfered().for_each(|edge| {
-        is_chamfered[label(given.chamfers.edges.hard[edge].sides[0]) as usize] = true;
-    });
-    let triangles =
-        given.surface.view.triangles().map(|t| (label_of[t.index()], Element::Surface(t)));
-    let strips = chamfered()
-        .map(|edge| (label(given.chamfers.edges.hard[edge].sides[0]), Element::Strip(edge)));
-    let first =
-        |ring: Ring| given.chamfers.sectors.fans[given.chamfers.sectors.ring(ring)[0]].first;
-    let fills = given
-        .chamfers
-        .sectors
-        .rings
-        .ids()
-        .filter(|&ring| given.chamfers.sectors.ring(ring).len() >= 3);
-    let fills = fills.map(|ring| (label(first(ring)), Element::Fill(ring)));
-    let flaps = (0u32..).zip(&given.chamfers.edges.parted);
-    let flaps = flaps.map(|(place, parted)| (label(parted.corner), Element::Flap(place)));
-    let mut all: Vec<(u32, Element)> = triangles
-        .chain(strips)
-        .chain(fills)
-        .chain(flaps)
-        .filter(|(label, _)| is_chamfered[*label as usize])
-        .collect();
-    // They stand in the order of their keys.
-    all.sort_by_key(|(label, _)| *label);
-    let crowds = crowds(given);
-    watch.worked(all.len())?;
-    let part = |group: &[(u32, Element)]| {
-        let elements: Vec<Element> = group.iter().map(|(_, element)| *element).collect();
-        let of = |crowds: &Crowds| -> Vec<Option<Crowd>> {
-            elements.iter().map(|&element| crowds.of(given, element)).collect()
+    let label_of = solids(given.surface.topology, watch)?;
+    let all = together(&labelled(given, &label_of, watch)?, label_of.len(), watch)?;
+    drop(label_of);
+    let crowds = crowds(given, watch)?;
+    let part = |group: &[Labelled]| {
+        let elements = collect(group.len(), watch, |place| group[place].1)?;
+        let of = |crowds: &Crowds| {
+            collect(elements.len(), watch, |place| crowds.of(given, elements[place]))
         };
-        let crowds = crowds.as_ref().map(of).filter(|all| all.iter().any(Option::is_some));
-        let (crowds, was_cut) = (crowds.unwrap_or_default(), OnceLock::new());
-        watch.worked(group.len())?;
-        Ok(Part { given, elements, crowds, was_cut })
+        let crowds = crowds.as_ref().map(of).transpose()?;
+        let crowds = crowds.filter(|all| all.iter().any(Option::is_some)).unwrap_or_default();
+        Ok(Part { given, elements, crowds, was_cut: OnceLock::new() })
     };
     all.chunk_by(|one, other| one.0 == other.0).map(part).collect()
+}
+
+/// The elements of the parts with chamfered edges, in the order of their keys; `label_of: #triangles`.
+fn labelled(given: &Given, label_of: &[u32], watch: &dyn Watch) -> Result<Vec<Labelled>, Error> {
+    let chamfers = given.chamfers;
+    let (hard, parted) = (&chamfers.edges.hard, &chamfers.edges.parted);
+    let (rings, sectors) = (&chamfers.sectors.rings, chamfers.sectors);
+    let label = |corner: Corner| label_of[corner.triangle().index()];
+    let is_chamfered = chamfered(chamfers, label_of, watch)?;
+    let mut all = Vec::with_capacity(label_of.len() + hard.len() + rings.len() + parted.len());
+    let mut add = |label: u32, element: Element| {
+        if is_chamfered[label as usize] {
+            all.push((label, element));
+        }
+    };
+    each(label_of.len(), watch, |triangle: ids::Triangle| {
+        add(label_of[triangle.index()], Element::Surface(triangle));
+    })?;
+    each(hard.len(), watch, |edge: Edge| {
+        if hard[edge].skipped.is_none() {
+            add(label(hard[edge].sides[0]), Element::Strip(edge));
+        }
+    })?;
+    each(rings.len(), watch, |ring: Ring| {
+        if let [first, _, _, ..] = sectors.ring(ring) {
+            add(label(sectors.fans[*first].first), Element::Fill(ring));
+        }
+    })?;
+    for (place, parted) in (0..).zip(parted) {
+        watch.worked(1)?;
+        add(label(parted.corner), Element::Flap(place));
+    }
+    Ok(all)
+}
+
+/// `#labels`: whether some edge of the solid is chamfered.
+fn chamfered(chamfers: Chamfers, label_of: &[u32], watch: &dyn Watch) -> Result<Vec<bool>, Error> {
+    let (hard, mut is_chamfered) = (&chamfers.edges.hard, vec![false; label_of.len()]);
+    each(hard.len(), watch, |edge: Edge| {
+        if hard[edge].skipped.is_none() {
+            is_chamfered[label_of[hard[edge].sides[0].triangle().index()] as usize] = true;
+        }
+    })?;
+    Ok(is_chamfered)
+}
+
+/// Solid by solid, and each in the order of before; labels are below a number. Counted, as that takes
+/// linear time and can be stopped anywhere.
+fn together(all: &[Labelled], labels: usize, watch: &dyn Watch) -> Result<Vec<Labelled>, Error> {
+    let mut starts = vec![0_u32; labels + 1];
+    for stretch in stretches(all.len(), watch) {
+        all[stretch?].iter().for_each(|&(label, _)| starts[label as usize + 1] += 1);
+    }
+    for stretch in stretches(labels, watch) {
+        stretch?.for_each(|label| starts[label + 1] += starts[label]);
+    }
+    let mut sorted = collect(all.len(), watch, |_| all[0])?;
+    for stretch in stretches(all.len(), watch) {
+        for each in &all[stretch?] {
+            let place = &mut starts[each.0 as usize];
+            sorted[*place as usize] = *each;
+            *place += 1;
+        }
+    }
+    Ok(sorted)
 }
 
 #[cfg(test)]
@@ -480,6 +520,15 @@ mod tests {
         assert_eq!(sizes(&shapes::plain_cube(1.0)), [12 + 12 + 8]);
         assert_eq!(sizes(&shapes::cube_field(3)), [32; 3]);
         assert_eq!(sizes(&shapes::sphere(4, 6)), [], "nothing is chamfered");
+    }
+
+    #[test]
+    fn what_stands_mixed_comes_together_in_its_order() {
+        let all: Vec<Labelled> =
+            [4, 0, 4, 2, 0].into_iter().zip((0..).map(Element::Flap)).collect();
+        let sorted = together(&all, 5, &Unwatched).unwrap();
+        assert_eq!(sorted, [1, 4, 3, 0, 2].map(|place: usize| all[place]));
+        assert_eq!(together(&[], 0, &Unwatched).unwrap(), []);
     }
 
     /// The elements that cut where every sector stands at a share of its full width, whether there

@@ -4,10 +4,12 @@
 //! seen from there they lie in different directions, and still do when they have been pulled apart;
 //! and what lies beside a crowd is told from it the same way.
 
+use crate::error::Error;
 use crate::ids::{Cluster, Corner, Id, IdVec, Sector, Vertex};
 use crate::intersect::Around;
 use crate::placement::Placement;
 use crate::topology::Topology;
+use crate::watch::{Watch, each};
 
 use super::elements::{Element, flap_joints};
 use crate::given::Given;
@@ -60,16 +62,26 @@ pub struct Crowds {
 }
 
 /// None in most meshes.
-pub fn crowds(given: &Given) -> Option<Crowds> {
-    let mut at_cluster = IdVec::filled(0, given.surface.topology.clusters);
-    given.surface.topology.cluster_at.iter().for_each(|&cluster| at_cluster[cluster] += 1);
+///
+/// # Errors
+/// [`Error::Cancelled`] where the watch stops it.
+pub fn crowds(given: &Given, watch: &dyn Watch) -> Result<Option<Crowds>, Error> {
+    let (topology, sectors) = (given.surface.topology, given.chamfers.sectors);
+    let mut at_cluster = IdVec::filled(0, topology.clusters);
+    each(topology.cluster_at.len(), watch, |corner: Corner| {
+        at_cluster[topology.cluster_at[corner]] += 1;
+    })?;
     if at_cluster.iter().all(|&count| count < CROWD) {
-        return None;
+        return Ok(None);
     }
-    let mut in_sector = IdVec::filled(0, given.chamfers.sectors.fans.len());
-    let sectors = given.chamfers.sectors.sector_of.iter().filter(|sector| sector.is_some());
-    sectors.for_each(|&sector| in_sector[sector] += 1);
-    Some(Crowds { at_cluster, in_sector, on_side: crowded_sides(given.surface.topology) })
+    let mut in_sector = IdVec::filled(0, sectors.fans.len());
+    each(sectors.sector_of.len(), watch, |corner: Corner| {
+        let sector = sectors.sector_of[corner];
+        if sector.is_some() {
+            in_sector[sector] += 1;
+        }
+    })?;
+    Ok(Some(Crowds { at_cluster, in_sector, on_side: crowded_sides(topology) }))
 }
 
 impl Crowds {
@@ -138,14 +150,15 @@ mod tests {
     use crate::given::tests::given_of;
     use crate::shapes;
     use crate::stages::stages_of;
+    use crate::watch::Unwatched;
 
     #[test]
     fn many_faces_at_one_corner_are_a_crowd() {
         let (few, many) = (shapes::pyramid(8), shapes::pyramid(40));
-        assert!(crowds(&given_of(&stages_of(&few, 0.1))).is_none());
+        assert!(crowds(&given_of(&stages_of(&few, 0.1)), &Unwatched).unwrap().is_none());
         let stages = stages_of(&many, 0.1);
         let given = given_of(&stages);
-        let crowds = crowds(&given).unwrap();
+        let crowds = crowds(&given, &Unwatched).unwrap().unwrap();
         let of = |triangle| crowds.of(&given, Element::Surface(triangle)).unwrap();
         let found: Vec<Crowd> = stages.view.triangles().map(of).collect();
         let same = |crowd: &Crowd, other: usize| crowd.name() == found[other].name();
