@@ -123,6 +123,20 @@ fn an_edge_that_is_one_above_and_several_below_is_chamfered_as_one() {
 //  A-------.---B       of edges that overlap, each longer one
 //  .---.-------.
 #[test]
+fn a_triangle_that_is_but_a_line_is_no_side_of_an_edge() {
+    let mut mesh = roof_on_wall(&[0.0, 1.0, 2.0, 3.0], &[[0.0, 3.0]], FRONT);
+    let alone = told(&mesh, &chamfered(&mesh));
+    for [from, to] in [[[0.0; 3], [3.0, 0.0, 0.0]], [[3.0, 0.0, 0.0], [0.0; 3]]] {
+        let first = mesh.positions.len() as u32;
+        mesh.positions.extend([from, to]);
+        mesh.normals.extend([UP; 2]);
+        mesh.indices.extend([first, first, first + 1]);
+        mesh.submesh_index_counts[0] += 3;
+        assert_eq!(told(&mesh, &chamfered(&mesh)), alone);
+    }
+}
+
+#[test]
 fn edges_that_overlap_are_chamfered() {
     let mesh = roof_on_wall(&[0.0, 1.0, 4.0], &[[0.0, 3.0], [3.0, 4.0]], FRONT);
     let result = chamfered(&mesh);

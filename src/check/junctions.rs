@@ -12,7 +12,7 @@ const REACH: f64 = 16.0;
 /// Of many that lie on one line, comparing all of them would take quadratic time.
 const MOST_ALONG: usize = 64;
 
-/// The open borders of a mesh.
+/// The open borders of a mesh; what is but a line closes none.
 pub(super) struct Borders<'a> {
     surface: &'a Surface<'a>,
     all: Vec<&'a HalfEdge>,
@@ -22,10 +22,15 @@ pub(super) struct Borders<'a> {
 
 impl<'a> Borders<'a> {
     pub fn new(surface: &'a Surface<'a>) -> Borders<'a> {
+        let is_whole = |side: &&HalfEdge| !surface.is_collapsed(side.corners[0]);
+        let whole = |sides: &'a [HalfEdge]| sides.iter().filter(is_whole);
         let all: Vec<&HalfEdge> = surface
             .edges()
-            .filter(|(forward, backward)| forward.is_empty() || backward.is_empty())
-            .flat_map(|(forward, backward)| forward.iter().chain(backward))
+            .map(|(forward, backward)| [forward, backward].map(whole))
+            .filter(|[forward, backward]| {
+                forward.clone().next().is_none() || backward.clone().next().is_none()
+            })
+            .flat_map(|[forward, backward]| forward.chain(backward))
             .collect();
         let boxes: Vec<Aabb> = all.iter().map(|border| around(surface, border)).collect();
         // The boxes of slanted ones overlap by the thousand.

@@ -102,8 +102,11 @@ impl<'a> Sides<'a> {
             return false;
         };
         let (forward, backward) = self.edges[edge as usize];
-        if forward.is_empty() || backward.is_empty() {
-            let sides = || forward.iter().chain(backward);
+        // What is but a line is no second side.
+        let is_whole = |side: &&HalfEdge| !self.surface.is_collapsed(side.corners[0]);
+        let is_open = |sides: &[HalfEdge]| !sides.iter().any(|side| is_whole(&side));
+        if is_open(forward) || is_open(backward) {
+            let sides = || forward.iter().chain(backward).filter(is_whole);
             // Nothing to measure between: its sides run the same way, or are of other lengths.
             return verdict.outcome == Outcome::Skipped && verdict.widths == [0.0; 2]
                 || sides().any(|side| self.agrees_in_parts(verdict, side, ruler, tolerance));
