@@ -119,8 +119,8 @@ struct Moving {
 }
 
 impl Moving {
-    /// Gives each vertex of the sectors noted its new place: in its own index if that is free; else it is
-    /// noted, and past the source vertices its number among those noted stands for it.
+    /// Gives each vertex that moves its new place: in its own index if that is free; else it is parted, and
+    /// past the source vertices its number among those parted stands for it.
     fn take(&mut self, notes: &mut Notes) {
         let sources = self.taken.len() as u32;
         for place in 0..notes.moved.len() {
@@ -209,7 +209,7 @@ fn twin_of(view: &View, streams: &Streams, others: &[Moved], own: &Moved) -> Opt
     others.iter().position(is_twin)
 }
 
-/// Appends the vertices that were noted, and puts them in the place of their numbers.
+/// Appends the vertices that were parted, and puts them in the place of their numbers.
 fn add_parted(
     (space, surface): (Space, Surface),
     placement: &Placement,
