@@ -210,3 +210,24 @@ fn what_is_far_wider_than_asked_is_not_full() {
     assert!(!wide.is_empty(), "{:?}", result.verdicts);
     assert!(wide.iter().all(|v| v.outcome == Outcome::Narrowed), "{wide:?}");
 }
+
+/// `T` stands on the edge from `R` to `Q`, so that their triangle is cut from it to `P`, where two others
+/// meet: each half of the cut would be a side of a hard edge that the source has not.
+#[test]
+fn no_edge_lies_on_a_cut_along_an_edge_of_others() {
+    let points = [
+        [-73.0, -42.0, -75.0], // P
+        [-1.0; 3],             // Q
+        [-73.0; 3],            // R
+        [-65.0, -73.0, -73.0], // S
+        [-5.0; 3],             // T
+    ];
+    let [p, q, r, s, t] = [0, 1, 2, 3, 4];
+    let mesh = shaded::shaded(&points, &[r, q, p, p, q, t, s, p, t, t, r, s], shaded::FLAT);
+    for width in [0.5, 1.0, 2.0].map(Width::PercentOfExtent) {
+        let result = chamfered(&mesh, width);
+        assert_sound("a cut along an edge", &mesh.as_mesh(), &result);
+        let mut ends = result.verdicts.iter().flat_map(|verdict| verdict.vertices);
+        assert!(ends.all(|end| (end as usize) < mesh.positions.len()));
+    }
+}

@@ -200,10 +200,17 @@ impl Stitched {
         pieces.map(|piece| (piece.triangle, source.normal[piece.source])).collect()
     }
 
-    /// What brings no chamfer, by the edges of the finer mesh.
+    /// What brings no chamfer, and what brings a hard edge where the source has none, by the edges of the
+    /// finer mesh.
     pub fn idle(&self, shape: &Shape, edges: &Edges) -> Left {
         let is_chamfered = |meeting: &&Meeting| edges.chamfered_at[meeting.sides[0]].is_some();
-        self.all_but(shape, self.new_twins.iter().filter(is_chamfered))
+        let mut idle = self.all_but(shape, self.new_twins.iter().filter(is_chamfered));
+        for side in edges.hard.iter().flat_map(|edge| edge.sides) {
+            let cut = self.refined.piece(side.triangle());
+            let cut = cut.filter(|piece| piece.source_side(side.0 as usize % 3).is_none());
+            idle.sides.extend(cut.into_iter().flat_map(|piece| self.long_sides_of(piece.source)));
+        }
+        idle
     }
 
     /// All that none of these half-edges needs.
