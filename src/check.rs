@@ -60,7 +60,7 @@ pub fn check(before: &Mesh, after: &Chamfered, depth: Verify) -> Findings {
         let own: Vec<u32> = (0..mesh.submesh_index_counts.len() as u32).collect();
         let extras = Extras::default().with_materials([&own; 2]).with_scale(after.scale);
         check_geometry(&surfaces, &origins, &extras, depth, &mut findings);
-        let ruler = Ruler::new(&surfaces, &origins).in_space_of(after);
+        let ruler = Ruler::new(&surfaces, &origins);
         verdicts::check_verdicts(&ruler, after, &mut findings);
     }
     findings

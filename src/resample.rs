@@ -14,7 +14,7 @@ use crate::offsets::Offset;
 use crate::report::Blend;
 use crate::sectors::Sectors;
 use crate::surface::Surface;
-use crate::view::View;
+use crate::view::{Stored, View, wide};
 
 /// So much nearer than the farthest place that can be told, for the sake of rounding.
 const TOLD_SAFETY: f64 = 1.0005;
@@ -177,13 +177,20 @@ fn is_even(surface: Surface, part: &[Corner], corner: Corner) -> bool {
     part.iter().all(is_even)
 }
 
-/// The unit normal of a blend of source vertices; exactly theirs where they are all equal.
+/// The unit normal of a blend of source vertices; exactly theirs where they are all equal. Where the
+/// mesh is measured stretched, it is what is stored that is blended, as it is where it is drawn.
 pub fn blended_normal(view: &View, blend: &Blend) -> DVec3 {
     let normals = blend.vertices.map(|vertex| view.normal(Vertex(vertex)));
     if normals[0] == normals[1] && normals[0] == normals[2] {
         return normals[0];
     }
-    let mixed = weighted_sum(blend, normals);
+    let mixed = match &view.stored {
+        Some(Stored { normals, normal_to, .. }) => {
+            let stored = blend.vertices.map(|vertex| wide(normals[vertex as usize]));
+            *normal_to * weighted_sum(blend, stored)
+        }
+        None => weighted_sum(blend, normals),
+    };
     if mixed == DVec3::ZERO { normals[0] } else { unit(mixed) }
 }
 
@@ -196,8 +203,11 @@ pub fn weighted_sum(blend: &Blend, values: [DVec3; 3]) -> DVec3 {
 mod tests {
     use super::*;
     use crate::ids::Id;
+    use crate::options::Options;
+    use crate::scale::Scale;
     use crate::shapes;
     use crate::stages::stages_of;
+    use crate::view::view;
 
     #[test]
     fn equal_normals_blend_to_the_very_same() {
@@ -206,6 +216,24 @@ mod tests {
         let normal = stages.view.normal(Vertex(9));
         let blend = Blend { vertices: [9; 3], weights: [0.3, 0.3, 0.4] };
         assert_eq!(blended_normal(&stages.view, &blend), normal);
+    }
+
+    /// Halfway between the two as they are stored, and that as it stands four times as high: half of the way
+    /// between the two as they stand would be what nobody sees there.
+    #[test]
+    fn normals_are_blended_as_they_are_stored() {
+        let cube = shapes::plain_cube(1.0);
+        let options =
+            Options::default().with_scale([[1.0, 0.0, 0.0], [0.0, 4.0, 0.0], [0.0, 0.0, 1.0]]);
+        let scale = Scale::new(&options).unwrap().unwrap();
+        let measured = scale.measured(&cube.as_mesh());
+        let mesh = measured.mesh(&cube.as_mesh());
+        let stored = Some(scale.stored(&cube.as_mesh()));
+        let view = View { stored, ..view(&mesh, &options).unwrap() };
+        let facing = |way: [f32; 3]| cube.normals.iter().position(|&n| n == way).unwrap() as u32;
+        let [x, y] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(facing);
+        let normal = blended_normal(&view, &Blend::new([x, y, x], [0.5, 0.5, 0.0]));
+        assert!(normal.distance(unit(DVec3::new(1.0, 0.25, 0.0))) < 1e-7, "{normal}");
     }
 
     #[test]

@@ -43,8 +43,11 @@ pub struct View<'a> {
 #[derive(Clone, Copy)]
 pub struct Stored<'a> {
     pub positions: &'a [[f32; 3]],
+    pub normals: &'a [[f32; 3]],
     /// From where it is measured.
     pub back: DMat3,
+    /// How normals go to where it is measured.
+    pub normal_to: DMat3,
 }
 
 /// As [`view_watched`], with no one to tell.

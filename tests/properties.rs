@@ -15,8 +15,11 @@ mod seeded;
 mod shaded;
 
 use chamfer::check::{Findings, Rule, check};
-use chamfer::{Chamfered, MeshBuffers, Options, Verify, Width, chamfer};
+use chamfer::{
+    ChamferSubmesh, Chamfered, Convexity, MeshBuffers, Options, Verify, Width, WidthMode, chamfer,
+};
 use proptest::prelude::*;
+use proptest::sample;
 
 use crowded::has_crowded_edges;
 use random::{Model, clean_mesh, soup};
@@ -46,6 +49,40 @@ fn rounded(
         .with_profile(profile)
         .with_verify(verify);
     chamfer(&mesh.as_mesh(), &options).unwrap()
+}
+
+/// Stretched, mirrored, turned and sheared; the volume stays more than a hundredth of that of a cube
+/// over the longest axis, which single precision can tell from nothing.
+fn scale() -> impl Strategy<Value = [[f32; 3]; 3]> {
+    let axis = prop_oneof![0.2..5.0f32, -5.0..-0.2f32];
+    let along = [axis.clone(), axis.clone(), axis];
+    let shear = prop_oneof![Just(0.0f32), -0.5..0.5f32];
+    (along, shear)
+        .prop_map(|([x, y, z], shear)| [[x, shear * y, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]])
+}
+
+fn options(scale: [[f32; 3]; 3]) -> impl Strategy<Value = Options> {
+    let widths = (percent(), prop_oneof![Just(0.5f32), 0.0..=1.0f32], 0.0..0.9f32);
+    let modes = vec![WidthMode::Offset, WidthMode::Chord, WidthMode::Depth, WidthMode::Radius];
+    let ways = vec![Convexity::Both, Convexity::Convex, Convexity::Concave];
+    let submeshes = vec![ChamferSubmesh::Owner, ChamferSubmesh::Own, ChamferSubmesh::Given(0)];
+    let kinds = (sample::select(modes), sample::select(ways), sample::select(submeshes));
+    let kinds = kinds.boxed();
+    (widths, kinds, (1..4u32, 0.0..1.0f32), 0.0..90.0f32).prop_map(
+        move |((percent, evenness, breadth), (mode, way, submesh), (segments, profile), least)| {
+            Options::default()
+                .with_width(Width::PercentOfExtent(percent))
+                .with_evenness(evenness)
+                .with_least_breadth(breadth)
+                .with_width_mode(mode)
+                .with_convexity(way)
+                .with_chamfer_submesh(submesh)
+                .with_segments(segments)
+                .with_profile(profile)
+                .with_angles(least / 3.0, 180.0 - least)
+                .with_scale(scale)
+        },
+    )
 }
 
 fn findings(mesh: &MeshBuffers, percent: f32, verify: Verify) -> Findings {
@@ -92,6 +129,20 @@ proptest! {
             let findings = check(&mesh.as_mesh(), &result, verify);
             prop_assert!(findings.is_sound(), "{verify:?}: {findings}");
         }
+    }
+}
+
+proptest! {
+    #![proptest_config(seeded(400))]
+
+    #[test]
+    fn whatever_is_asked_for_a_mesh_that_stands_stretched_it_is_sound(
+        Model(mesh) in clean_mesh(),
+        options in scale().prop_flat_map(options),
+    ) {
+        let result = chamfer(&mesh.as_mesh(), &options).unwrap();
+        let findings = check(&mesh.as_mesh(), &result, Verify::Full);
+        prop_assert!(findings.is_sound(), "{options:?}: {findings}");
     }
 }
 

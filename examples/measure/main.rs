@@ -10,7 +10,7 @@
 //! could jump; and how even the widths are, but for edges that taper to a point by design.
 //! `--compare` also checks each result as `chamfer check` does, by what went in and what came out
 //! alone. `--unlike` gives each vertex and each submesh a factor at random, some of them 0, and takes
-//! a range of angles, a convexity and a width mode at random for each file. `--normals` counts by
+//! all options but the width and the hard angle, which the checker has one of, at random for each file. `--normals` counts by
 //! what angles normals differ where vertices are split: what `hard_angle` tells apart.
 
 mod chains;
@@ -26,7 +26,9 @@ use std::path::{Path, PathBuf};
 
 use chains::{Chains, chains};
 use chamfer::check::{check, compare};
-use chamfer::{Chamfered, Convexity, Mesh, Options, Verify, Width, WidthMode, chamfer};
+use chamfer::{
+    ChamferSubmesh, Chamfered, Convexity, Mesh, Options, Verify, Width, WidthMode, chamfer,
+};
 use fits::Fits;
 use measure::{FOLDER, Measured, Sum, Unlike, measure_with, models};
 use normals::Angles;
@@ -235,6 +237,14 @@ fn of_file(request: &Request, path: &Path, percent: f32, more: &mut More) -> Vec
     meshes
 }
 
+/// As it is, stretched, mirrored, and turned and sheared.
+const SCALES: [[[f32; 3]; 3]; 4] = [
+    [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+    [[1.0, 0.0, 0.0], [0.0, 4.0, 0.0], [0.0, 0.0, 0.5]],
+    [[-2.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 2.0]],
+    [[0.6, 0.8, 0.0], [-0.8, 0.6, 0.0], [0.5, 0.0, 1.0]],
+];
+
 /// Numbers at random, the same for the same seed.
 struct Noise(u32);
 
@@ -250,6 +260,12 @@ impl Noise {
             .with_angles(least, most)
             .with_convexity(self.pick(&[Convexity::Both, Convexity::Convex, Convexity::Concave]))
             .with_width_mode(self.pick(&[WidthMode::Offset, WidthMode::Chord, WidthMode::Radius]))
+            .with_segments(self.pick(&[options.segments, 2, 3, 8]))
+            .with_profile(self.pick(&[options.profile, 0.0, 0.3, 0.8, 1.0]))
+            .with_evenness(self.pick(&[options.evenness, 0.0, 1.0]))
+            .with_least_breadth(self.pick(&[options.least_breadth, 0.0, 0.6]))
+            .with_chamfer_submesh(self.pick(&[ChamferSubmesh::Owner, ChamferSubmesh::Own]))
+            .with_scale(self.pick(&SCALES))
     }
 
     fn unlike(mut self, mesh: &Mesh) -> Unlike {

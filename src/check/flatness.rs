@@ -24,7 +24,7 @@ const CURVED_SHADING: f64 = 1e-3;
 
 /// A triangle lower than this many times the rounding has no plane to speak of: rounding its
 /// corners turns it by a degree and more.
-const LEAST_HEIGHT: f64 = 16.0;
+pub(super) const LEAST_HEIGHT: f64 = 16.0;
 
 /// How much a normal may change where all around it are the same: rounding when it is made unit
 /// length again.
@@ -55,7 +55,7 @@ pub(super) fn check_flatness(
 ) {
     let fan_of = fans(before);
     let fans = measure(before, &fan_of);
-    let extent = f64::from(before.mesh.extent());
+    let extent = before.extent();
     let tolerance = (PLANE_TOLERANCE * extent).max(before.rounding());
     let least_height = LEAST_HEIGHT * before.rounding();
     for (triangle, source) in (0u32..).zip(&origins.triangles) {
@@ -90,7 +90,7 @@ pub(super) fn check_flatness(
 }
 
 /// Whether a triangle is less high than that.
-fn is_low(corners: [DVec3; 3], least_height: f64) -> bool {
+pub(super) fn is_low(corners: [DVec3; 3], least_height: f64) -> bool {
     let sides = [0, 1, 2].map(|k| corners[k].distance(corners[(k + 1) % 3]));
     let area = normal_with_area(corners).map_or(0.0, |normal| normal.length());
     area < least_height * sides.into_iter().fold(0.0, f64::max)

@@ -27,14 +27,11 @@ pub(super) struct Foot {
 
 impl<'a> Ground<'a> {
     pub fn new(surface: &'a Surface<'a>) -> Ground<'a> {
-        let triangles = surface.mesh.indices.chunks_exact(3);
-        let around = |corners: &[u32]| {
-            let points = [0, 1, 2].map(|k| surface.mesh.positions[corners[k] as usize]);
-            Aabb::around(&points)
+        let around = |triangle| {
+            Aabb::around(&surface.triangle(triangle).map(|point| point.as_vec3().to_array()))
         };
-        let boxes: Vec<Aabb> = triangles.map(around).collect();
-        let extent = f64::from(surface.mesh.extent());
-        let tolerance = (PLANE_TOLERANCE * extent).max(2.0 * surface.rounding());
+        let boxes: Vec<Aabb> = (0..surface.triangle_count()).map(around).collect();
+        let tolerance = (PLANE_TOLERANCE * surface.extent()).max(2.0 * surface.rounding());
         Ground { surface, tolerance, tree: Tree::new(&boxes, &[]) }
     }
 

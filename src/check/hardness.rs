@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::flatness::{LEAST_HEIGHT, is_low};
 use super::junctions::run_along;
 use super::origins::Origins;
 use super::rules::{Element, Findings, Rule};
@@ -95,10 +96,13 @@ fn hard_corners(surface: &Surface) -> Vec<bool> {
 /// Whether a new triangle lies flat and is shaded so, as the face that a chamfer has cut it from: a
 /// chamfer that ends beside it may be hard there.
 fn continues_face(after: &Surface, origins: &Origins, triangle: u32) -> bool {
-    let own = normal_with_area(after.triangle(triangle)).map(DVec3::normalize);
+    let corners = after.triangle(triangle);
+    let own = normal_with_area(corners).map(DVec3::normalize);
+    // A low one leans as rounding has turned it.
+    let least = if is_low(corners, LEAST_HEIGHT * after.rounding()) { 0.0 } else { FLAT_COSINE };
     let is_along = |own: DVec3| {
-        let normals = [0, 1, 2].map(|side| after.normal(3 * triangle + side).normalize_or_zero());
-        normals.iter().all(|normal| normal.dot(own) > FLAT_COSINE)
+        let normals = [0, 1, 2].map(|side| after.shading(3 * triangle + side).normalize_or_zero());
+        normals.iter().all(|normal| normal.dot(own) > least)
     };
     origins.triangles[triangle as usize].is_none() && own.is_some_and(is_along)
 }

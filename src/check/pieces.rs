@@ -184,10 +184,10 @@ fn beside(after: &Surface, triangles: &[Option<[u32; 3]>]) -> BTreeMap<u32, Vec<
 /// Whether all normals of a piece may be blends of those of a source triangle, and it faces the
 /// same way.
 fn is_shaded_as([before, after]: [&Surface; 2], source: u32, piece: u32) -> bool {
-    let old = [0, 1, 2].map(|side| before.normal(3 * source + side).normalize_or_zero());
+    let old = [0, 1, 2].map(|side| before.shading(3 * source + side).normalize_or_zero());
     let spread = (0..3).map(|k| old[k].distance(old[(k + 1) % 3])).fold(0.0, f64::max);
     let is_near = |side: u32| {
-        let new = after.normal(3 * piece + side).normalize_or_zero();
+        let new = after.shading(3 * piece + side).normalize_or_zero();
         old.iter().all(|old| old.distance(new) <= spread + SAME_SHADING)
     };
     let normals = [before.triangle(source), after.triangle(piece)].map(normal_with_area);

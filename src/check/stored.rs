@@ -16,14 +16,18 @@ pub(super) fn vector(stored: &[f32; 3]) -> DVec3 {
     DVec3::from(stored.map(f64::from))
 }
 
-/// How normals and area vectors go along with a mesh that is scaled so, column by column.
-pub(super) fn normals_to(scale: Option<[[f32; 3]; 3]>) -> Option<DMat3> {
-    let axes = scale.map(|axes| axes.map(|axis| vector(&axis)));
-    // The cofactors. A mirror turns neither.
-    axes.map(|[x, y, z]| {
-        let sign = x.cross(y).dot(z).signum();
-        DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * sign
-    })
+/// A stretch, column by column. A mirror turns all triangles over, and changes no length and no angle:
+/// so it is left out.
+pub(super) fn axes(scale: [[f32; 3]; 3]) -> DMat3 {
+    let [x, y, z] = scale.map(|axis| vector(&axis));
+    let axes = DMat3::from_cols(x, y, z);
+    if axes.determinant() < 0.0 { -axes } else { axes }
+}
+
+/// How normals go along with a mesh that is stretched so: by the cofactors.
+pub(super) fn normals_to(to: DMat3) -> DMat3 {
+    let [x, y, z] = [to.x_axis, to.y_axis, to.z_axis];
+    DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y))
 }
 
 /// Whether a vector has length 1, as nearly as importers store it.

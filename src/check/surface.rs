@@ -1,9 +1,10 @@
 //! A mesh welded by position: its edges, borders and connected parts.
 
 use super::noise::Step;
-use super::stored::{normal_with_area, normals_to, vector};
+use super::stored::{axes, normal_with_area, normals_to, vector};
 use crate::groups::Groups;
 use crate::mesh::Mesh;
+use crate::scale::longest_axis;
 use glam::{DMat3, DVec3};
 
 /// The cosine of the angle by which normals may differ across an edge that is not hard: one degree
@@ -29,7 +30,15 @@ pub(super) struct HalfEdge {
     pub corners: [u32; 2],
 }
 
-/// A mesh, welded.
+/// How a mesh that is looked at stretched stands.
+#[derive(Clone, Copy)]
+struct Standing {
+    to: DMat3,
+    normals_to: DMat3,
+}
+
+/// A mesh, welded. Places are those where it stands: a plane, a width and a side that a triangle faces
+/// to are what they are there.
 pub(super) struct Surface<'a> {
     /// The mesh; each corner in range.
     pub mesh: &'a Mesh<'a>,
@@ -39,8 +48,8 @@ pub(super) struct Surface<'a> {
     half_edges: Vec<HalfEdge>,
     /// How far a position may be off by rounding alone, in mesh units.
     rounding: f64,
-    /// How normals go along with the mesh; none where it stands as it is.
-    normals_to: Option<DMat3>,
+    /// To where the mesh stands, and how normals go along; none where it stands as it is.
+    stands: Option<Standing>,
     /// Sorted: the clusters of a round surface around which normals may differ by chance.
     round: Vec<u32>,
 }
@@ -61,13 +70,16 @@ impl<'a> Surface<'a> {
         }
         half_edges.sort_unstable();
         let (rounding, round) = (rounding(mesh), Vec::new());
-        Surface { mesh, cluster_of, half_edges, rounding, normals_to: None, round }.with_noise()
+        Surface { mesh, cluster_of, half_edges, rounding, stands: None, round }.with_noise()
     }
 
     /// The same of a mesh that stands scaled so, column by column. Normals that are one there need not
     /// be so where the mesh comes from, nor need those that face along with a triangle.
     pub fn standing(self, scale: Option<[[f32; 3]; 3]>) -> Surface<'a> {
-        Surface { normals_to: normals_to(scale), ..self }.with_noise()
+        let Some(to) = scale.map(axes) else { return self };
+        let stands = Some(Standing { to, normals_to: normals_to(to) });
+        let rounding = self.rounding * longest_axis(to);
+        Surface { stands, rounding, ..self }.with_noise()
     }
 
     fn with_noise(self) -> Surface<'a> {
@@ -87,7 +99,24 @@ impl<'a> Surface<'a> {
 
     /// The position of a corner.
     pub fn position(&self, corner: u32) -> DVec3 {
-        vector(&self.mesh.positions[self.mesh.indices[corner as usize] as usize])
+        self.place(&self.mesh.positions[self.mesh.indices[corner as usize] as usize])
+    }
+
+    fn place(&self, stored: &[f32; 3]) -> DVec3 {
+        let stored = vector(stored);
+        self.stands.map_or(stored, |stands| stands.to * stored)
+    }
+
+    /// The largest side of the box around it.
+    pub fn extent(&self) -> f64 {
+        if self.stands.is_none() {
+            return f64::from(self.mesh.extent());
+        }
+        let mut places = self.mesh.positions.iter().map(|stored| self.place(stored));
+        let first = places.next().unwrap_or_default();
+        let around = |[low, high]: [DVec3; 2], at: DVec3| [low.min(at), high.max(at)];
+        let [low, high] = places.fold([first; 2], around);
+        (high - low).max_element()
     }
 
     /// The normal of a corner.
@@ -98,13 +127,12 @@ impl<'a> Surface<'a> {
     /// The normal of a corner as it is seen: as it comes, or of length 1 where it is stretched.
     pub fn shading(&self, corner: u32) -> DVec3 {
         let stored = self.normal(corner);
-        self.normals_to.map_or(stored, |to| (to * stored).normalize_or_zero())
+        self.stands.map_or(stored, |stands| (stands.normals_to * stored).normalize_or_zero())
     }
 
-    /// Where a triangle faces as the mesh stands, as long as its area; none without area.
+    /// Where a triangle faces, as long as its area; none without area.
     pub fn facing(&self, triangle: u32) -> Option<DVec3> {
-        let area = normal_with_area(self.triangle(triangle))?;
-        Some(self.normals_to.map_or(area, |to| to * area))
+        normal_with_area(self.triangle(triangle))
     }
 
     /// The corners of a triangle, as positions.

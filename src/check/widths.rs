@@ -1,12 +1,11 @@
 //! How wide chamfers are, measured on the mesh: how far the sides of each old edge were pulled.
 
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 
 use super::origins::Origins;
 use super::rules::MeasuredEdge;
 use super::solids::Solids;
 use super::surface::{HalfEdge, Surface};
-use crate::report::Chamfered;
 
 /// The corners of a source mesh in the result.
 pub(super) struct Ruler<'a> {
@@ -14,21 +13,12 @@ pub(super) struct Ruler<'a> {
     after: &'a Surface<'a>,
     /// `#source corners`.
     corner_after: Vec<Option<u32>>,
-    /// To the space in which widths are measured.
-    to: DMat3,
 }
 
 impl<'a> Ruler<'a> {
     pub fn new([before, after]: &'a [Surface<'a>; 2], origins: &Origins) -> Self {
         let corner_after = origins.corners_after(before.mesh.indices.len());
-        Ruler { before, after, corner_after, to: DMat3::IDENTITY }
-    }
-
-    /// The same in the space of [`Options::scale`](crate::Options::scale).
-    pub fn in_space_of(self, result: &Chamfered) -> Self {
-        let axes = result.scale.map(|axes| axes.map(|axis| DVec3::from(axis.map(f64::from))));
-        let to = axes.map_or(DMat3::IDENTITY, |[x, y, z]| DMat3::from_cols(x, y, z));
-        Ruler { to, ..self }
+        Ruler { before, after, corner_after }
     }
 
     /// The hard edges, in the order of their first corners. Where more than two sides meet, as
@@ -80,7 +70,7 @@ impl<'a> Ruler<'a> {
         for end in 0..2 {
             let corners = [one.corners[end], other.corners[1 - end]];
             let [a, b] = corners.map(|corner| self.corner_after[corner as usize]);
-            let points = [a?, b?].map(|corner| self.to * self.after.position(corner));
+            let points = [a?, b?].map(|corner| self.after.position(corner));
             measured.distances[end] = points.map(|point| distance_from_line(ends, point) as f32);
             measured.is_open[end] = points[0] != points[1];
         }
@@ -90,7 +80,7 @@ impl<'a> Ruler<'a> {
     /// How far a source corner was pulled off an edge; none where its triangle was not found.
     pub fn pulled(&self, edge: &HalfEdge, corner: u32) -> Option<f64> {
         let after = self.corner_after[corner as usize]?;
-        Some(distance_from_line(self.line(edge), self.to * self.after.position(after)))
+        Some(distance_from_line(self.line(edge), self.after.position(after)))
     }
 
     /// How far the corners of a side were pulled from where it was, at most.
@@ -99,7 +89,7 @@ impl<'a> Ruler<'a> {
     }
 
     fn line(&self, side: &HalfEdge) -> [DVec3; 2] {
-        side.corners.map(|corner| self.to * self.before.position(corner))
+        side.corners.map(|corner| self.before.position(corner))
     }
 }
 
