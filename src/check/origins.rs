@@ -117,7 +117,10 @@ impl<'a> Origins<'a> {
                 let mut used = blend.vertices.iter().zip(blend.weights).filter(|(_, w)| *w != 0.0);
                 used.any(|(&vertex, _)| is_of_kind[vertex as usize])
             };
-            return sources.iter().map(|source| touches(&source.surface)).collect();
+            // One that goes far is told by a triangle that need not be at its own place.
+            let is_own = |vertex: usize| is_of_kind.get(vertex).is_some_and(|&is| is);
+            let all = sources.iter().enumerate();
+            return all.map(|(v, source)| is_own(v) || touches(&source.surface)).collect();
         }
         let mut known = vec![None; after.positions.len()];
         for (triangle, corners) in self.triangles.iter().enumerate() {

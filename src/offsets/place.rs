@@ -1,12 +1,15 @@
 //! Place: a course, measured in an unfolded fan, as a vector in space and a foot on a face.
 
+use std::array::from_fn;
+use std::cmp::Ordering;
+
 use glam::DVec3;
 
 use super::{Blade, Course, Offset, arms};
-use crate::breaks::{is_hard, same_chart, seam_between};
+use crate::breaks::{is_hard, same_chart, seam_between, uv_point};
 use crate::faces::Faces;
 use crate::foot::{Foot, locate};
-use crate::ids::{Corner, Few};
+use crate::ids::{Corner, Few, Triangle};
 use crate::math::{area_vector, unit};
 use crate::mesh::UV_CHANNELS;
 use crate::surface::Surface;
@@ -86,7 +89,7 @@ fn steadiest(view: &View, faces: &Faces, spread: &[Blade], corner: Corner) -> Co
         return corner;
     }
     let level = chart_of(view, spread, corner).filter(holds_plane_of(view, faces, corner));
-    largest(view, level, corner)
+    largest(view, level.filter(lies_as(view, corner)), corner)
 }
 
 /// Whether a triangle's plane holds that of a corner.
@@ -101,6 +104,25 @@ fn holds_plane_of(view: &View, faces: &Faces, corner: Corner) -> impl Fn(&Corner
         let is_level = arms.iter().chain([&beside]).all(is_near);
         leans_alike && is_level && !faces.is_line(other.triangle())
     }
+}
+
+/// Whether the texture lies the same way up on a triangle as on a corner's, in all channels: where it is
+/// mirrored in the middle of a model, one half does not tell of the other.
+fn lies_as(view: &View, corner: Corner) -> impl Fn(&Corner) -> bool {
+    let side_up = |of: Corner, channel: usize| texture_side(view, channel, of.triangle());
+    let own: [Option<Ordering>; UV_CHANNELS] = from_fn(|channel| side_up(corner, channel));
+    move |other| (0..UV_CHANNELS).all(|channel| side_up(*other, channel) == own[channel])
+}
+
+/// Which side of its texture a triangle shows; none without one.
+fn texture_side(view: &View, channel: usize, triangle: Triangle) -> Option<Ordering> {
+    let uv = &view.mesh.uvs[channel];
+    if uv.components < 2 {
+        return None;
+    }
+    let at = |corner| uv_point(uv, view.vertex_at(corner).0);
+    let [a, b, c] = triangle.corners().map(at);
+    (b - a).perp_dot(c - a).partial_cmp(&0.0)
 }
 
 /// The corner of the largest triangle of some; another one unless it is larger than that one's.
@@ -120,6 +142,7 @@ fn largest_beyond(surface: Surface, corner: Corner) -> Corner {
         let mut corners = other.triangle().corners().into_iter();
         corners.all(|own| view.normal_at(own) == normal) && holds_plane(other)
     };
+    let lies_as_own = lies_as(view, corner);
     let mut found: Few<Corner> = [corner].into_iter().collect();
     let mut done = 0;
     while done < found.len() && found.len() < MOST_BEYOND {
@@ -131,6 +154,7 @@ fn largest_beyond(surface: Surface, corner: Corner) -> Corner {
                 && goes_on(view, side, across)
                 && holds_own(&across)
                 && is_new(across)
+                && lies_as_own(&across)
             {
                 found.push(across);
             }
@@ -163,8 +187,11 @@ fn chart_of(view: &View, spread: &[Blade], corner: Corner) -> impl Iterator<Item
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::check::assert_sound;
     use crate::ids::Vertex;
     use crate::mesh::MeshBuffers;
+    use crate::options::{Options, Width};
+    use crate::pipeline::chamfer;
     use crate::shapes::Builder;
     use crate::stages::stages_of;
 
@@ -177,9 +204,13 @@ mod tests {
     ///  |\----'
     /// ```
     fn corner_with_small_triangles() -> MeshBuffers {
+        faces_with_small_triangles(&[[0, 1], [1, 2], [2, 0]])
+    }
+
+    fn faces_with_small_triangles(faces: &[[usize; 2]]) -> MeshBuffers {
         let (small, mut mesh) = (0.001, Builder::with_uvs());
         let along = |axis: usize, way: f32| [0, 1, 2].map(|k| if k == axis { way } else { 0.0 });
-        for [one, other] in [[0, 1], [1, 2], [2, 0]] {
+        for &[one, other] in faces {
             let across = [0, 1, 2].map(|k| if k == one || k == other { 1.0 } else { 0.0 });
             mesh.polygon(&[
                 along(one, small),
@@ -212,5 +243,46 @@ mod tests {
                 .sum();
             assert!(place.distance(*vector) < 1e-7, "{place} instead of {vector}");
         }
+    }
+
+    /// An open edge ends where the small triangles are: what is told by the faces around them lies there all
+    /// the same.
+    #[test]
+    fn where_a_face_tells_what_is_there_the_mesh_may_be_open() {
+        let mesh = faces_with_small_triangles(&[[0, 1], [1, 2]]);
+        let options = Options { width: Width::Units(0.1), ..Options::default() };
+        assert_sound("two faces", &mesh.as_mesh(), &chamfer(&mesh.as_mesh(), &options).unwrap());
+    }
+
+    /// ```text
+    ///  .-------------.-----.
+    ///  |             |     |     the left half of the face has the mirrored texture of the right one, which
+    ///  |             |.    |     has a small triangle in its corner: the left one tells nothing of it, though
+    ///  |             | '-./|     it is larger
+    ///  '-------------'----'v
+    /// ```
+    #[test]
+    fn a_mirrored_half_tells_nothing_of_the_other() {
+        let (small, mut mesh) = (0.002, Builder::with_uvs());
+        let [left, right] = [-3.0, 1.0];
+        mesh.polygon(&[[left, 0.0, 0.0], [0.0; 3], [0.0, 1.0, 0.0], [left, 1.0, 0.0]]);
+        let tip = [[right - small, 0.0, 0.0], [right, 0.0, 0.0], [right, small, 0.0]];
+        mesh.polygon(&[[0.0; 3], tip[0], tip[2], [right, 1.0, 0.0], [0.0, 1.0, 0.0]]);
+        mesh.polygon(&tip);
+        mesh.polygon(&[
+            [right, 0.0, 0.0],
+            [right, 0.0, -1.0],
+            [right, 1.0, -1.0],
+            [right, 1.0, 0.0],
+        ]);
+        mesh.polygon(&[[left, 0.0, -1.0], [right, 0.0, -1.0], [right, 0.0, 0.0], [left, 0.0, 0.0]]);
+        let mut mesh = mesh.finish();
+        let is_left = |at: &[f32; 3]| at[2] == 0.0 && at[0] < 0.0;
+        for (at, uv) in mesh.positions.iter().zip(mesh.uvs[0].values.chunks_mut(2)) {
+            uv.copy_from_slice(&[if is_left(at) { at[0].abs() } else { at[0] }, at[1] - at[2]]);
+        }
+        let result =
+            chamfer(&mesh.as_mesh(), &Options { width: Width::Units(0.1), ..Options::default() });
+        assert_sound("a mirrored half", &mesh.as_mesh(), &result.unwrap());
     }
 }
