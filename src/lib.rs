@@ -50,6 +50,7 @@ pub mod see_through;
 #[cfg(feature = "shapes")]
 pub mod shapes;
 
+mod apart;
 mod attributes;
 mod blocks;
 mod breaks;
