@@ -4,13 +4,12 @@
 //! single precision here and there. Where both skins are pulled, rounding brings such vertices
 //! together, and an edge that two faces had would be one of four.
 
-use glam::DVec3;
-
 use crate::bvh::{Aabb, Tree};
 use crate::error::Error;
 use crate::ids::{Id, IdVec, Sector, Vertex};
 use crate::mesh::Mesh;
 use crate::placement::Placement;
+use crate::ranks::{Ranks, stepped, steps};
 use crate::sectors::Sectors;
 use crate::surface::Surface;
 use crate::watch::{Watch, collect, sort, stretches};
@@ -22,15 +21,6 @@ const MOST_RANKS: u32 = 8;
 
 /// So many neighbours are looked at: where far more lie so near, nothing can be told apart.
 const MOST_NEAR: usize = 64;
-
-/// Of vertices that nearly touch each has a rank of its own, and stands at places of that rank alone.
-/// The rank of a place is the sum of its coordinates, counted in steps of single precision.
-pub struct Apart {
-    /// `#sectors`.
-    rank: IdVec<Sector, u32>,
-    /// How many there are.
-    ranks: i32,
-}
 
 /// None where none have come together that were apart, as in most meshes. Points inside of rounded
 /// chamfers (`segments`) may come together by themselves: there, none where no two vertices nearly touch.
@@ -46,7 +36,7 @@ pub fn apart(
     placement: &Placement,
     segments: u32,
     watch: &dyn Watch,
-) -> Result<Option<Apart>, Error> {
+) -> Result<Option<Ranks>, Error> {
     let near = surface.view.resolution as f32;
     let cluster = |sector: Sector| surface.topology.cluster_at[sectors.fans[sector].first].0;
     let skin = |sector: Sector| {
@@ -57,7 +47,7 @@ pub fn apart(
     if segments == 1 && !has_met(placement, &skin, near, watch)? {
         return Ok(None);
     }
-    if ranks(placement, &cluster, near, watch)?.ranks == 1 {
+    if ranks(placement, &cluster, near, watch)?.are_one() {
         return Ok(None);
     }
     ranks(placement, &skin, near, watch).map(Some)
@@ -106,7 +96,7 @@ fn ranks(
     number: &dyn Fn(Sector) -> u32,
     near: f32,
     watch: &dyn Watch,
-) -> Result<Apart, Error> {
+) -> Result<Ranks, Error> {
     let count = placement.share.len();
     let place = |sector: usize| -> Place {
         let sector = Sector::new(sector);
@@ -129,56 +119,5 @@ fn ranks(
     let rank = collect(count, watch, |sector| {
         places.binary_search(&place(sector)).map_or(0, |place| rank_at[place])
     })?;
-    let ranks = rank.iter().max().map_or(1, |&most| most as i32 + 1);
-    Ok(Apart { rank: IdVec::from_vec(rank), ranks })
-}
-
-impl Apart {
-    /// Where a sector's vertex stands that was at a place and goes to another: it keeps the coordinates
-    /// along which it does not move.
-    pub fn moved(&self, sector: Sector, from: DVec3, to: DVec3) -> DVec3 {
-        let rounded = to.as_vec3().as_dvec3();
-        self.nearest(sector, to, |axis| rounded[axis] != from[axis])
-    }
-
-    /// Where a point inside of a rounded chamfer stands that ends at a sector.
-    pub fn point(&self, sector: Sector, point: DVec3) -> DVec3 {
-        self.nearest(sector, point, |_| true)
-    }
-
-    /// The nearest place of a sector's rank, along one of some axes.
-    fn nearest(&self, sector: Sector, point: DVec3, goes_along: impl Fn(usize) -> bool) -> DVec3 {
-        let rounded = point.as_vec3();
-        let sum: i32 = rounded.to_array().iter().map(|&at| steps(at) % self.ranks).sum();
-        let lacking = (self.rank[sector] as i32 - sum).rem_euclid(self.ranks);
-        if lacking == 0 {
-            return rounded.as_dvec3();
-        }
-        let mut best = (f64::INFINITY, rounded);
-        for axis in (0..3).filter(|&axis| goes_along(axis)) {
-            for by in [lacking, lacking - self.ranks] {
-                let mut place = rounded;
-                place[axis] = stepped(rounded[axis], by);
-                let off = (f64::from(place[axis]) - point[axis]).abs();
-                if off < best.0 {
-                    best = (off, place);
-                }
-            }
-        }
-        best.1.as_dvec3()
-    }
-}
-
-/// How many numbers of single precision there are from zero to a number.
-fn steps(number: f32) -> i32 {
-    let bits = number.to_bits();
-    let size = (bits & (i32::MAX as u32)) as i32;
-    if bits >> 31 == 0 { size } else { -size }
-}
-
-/// So many numbers of single precision farther.
-fn stepped(number: f32, by: i32) -> f32 {
-    let steps = steps(number) + by;
-    let size = f32::from_bits(steps.unsigned_abs());
-    if steps < 0 { -size } else { size }
+    Ok(Ranks::new(IdVec::from_vec(rank)))
 }

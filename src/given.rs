@@ -1,11 +1,11 @@
 //! Given: what room and limits are found from.
 
-use crate::apart::Apart;
 use crate::chamfers::Chamfers;
 use crate::error::Error;
 use crate::ids::{Cluster, IdVec, Sector, Triangle};
 use crate::offsets::Offset;
 use crate::placement::Placement;
+use crate::ranks::Ranks;
 use crate::rests::Rests;
 use crate::sectors::Sectors;
 use crate::surface::Surface;
@@ -21,7 +21,7 @@ pub struct Given<'a> {
     /// `#sectors`: the move at full width.
     pub offsets: &'a IdVec<Sector, Offset>,
     /// What is not to come together.
-    pub apart: Option<&'a Apart>,
+    pub apart: Option<&'a Ranks>,
     /// What must not lose what it rests on.
     pub rests: &'a Rests,
     /// `#clusters`: see [`deep`].

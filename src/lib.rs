@@ -87,6 +87,7 @@ mod output;
 mod patches;
 mod pipeline;
 mod placement;
+mod ranks;
 mod refine;
 mod report;
 mod resample;

@@ -4,11 +4,11 @@ use std::borrow::Cow;
 
 use glam::{DVec3, Vec3};
 
-use crate::apart::Apart;
 use crate::error::Error;
 use crate::foot::Foot;
 use crate::ids::{Corner, Id, IdVec, Sector};
 use crate::offsets::Offset;
+use crate::ranks::Ranks;
 use crate::resample::{blended_normal, chart_foot, surface_foot};
 use crate::sectors::Sectors;
 use crate::surface::Surface;
@@ -22,7 +22,7 @@ pub struct Placement<'a> {
     sectors: &'a Sectors,
     offsets: Cow<'a, IdVec<Sector, Offset>>,
     /// What is not to come together; none where nothing does.
-    pub apart: Option<&'a Apart>,
+    pub apart: Option<&'a Ranks>,
     /// `#sectors`: 0 (stays) to 1 (full width).
     pub share: IdVec<Sector, f64>,
     /// `#sectors`: the position of the sector's vertices.
@@ -36,7 +36,7 @@ impl<'a> Placement<'a> {
     pub fn new(
         surface: Surface<'a>,
         sectors: &'a Sectors,
-        (offsets, apart): (&'a IdVec<Sector, Offset>, Option<&'a Apart>),
+        (offsets, apart): (&'a IdVec<Sector, Offset>, Option<&'a Ranks>),
         share: IdVec<Sector, f64>,
         (threads, watch): (&Threads, &dyn Watch),
     ) -> Result<Placement<'a>, Error> {
