@@ -158,7 +158,7 @@ fn a_folded_card_of_two_sides_is_chamfered_along_its_fold() {
         let result = chamfer(&card.as_mesh(), &options.with_verify(Verify::Full)).unwrap();
         assert_sound("card", &card.as_mesh(), &result);
         let chamfered = result.totals.chamfered;
-        assert!(chamfered > 0 && chamfered % 2 == 0, "each fold on both its sides");
+        assert!(chamfered > 0 && chamfered.is_multiple_of(2), "each fold on both its sides");
         let others = chamfered + result.totals.skipped[Reason::ZeroThickness];
         assert_eq!(others, result.totals.hard_edges);
         let mut vertices = result.mesh.indices[card.indices.len()..].to_vec();
