@@ -216,8 +216,7 @@ fn obstacle(
             false => Reason::NoArea,
         });
     }
-    let is_doubled = topology.doubled.binary_search(&side).is_ok();
-    if is_doubled || one.dot(two) < BACK_TO_BACK_COSINE {
+    if one.dot(two) < BACK_TO_BACK_COSINE {
         return Some(Reason::ZeroThickness);
     }
     // A chamfer of one solid would let light through to the air behind the contact.

@@ -5,6 +5,7 @@ use crate::error::Error;
 use crate::ids::{Cluster, IdVec, Sector, Triangle};
 use crate::offsets::Offset;
 use crate::placement::Placement;
+use crate::ranks::Ranks;
 use crate::rests::Rests;
 use crate::sectors::Sectors;
 use crate::surface::Surface;
@@ -19,6 +20,8 @@ pub struct Given<'a> {
     pub chamfers: Chamfers<'a>,
     /// `#sectors`: the move at full width.
     pub offsets: &'a IdVec<Sector, Offset>,
+    /// What is not to come together.
+    pub apart: Option<&'a Ranks>,
     /// What must not lose what it rests on.
     pub rests: &'a Rests,
     /// `#clusters`: see [`deep`].
@@ -37,7 +40,7 @@ impl<'a> Given<'a> {
         watch: &dyn Watch,
     ) -> Result<Placement<'a>, Error> {
         let (sectors, work) = (self.chamfers.sectors, (self.threads, watch));
-        Placement::new(self.surface, sectors, self.offsets, share, work)
+        Placement::new(self.surface, sectors, (self.offsets, self.apart), share, work)
     }
 }
 
@@ -70,6 +73,6 @@ pub mod tests {
     pub fn given_of<'a>(stages: &'a Stages) -> Given<'a> {
         let Stages { offsets, rests, deep, threads, .. } = stages;
         let (surface, chamfers) = (stages.surface(), stages.chamfers());
-        Given { surface, chamfers, offsets, rests, deep, threads }
+        Given { surface, chamfers, offsets, apart: None, rests, deep, threads }
     }
 }

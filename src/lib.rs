@@ -50,6 +50,7 @@ pub mod see_through;
 #[cfg(feature = "shapes")]
 pub mod shapes;
 
+mod apart;
 mod attributes;
 mod blocks;
 mod breaks;
@@ -86,6 +87,7 @@ mod output;
 mod patches;
 mod pipeline;
 mod placement;
+mod ranks;
 mod refine;
 mod report;
 mod resample;

@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 
 use glam::DVec3;
 
+use crate::apart::apart;
 use crate::attributes::{Attributes, attributes};
 use crate::blocks::{Blocks, blocks, cut, join};
 use crate::charts::{Charts, charts};
@@ -495,7 +496,8 @@ fn make(
     let mut ask = || done(None);
     let watch = Caller::new(&mut ask);
     let deep = &deep(topology, chamfers.sectors, &watch)?;
-    let asked = &Given { surface, chamfers, offsets, rests: &Rests::default(), deep, threads };
+    let none = &Rests::default();
+    let asked = &Given { surface, chamfers, offsets, apart: None, rests: none, deep, threads };
     let room = evenness(asked, room(asked, &watch)?, options.evenness.into(), &watch)?;
     let narrowed = narrowed(surface, chamfers.sectors, offsets, &room.fronts, &watch)?;
     let offsets = &*narrowed;
@@ -506,7 +508,12 @@ fn make(
     let most = Most { offsets, shares: &shares };
     let rests = &rests(surface, chamfers, contacts, most, (threads, &watch))?;
     let given = &Given { offsets, rests, ..*asked };
-    let limits = limits(given, &shares, options.verify, &watch)?;
+    let mut limits = self::limits(given, &shares, options.verify, &watch)?;
+    let apart = apart(surface, chamfers.sectors, &limits.placement, options.segments, &watch)?;
+    if apart.is_some() {
+        let given = &Given { apart: apart.as_ref(), ..*given };
+        limits = self::limits(given, &shares, options.verify, &watch)?;
+    }
     drop(shares);
     let placement = &limits.placement;
     done(Some(Stage::Limits))?;

@@ -2,12 +2,13 @@
 
 use std::borrow::Cow;
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 use crate::error::Error;
 use crate::foot::Foot;
 use crate::ids::{Corner, Id, IdVec, Sector};
 use crate::offsets::Offset;
+use crate::ranks::Ranks;
 use crate::resample::{blended_normal, chart_foot, surface_foot};
 use crate::sectors::Sectors;
 use crate::surface::Surface;
@@ -20,6 +21,8 @@ pub struct Placement<'a> {
     surface: Surface<'a>,
     sectors: &'a Sectors,
     offsets: Cow<'a, IdVec<Sector, Offset>>,
+    /// What is not to come together; none where nothing does.
+    pub apart: Option<&'a Ranks>,
     /// `#sectors`: 0 (stays) to 1 (full width).
     pub share: IdVec<Sector, f64>,
     /// `#sectors`: the position of the sector's vertices.
@@ -29,17 +32,17 @@ pub struct Placement<'a> {
 }
 
 impl<'a> Placement<'a> {
-    /// Every sector at a share of its offset; `share: #sectors`.
+    /// Every sector at a share of its offset, and some apart; `share: #sectors`.
     pub fn new(
         surface: Surface<'a>,
         sectors: &'a Sectors,
-        offsets: &'a IdVec<Sector, Offset>,
+        (offsets, apart): (&'a IdVec<Sector, Offset>, Option<&'a Ranks>),
         share: IdVec<Sector, f64>,
         (threads, watch): (&Threads, &dyn Watch),
     ) -> Result<Placement<'a>, Error> {
         let (point, normals) = (IdVec::default(), IdVec::default());
         let offsets = Cow::Borrowed(offsets);
-        let mut placement = Placement { surface, sectors, offsets, share, point, normals };
+        let mut placement = Placement { surface, sectors, offsets, apart, share, point, normals };
         let count = placement.share.len();
         placement.point =
             threads.map(count, watch, |s| placement.point_at(s, placement.share[s]))?;
@@ -76,7 +79,10 @@ impl<'a> Placement<'a> {
     #[inline]
     pub fn stored(&self, sector: Sector) -> DVec3 {
         let view = self.surface.view;
-        view.stored_from(view.vertex_at(self.sectors.fans[sector].first), self.point[sector])
+        let vertex = view.vertex_at(self.sectors.fans[sector].first);
+        let stored = view.stored_from(vertex, self.point[sector]);
+        let Some(apart) = self.apart else { return stored };
+        apart.moved(sector, Vec3::from(view.stored_positions()[vertex.index()]).as_dvec3(), stored)
     }
 
     /// Where a corner is stored.
@@ -135,7 +141,8 @@ impl<'a> Placement<'a> {
     }
 
     fn point_at(&self, sector: Sector, share: f64) -> DVec3 {
-        narrow(self.base(sector) + self.offsets[sector].vector * share)
+        let (base, way) = (self.base(sector), self.offsets[sector].vector * share);
+        self.apart.map_or_else(|| narrow(base + way), |apart| apart.moved(sector, base, base + way))
     }
 
     /// The normals where a sector stands, at its first and at its last corner.

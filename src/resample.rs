@@ -14,6 +14,7 @@ use crate::offsets::Offset;
 use crate::report::Blend;
 use crate::sectors::Sectors;
 use crate::surface::Surface;
+use crate::tolerance::CREASE_COSINE;
 use crate::view::{Stored, View, wide};
 
 /// So much nearer than the farthest place that can be told, for the sake of rounding.
@@ -132,6 +133,16 @@ fn nearest(
     own.min_by_key(|(step, _)| step.abs_diff(middle)).map(|(_, &corner)| corner)
 }
 
+/// The corner of a fan, of those that have a plane, whose normal is nearest to that of a line: rounding
+/// turns a line by more than a degree, so that it may have no soft side though it was meant to.
+fn likest(surface: Surface, fan: &[Corner], line: Corner) -> Option<Corner> {
+    let normal = |corner: Corner| unit(surface.view.normal_at(corner));
+    let alike = |corner: Corner| normal(line).dot(normal(corner));
+    let own = fan.iter().copied().filter(|corner| has_plane(surface, corner.triangle()));
+    let likest = own.rev().max_by(|&one, &other| alike(one).total_cmp(&alike(other)))?;
+    (alike(likest) > CREASE_COSINE).then_some(likest)
+}
+
 /// The way over a face of the corner's own where the offset leads over one beyond: behind a hard edge
 /// that is not chamfered or, from a line, where the faces around the corner have one normal all over,
 /// so that they keep it. Where the offset leads a hair out of that face's plane, the place below counts:
@@ -148,6 +159,7 @@ fn own_foot(surface: Surface, sectors: &Sectors, offset: &Offset, corner: Corner
     let part = parts().find(is_first).or_else(|| parts().find(|part| part.contains(&corner)))?;
     let own = if !part.contains(&offset.within) {
         nearest(surface, &fan, offset, |own| part.contains(&own))
+            .or_else(|| likest(surface, &fan, corner))
     } else if leaves(surface, offset, corner) && is_even(surface, part, corner) {
         let normal = surface.view.normal_at(corner);
         nearest(surface, &fan, offset, |own| surface.view.normal_at(own) == normal)

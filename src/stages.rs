@@ -73,7 +73,7 @@ pub fn stages_of_mesh<'a>(mesh: Mesh<'a>, options: &Options) -> Stages<'a> {
     let deep = deep(&topology, &sectors, &Unwatched).unwrap();
     let (narrowed, shares) = {
         let (offsets, rests, deep, threads) = (&offsets, &Rests::default(), &deep, &threads);
-        let given = &Given { surface, chamfers, offsets, rests, deep, threads };
+        let given = &Given { surface, chamfers, offsets, apart: None, rests, deep, threads };
         let room = room(given, &Unwatched).unwrap();
         let room = evenness(given, room, options.evenness.into(), &Unwatched).unwrap();
         let narrowed =
@@ -114,7 +114,7 @@ impl Stages<'_> {
         Placement::new(
             self.surface(),
             &self.sectors,
-            &self.offsets,
+            (&self.offsets, None),
             share,
             (&self.threads, &Unwatched),
         )
@@ -124,7 +124,8 @@ impl Stages<'_> {
     pub fn limits(&self, verify: Verify) -> Limits<'_> {
         let (surface, chamfers) = (self.surface(), self.chamfers());
         let Stages { narrowed, shares, rests, deep, threads, .. } = self;
-        let given = &Given { surface, chamfers, offsets: narrowed, rests, deep, threads };
+        let given =
+            &Given { surface, chamfers, offsets: narrowed, apart: None, rests, deep, threads };
         limits(given, shares, verify, &Unwatched).unwrap()
     }
 
@@ -228,7 +229,8 @@ mod tests {
         let selection = selection(view, weld, &Options::default());
         let (surface, chamfers) = (stages.surface(), stages.chamfers());
         let Stages { offsets: vectors, rests: held, deep, threads, .. } = &stages;
-        let given = &Given { surface, chamfers, offsets: vectors, rests: held, deep, threads };
+        let given =
+            &Given { surface, chamfers, offsets: vectors, apart: None, rests: held, deep, threads };
         let open = &stages.shares;
         let found_edges = |watch: &dyn Watch| {
             super::edges(view, (topology, faces), &found, &selection, (threads, watch))

@@ -26,9 +26,6 @@ pub struct Topology {
     pub cluster_at: IdVec<Corner, Cluster>,
     /// `#corners`: the opposite half-edge, or none at a border and in collapsed triangles.
     pub twin: IdVec<Corner, Corner>,
-    /// Half-edges, sorted, that lie with both their faces on another edge: sheets of two sides. Not
-    /// those of closed skins, which are solids.
-    pub doubled: Vec<Corner>,
     /// Half-edges without twin, sorted, that lie behind visible faces on their edge.
     pub hidden: Vec<Hidden>,
     /// Half-edges, sorted, along which solids touch with air on both sides.
@@ -63,7 +60,6 @@ impl Topology {
             clusters: self.clusters,
             cluster_at: self.cluster_at.clone(),
             twin: self.twin.clone(),
-            doubled: self.doubled.iter().map(|&side| name(side)).collect(),
             hidden: self.hidden.clone(),
             contacts: self.contacts.iter().map(|&side| name(side)).collect(),
             touching: self.touching.iter().map(|pair| pair.map(name)).collect(),
@@ -77,7 +73,6 @@ impl Topology {
     }
 
     fn sort(&mut self) {
-        self.doubled.sort_unstable();
         self.hidden.sort_unstable();
         self.contacts.sort_unstable();
     }
@@ -99,14 +94,12 @@ pub fn topology(view: &View, weld: &Weld, watch: &dyn Watch) -> Result<Topology,
         clusters: weld.first_vertex.len(),
         cluster_at,
         twin: IdVec::filled(Corner::NONE, view.corner_count()),
-        doubled: Vec::new(),
         hidden: Vec::new(),
         contacts: Vec::new(),
         touching: Vec::new(),
     };
     join_all(view, &mut joined, watch)?;
     joined.sort();
-    solids::keep_sheets(view, &mut joined, watch)?;
     Ok(joined)
 }
 
@@ -248,7 +241,6 @@ fn join_crowd(view: &View, edge: &[Spoke], parts: &mut Parts, joined: &mut Topol
         .partition(|&half_edge| joined.cluster_at[half_edge] == near);
     let mut part = |half_edge: Corner| parts.of(half_edge);
     let Crowd { pairs, hidden, is_contact } = crowded::crowd(view, &forth, &back, &mut part);
-    joined.doubled.extend(crowded::doubled(view, &pairs).as_flattened());
     joined.hidden.extend(hidden);
     if is_contact {
         joined.contacts.extend(pairs.as_flattened());

@@ -147,14 +147,28 @@ fn an_open_box_that_is_there_twice_is_chamfered_twice() {
     }
 }
 
-/// A folded sheet of two sides ends somewhere: it is a card, and keeps its shape.
+/// A folded sheet of two sides, as a card is: both sides of its fold are chamfered alike, so that they
+/// still lie on each other, and its rims have nothing to cut off.
 #[test]
-fn a_folded_card_of_two_sides_keeps_its_fold() {
+fn a_folded_card_of_two_sides_is_chamfered_along_its_fold() {
     let block = Block { without: 0b11_1010, ..Block::new([0.0; 3], [1.0; 3]).with(Skin::TwoSided) };
-    let card = assembly(&[block], DMat3::IDENTITY, false);
-    let result = chamfered("card", &card, 0.02);
-    assert_eq!(result.mesh.positions, card.positions);
-    assert!(result.verdicts.iter().all(|verdict| verdict.reason == Reason::ZeroThickness));
+    for segments in [1, 3] {
+        let card = assembly(&[block], DMat3::IDENTITY, false);
+        let options = Options::default().with_width(Width::Units(0.02)).with_segments(segments);
+        let result = chamfer(&card.as_mesh(), &options.with_verify(Verify::Full)).unwrap();
+        assert_sound("card", &card.as_mesh(), &result);
+        let chamfered = result.totals.chamfered;
+        assert!(chamfered > 0 && chamfered.is_multiple_of(2), "each fold on both its sides");
+        let others = chamfered + result.totals.skipped[Reason::ZeroThickness];
+        assert_eq!(others, result.totals.hard_edges);
+        let mut vertices = result.mesh.indices[card.indices.len()..].to_vec();
+        vertices.sort_unstable();
+        vertices.dedup();
+        let place = |vertex: &u32| result.mesh.positions[*vertex as usize].map(f32::to_bits);
+        let mut places: Vec<[u32; 3]> = vertices.iter().map(place).collect();
+        places.sort_unstable();
+        assert!(places.chunk_by(|a, b| a == b).all(|same| same.len() > 1), "front and back");
+    }
 }
 
 /// A box that is there twice stands over the edge of an open one. Only one of its copies could follow

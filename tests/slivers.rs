@@ -336,3 +336,37 @@ fn a_card_on_the_edge_of_open_faces_makes_no_edge_more_crowded() {
         }
     }
 }
+
+//     b-------------c
+//    /     A       /|      The line p-q-r lies along an edge of a box. Rounding has turned its normal off
+//   p============q | d     those of A and B by more than a degree, so it has no soft side; but it is a part
+//   |      B     r |/      of one of them, wherever p goes.
+//   o------------s-
+#[test]
+fn a_line_that_rounding_has_turned_goes_along_with_the_face_that_it_is_shaded_like() {
+    for degrees in [0.0, 1.1, 1.3, 88.7, 88.9, 90.0] {
+        let [o, p, b, a] = [[0.0, 0.0, 1.0], [0.0, 1.0, 1.0], [0.0, 1.0, 0.0], [0.0; 3]];
+        let [s, q, c, d] = [o, p, b, a].map(|[_, y, z]| [2.0, y, z]);
+        let r = [2.0, 1.0 - 2e-7, 1.0];
+        let (sin, cos) = f32::to_radians(degrees).sin_cos();
+        let (front, left, right) = ([0.0, 0.0, 1.0], [-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]);
+        let (down, back) = ([0.0, -1.0, 0.0], [0.0, 0.0, -1.0]);
+        let mesh = triangles(&[
+            flat([p, q, c], UP),
+            flat([p, c, b], UP),
+            flat([p, r, q], [0.0, cos, sin]),
+            flat([o, s, r], front),
+            flat([o, r, p], front),
+            flat([a, o, p], left),
+            flat([a, p, b], left),
+            flat([d, c, q], right),
+            flat([d, q, r], right),
+            flat([d, r, s], right),
+            flat([a, d, s], down),
+            flat([a, s, o], down),
+            flat([a, b, c], back),
+            flat([a, c, d], back),
+        ]);
+        chamfered(&mesh, Width::Units(0.1));
+    }
+}

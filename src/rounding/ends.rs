@@ -143,8 +143,18 @@ impl Given<'_> {
             return self.points(rows, twin).into_iter().rev().map(turned).collect();
         }
         let arc = self.arc(end, count);
-        let places = (1..count).map(|step| stored(arc.at(step as f64 / count as f64)));
+        let places = (1..count)
+            .map(|step| self.stored(self.sectors(end)[0], arc.at(step as f64 / count as f64)));
         with_shares([arc.at(0.0).point, arc.at(1.0).point], places.collect())
+    }
+
+    /// A place by a sector as it will be stored.
+    pub fn stored(&self, sector: Sector, place: Place) -> Place {
+        let point = match self.placement.apart {
+            Some(apart) => apart.point(sector, place.point),
+            None => place.point.as_vec3().as_dvec3(),
+        };
+        Place { point, ..place }
     }
 
     /// What the surface of a point at an end is blended from.
@@ -156,11 +166,6 @@ impl Given<'_> {
         let corners = self.corners(end);
         near(self, self.sectors(end)[0], &corners, &point.shares, point.place.point)
     }
-}
-
-/// A place as it will be stored.
-pub fn stored(place: Place) -> Place {
-    Place { point: place.point.as_vec3().as_dvec3(), ..place }
 }
 
 /// Points between two others, with their shares of the way.

@@ -11,10 +11,10 @@ use glam::DVec3;
 
 use super::Given;
 use super::arc::{Arc, Place, sharpness};
-use super::ends::{End, Rows, ends_of, stored};
+use super::ends::{End, Rows, ends_of};
 use super::lay::{Added, Lay, Parents, joint};
 use crate::fills::names;
-use crate::ids::{Few, Ring};
+use crate::ids::{Few, Ring, Sector};
 use crate::math::unit;
 use crate::patches::Parts;
 
@@ -26,6 +26,8 @@ struct FillLay<'a> {
     given: &'a Given<'a>,
     rows: &'a Rows,
     fill: Parts<'a>,
+    /// The first of the ring.
+    sector: Sector,
     /// `#joints`: the first place of the ring at the same position.
     names: Few<usize>,
     /// By the names of both places: the ends of the ring.
@@ -80,7 +82,8 @@ pub fn lay_fill(given: &Given, rows: &Rows, (ring, fill): (Ring, Parts), lay: &m
         *uses.entry(sorted(side)).or_insert(0) += 1;
     }
     let inner = BTreeMap::new();
-    let mut making = FillLay { given, rows, fill, names, ends, uses, inner, count };
+    let mut making =
+        FillLay { given, rows, fill, sector: members[0], names, ends, uses, inner, count };
     let base = given.placement.base(members[0]);
     making.lift_middles(lay, base);
     for &triangle in fill.triangles {
@@ -138,7 +141,8 @@ impl FillLay<'_> {
                 flat if flat <= 0.5 => point.lerp(round, 2.0 * flat),
                 sharp => round.lerp(base, sharpness(sharp)),
             };
-            lay.places[middle as usize] = stored(Place { point: lifted, normal });
+            lay.places[middle as usize] =
+                self.given.stored(self.sector, Place { point: lifted, normal });
         }
     }
 
@@ -156,7 +160,8 @@ impl FillLay<'_> {
                 _ => {
                     let weights = weights.map(|weight| weight as f64 / count as f64);
                     let corners = triangle.map(|place| lay.places[place as usize]);
-                    let place = stored(self.inside(&arcs, corners, weights));
+                    let place =
+                        self.given.stored(self.sector, self.inside(&arcs, corners, weights));
                     let parents = Parents { places: triangle, weights };
                     lay.push(place, Added { parents, end: None })
                 }
@@ -196,7 +201,10 @@ impl FillLay<'_> {
                     places: [pair[0], pair[1], pair[0]],
                     weights: [1.0 - share, share, 0.0],
                 };
-                lay.push(stored(arc.at(share)), Added { parents, end: None })
+                lay.push(
+                    self.given.stored(self.sector, arc.at(share)),
+                    Added { parents, end: None },
+                )
             };
             (1..count).map(step).collect()
         });

@@ -98,26 +98,6 @@ pub fn crowd(
     Crowd { pairs: around.half_edges(&pairs), hidden, is_contact: airs.gaps != 1 }
 }
 
-/// The pairs that lie back to back on another pair with both their faces: the two sides of a folded
-/// sheet. Copies that face the same way are none: each of them bounds its own solid.
-pub fn doubled(view: &View, pairs: &[[Corner; 2]]) -> Vec<[Corner; 2]> {
-    if pairs.len() < 2 || pairs.len() > MOST_FACES {
-        return Vec::new();
-    }
-    let first = pairs[0][0];
-    let axis = unit(view.position_at(first.next()) - view.position_at(first));
-    let faces: Vec<[DVec3; 2]> =
-        pairs.iter().map(|pair| pair.map(|side| inward(view, side, axis))).collect();
-    let lies_on = |one: DVec3, other: DVec3| one.dot(other) > SAME_DIRECTION;
-    let is_doubled = |place: usize| {
-        let [one, two] = faces[place];
-        faces.iter().enumerate().any(|(other, &[three, four])| {
-            other != place && lies_on(one, four) && lies_on(two, three)
-        })
-    };
-    (0..pairs.len()).filter(|&place| is_doubled(place)).map(|place| pairs[place]).collect()
-}
-
 /// A face around the edge.
 struct Face {
     half_edge: Corner,

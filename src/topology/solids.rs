@@ -3,15 +3,10 @@
 //! Parts are connected by twins. One that is closed is a solid by itself, whatever it touches. Open
 //! ones that touch belong together, as far as anybody can tell.
 
-use glam::DVec3;
-
 use super::Topology;
 use crate::error::Error;
 use crate::groups::Groups;
-use crate::ids::{Corner, Id, Triangle};
-use crate::math::{area_vector, unit};
-use crate::tolerance::BACK_TO_BACK_COSINE;
-use crate::view::View;
+use crate::ids::{Corner, Id};
 use crate::watch::{Watch, each};
 
 /// `#triangles`: the smallest number in the solid of each.
@@ -43,27 +38,6 @@ pub fn solids(topology: &Topology, watch: &dyn Watch) -> Result<Vec<u32>, Error>
     parts.labels_watched(watch)
 }
 
-/// Takes the edges of closed skins out of the doubled ones: where a closed skin lies on another, each
-/// of them is a solid by itself, and both are chamfered alike. What is left belongs to sheets, such
-/// as cards, that end somewhere: at a border, or where their two sides meet back to back.
-///
-/// # Errors
-/// [`Error::Cancelled`] where the watch stops it.
-pub fn keep_sheets(view: &View, topology: &mut Topology, watch: &dyn Watch) -> Result<(), Error> {
-    if topology.doubled.is_empty() {
-        return Ok(());
-    }
-    let part_of = parts(topology, watch)?.labels_watched(watch)?;
-    let mut ends = vec![false; part_of.len()];
-    each(topology.twin.len(), watch, |corner: Corner| {
-        if is_border(topology, corner) || is_rim(view, topology, corner) {
-            ends[part_of[corner.triangle().index()] as usize] = true;
-        }
-    })?;
-    topology.doubled.retain(|side| ends[part_of[side.triangle().index()] as usize]);
-    Ok(())
-}
-
 fn parts(topology: &Topology, watch: &dyn Watch) -> Result<Groups, Error> {
     let mut parts = Groups::singles(topology.twin.len() / 3);
     each(topology.twin.len(), watch, |corner: Corner| {
@@ -77,13 +51,4 @@ fn parts(topology: &Topology, watch: &dyn Watch) -> Result<Groups, Error> {
 
 fn is_border(topology: &Topology, corner: Corner) -> bool {
     topology.twin[corner].is_none() && !topology.is_collapsed(corner.triangle())
-}
-
-/// Whether the two faces of an edge lie back to back.
-fn is_rim(view: &View, topology: &Topology, corner: Corner) -> bool {
-    let twin = topology.twin[corner];
-    let normal = |triangle: Triangle| -> DVec3 { unit(area_vector(view.triangle(triangle))) };
-    twin.is_some()
-        && corner < twin
-        && normal(corner.triangle()).dot(normal(twin.triangle())) < BACK_TO_BACK_COSINE
 }
