@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::chamfers::Chamfers;
-use crate::contacts::{Contacts, Cut, Stretch, Wedge};
+use crate::contacts::{ASKED, Contacts, Cut, Stretch, Wedge};
 use crate::edges::HardEdge;
 use crate::error::Error;
 use crate::ids::{Edge, Id, IdVec, Sector};
@@ -12,7 +12,7 @@ use crate::offsets::Offset;
 use crate::strips;
 use crate::surface::Surface;
 use crate::threads::Threads;
-use crate::watch::Watch;
+use crate::watch::{Times, Watch};
 
 /// For each hard edge, the stretches of border in the wedge that it loses where its
 /// chamfer is as wide as there is room for.
@@ -50,8 +50,7 @@ pub fn rests(
     let ends = |edge: &HardEdge| {
         [edge.sides[0], edge.sides[0].next()].map(|corner| view.position_at(corner))
     };
-    let near = contacts.near(hard.iter().as_slice(), |edge| (ends(edge), edge.widest()));
-    watch.worked(hard.len())?;
+    let near = contacts.near(hard.iter().as_slice(), |edge| (ends(edge), edge.widest()), watch)?;
     let note = |_: &Rests, id: Edge, notes: &mut Rests| {
         let edge = &hard[id];
         if edge.skipped.is_none() && near.may_hold(id.index()) {
@@ -60,7 +59,7 @@ pub fn rests(
         }
         notes.ends.push(notes.stretches.len() as u32);
     };
-    threads.blocks_then((hard.len(), watch), &mut rests, note, Rests::take)?;
+    threads.blocks_then((hard.len(), &Times(ASKED, watch)), &mut rests, note, Rests::take)?;
     Ok(rests)
 }
 

@@ -233,7 +233,11 @@ mod tests {
         let found_edges = |watch: &dyn Watch| {
             super::edges(view, (topology, faces), &found, &selection, (threads, watch))
         };
-        assert_eq!(times(found_edges), 3, "for all sides, for noise, and for those that are hard");
+        assert_eq!(
+            times(found_edges),
+            4,
+            "for all sides, noise, those that are hard, and all corners"
+        );
         assert_eq!(times(|watch| offsets(surface, chamfers, None, (threads, watch))), 1);
         assert!(times(|watch| room(given, watch)) > 1);
         let evened = |watch: &dyn Watch| evenness(given, room(given, &Unwatched)?, 0.5, watch);
