@@ -309,20 +309,23 @@ impl Contacts {
         Ok(Near(edges.chunks(TOGETHER).map(told).collect::<Result<_, _>>()?))
     }
 
-    /// The stretches that lie in the wedge that an edge loses at full width.
+    /// The stretches that lie in the wedge that an edge loses where each of its sides is pulled by so
+    /// much. Where one goes no farther than what touches, none is uncovered.
     pub fn beside(
         &self,
         view: &View,
         topology: &Topology,
         faces: &Faces,
-        (sides, width): ([Corner; 2], f64),
+        (sides, widths): ([Corner; 2], [f64; 2]),
     ) -> Few<Stretch> {
         let ends = [sides[0], sides[0].next()].map(|corner| view.position_at(corner));
-        if self.beside_edge(ends, width + self.tolerance).next().is_none() {
+        let [least, most] = [widths[0].min(widths[1]), widths[0].max(widths[1])];
+        if least <= self.tolerance || self.beside_edge(ends, most + self.tolerance).next().is_none()
+        {
             return Few::new();
         }
         let wedge = Wedge::new(view, faces, sides);
-        let stretches = wedge.map(|wedge| self.in_wedge(topology, sides[0], &wedge, width));
+        let stretches = wedge.map(|wedge| self.in_wedge(topology, sides[0], &wedge, widths));
         stretches.unwrap_or_default()
     }
 
@@ -342,7 +345,7 @@ impl Contacts {
             return false;
         };
         let reach = self.tolerance * HOLD_REACH;
-        let stretches = self.in_wedge(topology, side, &wedge, reach);
+        let stretches = self.in_wedge(topology, side, &wedge, [reach; 2]);
         stretches.iter().any(|stretch| wedge.is_inside_ends(stretch, self.tolerance * HOLD_SLACK))
     }
 
@@ -399,19 +402,21 @@ impl Contacts {
         })
     }
 
-    /// The stretches of border that lie in the wedge that is cut off along an edge where both its
-    /// sides are pulled by `width`.
+    /// The stretches of border that lie in the wedge that is cut off along an edge where its sides are
+    /// pulled by `widths`.
     fn in_wedge(
         &self,
         topology: &Topology,
         side: Corner,
         wedge: &Wedge,
-        width: f64,
+        widths: [f64; 2],
     ) -> Few<Stretch> {
         let is_own = |rim: &Rim| rim.border.is_some() && is_own_border(topology, side, rim.border);
-        self.beside_edge(wedge.ends(), width + self.tolerance)
+        let reach = widths[0].max(widths[1]) + self.tolerance;
+        let across = wedge.corners(widths, self.tolerance);
+        self.places(Search::Within(wedge.ends(), reach, across))
             .filter_map(|rims| {
-                let stretch = wedge.clip(rims[0].ends, width, self.tolerance)?;
+                let stretch = wedge.clip(rims[0].ends, widths, self.tolerance)?;
                 // Sheets at one place are all its own or none. Of the others a few are at most, so
                 // one that is not is soon met.
                 let asked = if rims[0].is_of_sheet(topology) { &rims[..1] } else { rims };
