@@ -25,7 +25,7 @@ use crate::threads::Threads;
 use crate::tolerance::{BACK_TO_BACK_COSINE, TOUCHING, TOUCHING_STEPS};
 use crate::topology::{Topology, topology};
 use crate::view::{View, view, wide};
-use crate::watch::{Unwatched, Watch, sort};
+use crate::watch::{Unwatched, Watch, collect, each, sort};
 use crate::weld::weld;
 
 use crowds::{Crowds, Search, crowds};
@@ -95,31 +95,35 @@ pub fn contacts(
     faces: &Faces,
     watch: &dyn Watch,
 ) -> Result<Contacts, Error> {
-    let borders = open_borders(topology).count() + sheet_rims(topology, faces).count();
-    watch.worked(view.corner_count())?;
-    memory::ask(memory::of_rims(borders + view.mesh.held.len()))?;
-    let borders = open_borders(topology).chain(sheet_rims(topology, faces)).map(|border| Rim {
+    let borders = borders(topology, faces, watch)?;
+    memory::ask(memory::of_rims(borders.len() + view.mesh.held.len()))?;
+    let of_border = |border: Corner| Rim {
         ends: [border, border.next()].map(|corner| view.position_at(corner)),
         radius: 0.0,
         border,
-    });
+    };
     let outside = view.mesh.held.iter().map(|held| Rim {
         ends: [held.from, held.to].map(wide),
         radius: f64::from(held.radius),
         border: Corner::NONE,
     });
-    let rims: Vec<Rim> = borders.chain(outside).collect();
-    watch.worked(view.corner_count())?;
+    let mut rims = collect(borders.len(), watch, |place| of_border(borders[place]))?;
+    rims.extend(outside);
+    watch.worked(view.mesh.held.len())?;
     let (rims, starts) = side_by_side(topology, rims, watch)?;
     watch.worked(rims.len() * ASKED)?;
     let tolerance = if rims.is_empty() { 0.0 } else { tolerance(view) };
     let places = || starts[..starts.len() - 1].iter().map(|&start| &rims[start as usize]);
-    let boxes: Vec<Aabb> =
-        places().map(|rim| around(rim.ends, rim.radius.max(tolerance))).collect();
+    let rim_at = |place: usize| &rims[starts[place] as usize];
+    let boxes = collect(starts.len() - 1, watch, |place| {
+        let rim = rim_at(place);
+        around(rim.ends, rim.radius.max(tolerance))
+    })?;
     let crowds = crowds(topology, places());
     let reach = view.reach();
     let kin = |rim: &Rim| crowds.kin(rim, rim.is_of_sheet(topology), reach);
-    let kin: Vec<Kin> = if crowds.is_empty() { Vec::new() } else { places().map(kin).collect() };
+    let of_kin = if crowds.is_empty() { 0 } else { boxes.len() };
+    let kin: Vec<Kin> = collect(of_kin, watch, |place| kin(rim_at(place)))?;
     watch.worked(rims.len() * ASKED)?;
     let lines = Lines::new(places().map(|rim| rim.ends), reach);
     // Nobody asks for what runs along something outside of the mesh.
@@ -127,7 +131,8 @@ pub fn contacts(
     let mut tree = Tree::watched(&boxes, &kin, watch)?;
     let is_many = boxes.len() >= MANY;
     if is_many {
-        tree = tree.with_views(&[places().map(line).collect()]);
+        let lines = collect(boxes.len(), watch, |place| line(rim_at(place)))?;
+        tree = tree.with_views_watched(&[lines], watch)?;
     }
     let starts = starts.into();
     Ok(Contacts { rims, starts, tree: tree.into(), crowds, lines, is_many, tolerance })
@@ -176,34 +181,42 @@ pub fn border_lines(mesh: &Mesh) -> Vec<[DVec3; 2]> {
     let all = weld(&view.mesh, &Unwatched).and_then(|weld| {
         let topology = topology(&view, &weld, &Unwatched)?;
         let faces = faces(&view, &topology, (&Threads::default(), &Unwatched))?;
-        Ok((topology, faces))
+        borders(&topology, &faces, &Unwatched)
     });
-    let Ok((topology, faces)) = all else { return Vec::new() };
     let line = |border: Corner| [border, border.next()].map(|corner| view.position_at(corner));
-    open_borders(&topology).chain(sheet_rims(&topology, &faces)).map(line).collect()
+    all.unwrap_or_default().into_iter().map(line).collect()
 }
 
-/// The half-edges, of each edge one, whose two faces lie back to back: where a sheet of two sides
-/// ends, as open as any border.
-fn sheet_rims<'a>(topology: &'a Topology, faces: &'a Faces) -> impl Iterator<Item = Corner> + 'a {
-    topology.twin.ids().filter(|&corner| {
-        let twin = topology.twin[corner];
-        twin.is_some() && corner < twin && {
-            let [one, two] = [corner, twin].map(|side| faces.normal[side.triangle()]);
-            one.dot(two) < BACK_TO_BACK_COSINE
-        }
-    })
-}
-
-/// The half-edges without twin, but for those of hidden faces: these follow what they lie behind.
-fn open_borders(topology: &Topology) -> impl Iterator<Item = Corner> + '_ {
+/// The half-edges at which a mesh is open: first those without twin, then where sheets end.
+fn borders(topology: &Topology, faces: &Faces, watch: &dyn Watch) -> Result<Vec<Corner>, Error> {
     let beside = beside_hidden(topology);
-    topology.twin.ids().filter(move |&corner| {
-        topology.twin[corner].is_none()
-            && !topology.is_collapsed(corner.triangle())
-            && !topology.is_hidden(corner)
-            && beside.binary_search(&corner).is_err()
-    })
+    let mut borders = Vec::new();
+    each(topology.twin.len(), watch, |corner| {
+        borders.extend(is_open_border(topology, &beside, corner).then_some(corner));
+    })?;
+    each(topology.twin.len(), watch, |corner| {
+        borders.extend(is_sheet_rim(topology, faces, corner).then_some(corner));
+    })?;
+    Ok(borders)
+}
+
+/// Whether the two faces of an edge lie back to back, of which each edge is told once: where a sheet of
+/// two sides ends, as open as any border.
+fn is_sheet_rim(topology: &Topology, faces: &Faces, corner: Corner) -> bool {
+    let twin = topology.twin[corner];
+    twin.is_some() && corner < twin && {
+        let [one, two] = [corner, twin].map(|side| faces.normal[side.triangle()]);
+        one.dot(two) < BACK_TO_BACK_COSINE
+    }
+}
+
+/// Whether a half-edge has no twin, but for those of hidden faces: these follow what they lie behind,
+/// and so do those beside them.
+fn is_open_border(topology: &Topology, beside: &[Corner], corner: Corner) -> bool {
+    topology.twin[corner].is_none()
+        && !topology.is_collapsed(corner.triangle())
+        && !topology.is_hidden(corner)
+        && beside.binary_search(&corner).is_err()
 }
 
 /// The borders, sorted, that run on from those of hidden faces, along the same wall: they go back
@@ -272,11 +285,15 @@ impl Contacts {
 
     /// Near which edges something may rest, as far as so many of them together tell: within a distance of
     /// each, by [`Contacts::beside`] a width, by [`Contacts::holds`] none.
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`] where the watch stops it.
     pub fn near<Edge>(
         &self,
         edges: &[Edge],
         ends_and_width: impl Fn(&Edge) -> ([DVec3; 2], f64),
-    ) -> Near {
+        watch: &dyn Watch,
+    ) -> Result<Near, Error> {
         let around = |edge: &Edge| {
             let (ends, width) = ends_and_width(edge);
             around(ends, width + self.tolerance * HELD)
@@ -285,24 +302,30 @@ impl Contacts {
             let bounds = some.iter().map(around).fold(Aabb::EMPTY, Aabb::union);
             self.tree.overlapping(bounds).next().is_some()
         };
-        let is_empty = self.rims.is_empty();
-        Near(if is_empty { Vec::new() } else { edges.chunks(TOGETHER).map(is_near).collect() })
+        if self.rims.is_empty() {
+            return Ok(Near(Vec::new()));
+        }
+        let told = |some: &[Edge]| watch.worked(some.len()).map(|()| is_near(some));
+        Ok(Near(edges.chunks(TOGETHER).map(told).collect::<Result<_, _>>()?))
     }
 
-    /// The stretches that lie in the wedge that an edge loses at full width.
+    /// The stretches that lie in the wedge that an edge loses where each of its sides is pulled by so
+    /// much. Where one goes no farther than what touches, none is uncovered.
     pub fn beside(
         &self,
         view: &View,
         topology: &Topology,
         faces: &Faces,
-        (sides, width): ([Corner; 2], f64),
+        (sides, widths): ([Corner; 2], [f64; 2]),
     ) -> Few<Stretch> {
         let ends = [sides[0], sides[0].next()].map(|corner| view.position_at(corner));
-        if self.beside_edge(ends, width + self.tolerance).next().is_none() {
+        let [least, most] = [widths[0].min(widths[1]), widths[0].max(widths[1])];
+        if least <= self.tolerance || self.beside_edge(ends, most + self.tolerance).next().is_none()
+        {
             return Few::new();
         }
         let wedge = Wedge::new(view, faces, sides);
-        let stretches = wedge.map(|wedge| self.in_wedge(topology, sides[0], &wedge, width));
+        let stretches = wedge.map(|wedge| self.in_wedge(topology, sides[0], &wedge, widths));
         stretches.unwrap_or_default()
     }
 
@@ -322,7 +345,7 @@ impl Contacts {
             return false;
         };
         let reach = self.tolerance * HOLD_REACH;
-        let stretches = self.in_wedge(topology, side, &wedge, reach);
+        let stretches = self.in_wedge(topology, side, &wedge, [reach; 2]);
         stretches.iter().any(|stretch| wedge.is_inside_ends(stretch, self.tolerance * HOLD_SLACK))
     }
 
@@ -379,19 +402,21 @@ impl Contacts {
         })
     }
 
-    /// The stretches of border that lie in the wedge that is cut off along an edge where both its
-    /// sides are pulled by `width`.
+    /// The stretches of border that lie in the wedge that is cut off along an edge where its sides are
+    /// pulled by `widths`.
     fn in_wedge(
         &self,
         topology: &Topology,
         side: Corner,
         wedge: &Wedge,
-        width: f64,
+        widths: [f64; 2],
     ) -> Few<Stretch> {
         let is_own = |rim: &Rim| rim.border.is_some() && is_own_border(topology, side, rim.border);
-        self.beside_edge(wedge.ends(), width + self.tolerance)
+        let reach = widths[0].max(widths[1]) + self.tolerance;
+        let across = wedge.corners(widths, self.tolerance);
+        self.places(Search::Within(wedge.ends(), reach, across))
             .filter_map(|rims| {
-                let stretch = wedge.clip(rims[0].ends, width, self.tolerance)?;
+                let stretch = wedge.clip(rims[0].ends, widths, self.tolerance)?;
                 // Sheets at one place are all its own or none. Of the others a few are at most, so
                 // one that is not is soon met.
                 let asked = if rims[0].is_of_sheet(topology) { &rims[..1] } else { rims };

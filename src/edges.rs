@@ -125,12 +125,13 @@ pub fn edges(
         sides.retain(|&side| !is_noise(view, &noise, [side, topology.twin[side]]));
     }
     let ends = |&side: &Corner| [side, side.next()].map(|corner| view.position_at(corner));
-    let near = contacts.near(&sides, |side| (ends(side), 0.0));
+    let near = contacts.near(&sides, |side| (ends(side), 0.0), watch)?;
     let hard = threads.map(sides.len(), &Times(ASKED, watch), |edge: Edge| {
         let side = sides[edge.index()];
         let is_held = || near.may_hold(edge.index()) && contacts.holds(view, topology, faces, side);
         hard_edge(view, (topology, faces), selection, [side, topology.twin[side]], is_held)
     })?;
+    watch.worked(view.corner_count())?;
     let mut chamfered_at = IdVec::filled(Edge::NONE, view.corner_count());
     for (edge, hard) in hard.ids().zip(hard.iter()).filter(|(_, hard)| hard.skipped.is_none()) {
         hard.sides.iter().for_each(|&side| chamfered_at[side] = edge);

@@ -103,14 +103,14 @@ impl Leveling<'_> {
     /// The fronts that narrow others from the beginning: few of those that are narrow. The others can
     /// only come to do so when they are lowered themselves.
     fn seeds(&mut self, watch: &dyn Watch) -> Result<BinaryHeap<Narrow>, Error> {
-        let mut seeds = Vec::new();
+        let mut seeds = BinaryHeap::new();
         for stretch in stretches(self.room.fronts.len(), watch) {
             let moves = |sector: &Sector| self.given.offsets[*sector].moves();
             for sector in stretch?.map(Sector::new).filter(moves) {
                 seeds.extend([0, 1].into_iter().filter_map(|which| self.seed((sector, which))));
             }
         }
-        Ok(seeds.into())
+        Ok(seeds)
     }
 
     fn seed(&mut self, front: Front) -> Option<Narrow> {

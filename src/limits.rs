@@ -14,12 +14,12 @@ use std::cmp::{Ordering, Reverse};
 
 use crate::error::Error;
 use crate::given::Given;
-use crate::ids::{IdVec, Ring, Sector};
-use crate::offsets::narrow;
+use crate::ids::{Id, IdVec, Ring, Sector};
+use crate::offsets::{Offset, narrow};
 use crate::options::Verify;
 use crate::placement::Placement;
 use crate::report::Reason;
-use crate::watch::{Watch, collect, sort, stretches};
+use crate::watch::{Watch, collect, each_of, sort, stretches};
 
 pub use elements::Element;
 
@@ -152,7 +152,7 @@ fn bad_around(
     sectors: &[Sector],
     watch: &dyn Watch,
 ) -> Result<Vec<Element>, Error> {
-    let (suspects, mut bad) = (around(given, sectors), Vec::new());
+    let (suspects, mut bad) = (around(given, sectors, watch)?, Vec::new());
     for stretch in stretches(suspects.len(), watch) {
         let suspects = suspects[stretch?].iter().copied();
         bad.extend(suspects.filter(|&element| !is_valid(given, placement, element)));
@@ -269,42 +269,45 @@ fn give_way(
 ) -> Result<(), Error> {
     watch.worked(room.len())?;
     let folds = |sector: &Sector| limits.reason[*sector] == Reason::Folds;
-    let mut turned: Vec<Sector> = room.ids().filter(folds).collect();
-    if turned.is_empty() {
+    let (folding, mut away): (Vec<Sector>, _) = (room.ids().filter(folds).collect(), Vec::new());
+    each_of(&folding, watch, |&sector| {
+        away.extend(turned_away(given, room, &limits.placement, sector));
+    })?;
+    if away.is_empty() {
         return Ok(());
     }
-    let room = &mut room.clone();
-    turned.retain(|&sector| turn(given, room, &mut limits.placement, sector));
+    limits.placement.turn(&away, watch)?;
+    let room = &mut IdVec::from_vec(collect(room.len(), watch, |place| room[Sector::new(place)])?);
+    away.iter().for_each(|&(sector, _, share)| room[sector] = share);
+    let turned: Vec<Sector> = away.into_iter().map(|(sector, ..)| sector).collect();
     let bad = bad_around(given, &limits.placement, &turned, watch)?;
     let mut near = shrink(given, limits, bad, watch)?;
-    near.extend(around(given, &turned).into_iter().flat_map(|element| sectors_of(given, element)));
-    near.sort_unstable();
+    let beside = around(given, &turned, watch)?.into_iter();
+    near.extend(beside.flat_map(|element| sectors_of(given, element)));
+    sort(&mut near, watch)?;
     near.dedup();
     grow(given, room, limits, near.into_iter(), watch)?;
     turned.into_iter().for_each(|sector| limits.reason[sector] = Reason::Folds);
     Ok(())
 }
 
-/// Turns a sector away from its wider front, to what it could take or as far as its narrower front
-/// goes; whether it has two such.
-fn turn(
+/// A sector turned away from its wider front, to what it could take or as far as its narrower front
+/// goes, and its share of that; none if it has no two such.
+fn turned_away(
     given: &Given,
-    room: &mut IdVec<Sector, f64>,
-    placement: &mut Placement,
+    room: &IdVec<Sector, f64>,
+    placement: &Placement,
     sector: Sector,
-) -> bool {
+) -> Option<(Sector, Offset, f64)> {
     let (offset, whole) = (placement.offset(sector), room[sector]);
     let narrower = whole * offset.fronts[0].min(offset.fronts[1]);
     let share = placement.share[sector].max(narrower);
     if share >= whole || narrower <= 0.0 {
-        return false;
+        return None;
     }
     let shares = offset.fronts.map(|front| if front < 1.0 { whole / share } else { 1.0 });
-    let sectors = given.chamfers.sectors;
-    let Some(offset) = narrow(given.surface, sectors, sector, offset, shares) else { return false };
-    placement.turn(sector, offset, share);
-    room[sector] = share;
-    true
+    let offset = narrow(given.surface, given.chamfers.sectors, sector, offset, shares)?;
+    Some((sector, offset, share))
 }
 
 /// Those of some sectors that were shrunk, in the order in which they are asked: those first that lost most.

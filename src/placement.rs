@@ -13,7 +13,7 @@ use crate::resample::{blended_normal, chart_foot, surface_foot};
 use crate::sectors::Sectors;
 use crate::surface::Surface;
 use crate::threads::Threads;
-use crate::watch::Watch;
+use crate::watch::{Watch, collect, each_of};
 
 /// Positions as they will be stored, so that what is checked is what comes out.
 #[derive(Clone)]
@@ -57,10 +57,22 @@ impl<'a> Placement<'a> {
         self.normals[sector] = self.normals_of(sector);
     }
 
-    /// Moves a sector's vertex to a share of another offset.
-    pub fn turn(&mut self, sector: Sector, offset: Offset, share: f64) {
-        self.offsets.to_mut()[sector] = offset;
-        self.set(sector, share);
+    /// Moves the vertices of some sectors, each to a share of another offset.
+    ///
+    /// # Errors
+    /// What `watch` gives: all offsets may have to be copied before.
+    pub fn turn(
+        &mut self,
+        turned: &[(Sector, Offset, f64)],
+        watch: &dyn Watch,
+    ) -> Result<(), Error> {
+        if let Cow::Borrowed(offsets) = self.offsets {
+            let own = collect(offsets.len(), watch, |place| offsets[Sector::new(place)])?;
+            self.offsets = Cow::Owned(IdVec::from_vec(own));
+        }
+        let offsets = self.offsets.to_mut();
+        turned.iter().for_each(|&(sector, offset, _)| offsets[sector] = offset);
+        each_of(turned, watch, |&(sector, _, share)| self.set(sector, share))
     }
 
     /// Whether the sector's vertices stand elsewhere than in the source.

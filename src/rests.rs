@@ -3,16 +3,16 @@
 use glam::DVec3;
 
 use crate::chamfers::Chamfers;
-use crate::contacts::{Contacts, Cut, Stretch, Wedge};
+use crate::contacts::{ASKED, Contacts, Cut, Stretch, Wedge};
 use crate::edges::HardEdge;
 use crate::error::Error;
-use crate::ids::{Edge, Id, IdVec, Sector};
+use crate::ids::{Corner, Edge, Id, IdVec, Sector};
 use crate::math::unit;
 use crate::offsets::Offset;
 use crate::strips;
 use crate::surface::Surface;
 use crate::threads::Threads;
-use crate::watch::Watch;
+use crate::watch::{Times, Watch};
 
 /// For each hard edge, the stretches of border in the wedge that it loses where its
 /// chamfer is as wide as there is room for.
@@ -50,17 +50,16 @@ pub fn rests(
     let ends = |edge: &HardEdge| {
         [edge.sides[0], edge.sides[0].next()].map(|corner| view.position_at(corner))
     };
-    let near = contacts.near(hard.iter().as_slice(), |edge| (ends(edge), edge.widest()));
-    watch.worked(hard.len())?;
+    let near = contacts.near(hard.iter().as_slice(), |edge| (ends(edge), edge.widest()), watch)?;
     let note = |_: &Rests, id: Edge, notes: &mut Rests| {
         let edge = &hard[id];
         if edge.skipped.is_none() && near.may_hold(id.index()) {
-            let width = edge.widest().min(most.width(surface, chamfers, edge));
-            notes.stretches.extend(contacts.beside(view, topology, faces, (edge.sides, width)));
+            let widths = most.widths(surface, chamfers, edge);
+            notes.stretches.extend(contacts.beside(view, topology, faces, (edge.sides, widths)));
         }
         notes.ends.push(notes.stretches.len() as u32);
     };
-    threads.blocks_then((hard.len(), watch), &mut rests, note, Rests::take)?;
+    threads.blocks_then((hard.len(), &Times(ASKED, watch)), &mut rests, note, Rests::take)?;
     Ok(rests)
 }
 
@@ -74,15 +73,18 @@ pub struct Most<'a> {
 }
 
 impl Most<'_> {
-    /// The farthest that either side of an edge is pulled from it at either end.
-    fn width(self, surface: Surface, chamfers: Chamfers, edge: &HardEdge) -> f64 {
+    /// The farthest that each side of an edge is pulled from it at either end.
+    fn widths(self, surface: Surface, chamfers: Chamfers, edge: &HardEdge) -> [f64; 2] {
         let [from, to] = [edge.sides[0], edge.sides[0].next()].map(|c| surface.view.position_at(c));
         let along = unit(to - from);
-        let sectors = strips::corners(edge).map(|corner| chamfers.sectors.sector_of[corner]);
-        let pulled = sectors.into_iter().filter(|sector| sector.is_some()).map(|sector| {
-            (self.offsets[sector].vector * self.shares[sector]).cross(along).length()
-        });
-        pulled.fold(0.0, f64::max)
+        let pulled = |corner: Corner| {
+            let sector = chamfers.sectors.sector_of[corner];
+            let is_pulled = sector.is_some();
+            let way = || self.offsets[sector].vector * self.shares[sector];
+            if is_pulled { way().cross(along).length() } else { 0.0 }
+        };
+        let [b1, a1, a2, b2] = strips::corners(edge).map(pulled);
+        [a1.max(b1), a2.max(b2)].map(|width| width.min(edge.widest()))
     }
 }
 

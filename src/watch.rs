@@ -71,6 +71,17 @@ pub fn each<I: Id>(count: usize, watch: &dyn Watch, mut act: impl FnMut(I)) -> R
     Ok(())
 }
 
+/// Does something with each of some items, and tells the watch of each stretch of them.
+///
+/// # Errors
+/// What `watch` gives.
+pub fn each_of<T>(items: &[T], watch: &dyn Watch, mut act: impl FnMut(&T)) -> Result<(), Error> {
+    for stretch in stretches(items.len(), watch) {
+        items[stretch?].iter().for_each(&mut act);
+    }
+    Ok(())
+}
+
 /// The values of all numbers below one; the watch is told of each stretch of them.
 ///
 /// # Errors

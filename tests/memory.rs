@@ -122,6 +122,48 @@ fn a_call_takes_no_more_memory_than_it_asked_for() {
     // One test: what is counted is counted for all.
     edges_that_get_vertices_take_no_more();
     what_a_stage_leaves_behind_is_given_back();
+    the_peak_is_a_few_times_input_and_output();
+}
+
+/// The most bytes at one time, the input among them, for each byte of input and output, with `fast` and
+/// with `full`; each a twentieth above what it takes. What is done in blocks holds all results once more
+/// while they are put together, and what a block takes is little beside that.
+const MOST_OF_BLOCKS: [f64; 2] = [2.7; 2];
+
+/// A smooth mesh is welded and copied, and nothing else.
+const MOST_OF_SMOOTH: [f64; 2] = [1.1; 2];
+
+/// One large part has what all stages know of it at the same time, beside the result, and with `full` the
+/// tree in which collisions are looked for.
+const MOST_OF_ONE_PART: [f64; 2] = [4.7, 6.8];
+
+fn the_peak_is_a_few_times_input_and_output() {
+    let width = Width::Units(0.02);
+    for (name, mesh, most) in [
+        ("blocks", shapes::cube_field(6000), MOST_OF_BLOCKS),
+        ("smooth", shapes::sphere(300, 300), MOST_OF_SMOOTH),
+        ("terrain", rough_ground(150), MOST_OF_ONE_PART),
+    ] {
+        for (verify, most) in [Verify::Fast, Verify::Full].into_iter().zip(most) {
+            let options = Options::default().with_width(width).with_verify(verify);
+            let [taken, _] = taken_and_asked(&mesh.as_mesh(), &options);
+            let result = chamfer(&mesh.as_mesh(), &options).unwrap();
+            let told = size_of_val(&*result.triangle_sources) + size_of_val(&*result.verdicts);
+            let [input, output] = [bytes(&mesh), bytes(&result.mesh) + told];
+            let times = (input + taken) as f64 / (input + output) as f64;
+            println!("{name}, {verify:?}: {times:.2} times {input} and {output} bytes");
+            assert!(times <= most, "{name}, {verify:?}: {times:.2} times input and output");
+        }
+    }
+}
+
+fn bytes(mesh: &MeshBuffers) -> usize {
+    size_of_val(&*mesh.positions)
+        + size_of_val(&*mesh.normals)
+        + size_of_val(&*mesh.tangents)
+        + size_of_val(&*mesh.colors)
+        + mesh.uvs.iter().map(|uv| size_of_val(&*uv.values)).sum::<usize>()
+        + size_of_val(&*mesh.indices)
 }
 
 /// The most bytes for each source triangle of a field of cubes that is done as a whole: all its edges

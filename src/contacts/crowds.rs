@@ -27,6 +27,12 @@ const MOST_TURN: f64 = std::f64::consts::SQRT_2;
 /// The chord from one direction to the opposite one.
 const ANY_TURN: f64 = 2.0;
 
+/// Ends that differ less in their direction make no plane: far more than rounding.
+const LEAST_TURN: f64 = 1e-9;
+
+/// Far more than rounding moves a direction off such a plane.
+const SLACK: f64 = 1e-6;
+
 /// Where crowds end, sorted by [`place`]; nowhere in nearly all meshes.
 #[derive(Clone)]
 pub struct Crowds(Arc<[DVec3]>);
@@ -90,6 +96,8 @@ pub enum Search {
     /// What comes within a distance of an edge, but for the sheets that end where it does: these are
     /// its own.
     Beside([DVec3; 2], f64),
+    /// Of that, what comes into a wedge along the edge: seen from there, the corners across it.
+    Within([DVec3; 2], f64, [DVec3; 3]),
     /// What runs through a point, but for all that ends there.
     Through(DVec3),
     /// What runs along a border.
@@ -100,7 +108,7 @@ impl Search {
     /// What is looked for comes within a distance of a segment.
     pub fn segment(self) -> ([DVec3; 2], f64) {
         match self {
-            Search::Beside(edge, reach) => (edge, reach),
+            Search::Beside(edge, reach) | Search::Within(edge, reach, _) => (edge, reach),
             Search::Through(point) => ([point; 2], 0.0),
             Search::Along(border) => (border, 0.0),
         }
@@ -109,11 +117,19 @@ impl Search {
     /// Where it may lie of a crowd.
     fn near(self, from: DVec3, is_of_sheet: bool, tolerance: f64) -> Near {
         match self {
-            Search::Beside(edge, _) if is_of_sheet && edge.contains(&from) => Near::NOTHING,
+            Search::Beside(edge, _) | Search::Within(edge, ..)
+                if is_of_sheet && edge.contains(&from) =>
+            {
+                Near::NOTHING
+            }
             Search::Beside(edge, reach) => Near::segment(from, edge, reach + tolerance),
+            Search::Within(edge, reach, across) => {
+                let reach = reach + tolerance;
+                Near::segment(from, edge, reach).within(from, (edge, reach), across)
+            }
             Search::Through(point) if point == from => Near::NOTHING,
             Search::Through(point) => Near::segment(from, [point; 2], tolerance),
-            Search::Along(border) if border.contains(&from) => Near::within(seen(from, border)),
+            Search::Along(border) if border.contains(&from) => Near::seen(seen(from, border)),
             Search::Along(border) => Near::segment(from, border, tolerance),
         }
     }
@@ -130,10 +146,10 @@ struct Near {
 }
 
 impl Near {
-    const NOTHING: Near = Near::within(Aabb::EMPTY);
-    const ALL: Near = Near::within(Aabb::ALL);
+    const NOTHING: Near = Near::seen(Aabb::EMPTY);
+    const ALL: Near = Near::seen(Aabb::ALL);
 
-    const fn within(bounds: Aabb) -> Near {
+    const fn seen(bounds: Aabb) -> Near {
         Near { bounds, normal: DVec3::ZERO, beside: 0.0 }
     }
 
@@ -146,6 +162,21 @@ impl Near {
         let [one, other] = segment.map(|end| unit(end - from));
         let bounds = seen(from, segment).grown((reach / far * MOST_TURN) as f32);
         Near { bounds, normal: unit(one.cross(other)), beside: reach / (far - reach) }
+    }
+
+    /// The same, of what is no farther from the segment than these ways lead.
+    fn within(
+        self,
+        from: DVec3,
+        ([one, other], reach): ([DVec3; 2], f64),
+        ways: [DVec3; 3],
+    ) -> Near {
+        let far = distance_between([one, other], [from; 2]) - reach;
+        if unit(one - from).cross(unit(other - from)).length() < LEAST_TURN || far <= reach {
+            return self;
+        }
+        let most = ways.into_iter().map(|way| way.dot(self.normal).abs()).fold(0.0, f64::max);
+        Near { beside: self.beside.min(most / far + SLACK), ..self }
     }
 
     fn is_apart(&self, seen: &Aabb) -> bool {
@@ -200,6 +231,19 @@ mod tests {
         assert_eq!(found(true, Search::Beside(across, 0.02)).len(), 5, "and those a step away");
         let steep = [foot(7) / 2.0, foot(7) * 2.0];
         assert_eq!(found(true, Search::Beside(steep, 0.0)), [7], "in one plane with the tip");
+    }
+
+    #[test]
+    fn within_a_thin_wedge_are_those_in_its_plane() {
+        let steep = [foot(7) / 2.0, foot(7) * 2.0];
+        let beside = unit(foot(7).cross(TIP)) * 0.02;
+        let along = (foot(7) - TIP) * 0.02;
+        let within = |ways| found(true, Search::Within(steep, 0.02, ways));
+        let all = found(true, Search::Beside(steep, 0.02));
+        assert!(all.len() > 2, "{all:?}");
+        assert_eq!(within([DVec3::ZERO, along, DVec3::ZERO]), [7]);
+        assert_eq!(within([DVec3::ZERO, along, beside]), all);
+        assert_eq!(within([beside; 3]), all);
     }
 
     #[test]

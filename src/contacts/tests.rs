@@ -258,7 +258,7 @@ fn a_sharp_edge_does_not_rest_on_those_that_it_meets() {
         assert_eq!(contacts.len(), 1);
         let blunt = side(view, [points[0], points[2]]);
         let sides = [blunt, topology.twin[blunt]];
-        assert!(contacts.beside(view, topology, faces, (sides, 0.01)).is_empty());
+        assert!(contacts.beside(view, topology, faces, (sides, [0.01; 2])).is_empty());
     });
 }
 
@@ -377,9 +377,34 @@ fn a_wedge_ends_at_the_chamfer() {
         let wedge = Wedge::new(view, faces, [edge, topology.twin[edge]]).unwrap();
         let clipped = |depth: f64| {
             let line = EDGE.map(|at| wide(at) - DVec3::new(0.0, depth, depth));
-            wedge.clip(line, 0.1, 1e-6).is_some()
+            wedge.clip(line, [0.1; 2], 1e-6).is_some()
         };
         assert!(clipped(0.049) && !clipped(0.051));
+    });
+}
+
+//     __
+//    |  ''--..     pulled far down one face, and hardly into the other
+#[test]
+fn a_wedge_of_unlike_sides_is_as_thin_as_the_narrower() {
+    let mesh = cube();
+    with_contacts(&mesh.as_mesh(), |_, view, topology, faces| {
+        let edge = side(view, [EDGE[1], EDGE[0]]);
+        let wedge = Wedge::new(view, faces, [edge, topology.twin[edge]]).unwrap();
+        let into = [edge, topology.twin[edge]].map(|side| {
+            let normal = faces.normal[side.triangle()];
+            if normal == DVec3::Z { DVec3::NEG_Y } else { DVec3::NEG_Z }
+        });
+        let (widths, tolerance) = ([0.2, 0.02], 1e-6);
+        let cut = |[one, two]: [f64; 2]| {
+            let line = EDGE.map(|at| wide(at) + into[0] * one + into[1] * two);
+            wedge.clip(line, widths, tolerance).is_some()
+        };
+        assert!(cut([0.1, 0.0099]) && !cut([0.1, 0.0101]), "on its middle");
+        assert!(cut([0.19, 0.0]) && !cut([0.0, 0.19]) && cut([0.0, 0.019]));
+        // Its corners are around all of that.
+        let [_, far, deep] = wedge.corners(widths, tolerance);
+        assert!(far.distance(into[0] * 0.2) < 1e-4 && deep.distance(into[1] * 0.02) < 1e-4);
     });
 }
 
@@ -468,7 +493,7 @@ fn of_rims_at_one_place_each_is_asked_whether_it_is_own() {
         with_contacts(&mesh.as_mesh(), |contacts, view, topology, faces| {
             let edge = side(view, [points[0], points[1]]);
             let sides = [edge, topology.twin[edge]];
-            let beside = contacts.beside(view, topology, faces, (sides, 0.1));
+            let beside = contacts.beside(view, topology, faces, (sides, [0.1; 2]));
             // The flag's other sides touch the end alone.
             let is_long = |place: &wedge::Place| place.into.max_element() > 0.05;
             assert_eq!(beside.as_flattened().iter().any(is_long), rests, "{indices:?}");

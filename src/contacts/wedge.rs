@@ -68,24 +68,35 @@ impl Wedge {
         Place { along: from.dot(self.along), into: across / (self.sine * self.sine) }
     }
 
+    /// Across the edge, around all that [`Wedge::clip`] keeps: seen from the edge, three corners.
+    pub fn corners(&self, widths: [f64; 2], tolerance: f64) -> [DVec3; 3] {
+        let out = tolerance / self.sine;
+        // Where the chamfer runs on above a face, and so the other one is passed by.
+        let [one, two] = [[0, 1], [1, 0]].map(|[k, other]| widths[k] * (1.0 + out / widths[other]));
+        let [x, y] = self.into;
+        [-(x + y) * out, x * one - y * out, y * two - x * out]
+    }
+
     /// Whether a stretch reaches farther than this from both ends of the edge.
     pub fn is_inside_ends(&self, stretch: &Stretch, far: f64) -> bool {
         let [one, two] = stretch.map(|place| place.along);
         one.max(two) > far && one.min(two) < self.length - far
     }
 
-    /// The part of a segment that is cut off where both sides are pulled by `width`; what is
+    /// The part of a segment that is cut off where its sides are pulled by `widths`; what is
     /// farther above the faces than the tolerance is outside.
-    pub fn clip(&self, segment: [DVec3; 2], width: f64, tolerance: f64) -> Option<Stretch> {
+    pub fn clip(&self, segment: [DVec3; 2], widths: [f64; 2], tolerance: f64) -> Option<Stretch> {
         let places = segment.map(|point| self.place(point));
         let mut span = [0.0, 1.0];
+        let width = widths[0].max(widths[1]);
+        let share = DVec2::from(widths.map(|own| width / own));
         // Each is to be positive, and linear along the segment.
         let bounds: [&dyn Fn(&Place) -> f64; 5] = [
             &|place| place.along + tolerance,
             &|place| self.length + tolerance - place.along,
             &|place| place.into.x * self.sine + tolerance,
             &|place| place.into.y * self.sine + tolerance,
-            &|place| width - place.into.x - place.into.y,
+            &|place| width - place.into.x * share.x - place.into.y * share.y,
         ];
         for bound in bounds {
             cut(&mut span, places.each_ref().map(bound))?;
@@ -167,7 +178,7 @@ impl Contacts {
         let mut all: Few<[f64; 2]> =
             balls.filter_map(|rim| within(ends, rim.ends, rim.radius, slack)).collect();
         if let Some(wedge) = Wedge::new(view, faces, [side, topology.twin[side]]) {
-            let resting = self.in_wedge(topology, side, &wedge, self.tolerance * HOLD_REACH);
+            let resting = self.in_wedge(topology, side, &wedge, [self.tolerance * HOLD_REACH; 2]);
             let resting = resting.iter().filter(|stretch| wedge.is_inside_ends(stretch, slack));
             all.extend(resting.map(|[from, to]| {
                 [from.along.min(to.along) - slack, from.along.max(to.along) + slack]

@@ -21,7 +21,7 @@ use crate::placement::Placement;
 use crate::report::Reason;
 use crate::strips;
 use crate::topology::solids;
-use crate::watch::{Watch, collect, each, stretches};
+use crate::watch::{Watch, collect, each, sort, stretches};
 
 use super::crowds::{Crowd, Crowds, crowds};
 use super::elements::{Element, around, flap_joints, sectors_of};
@@ -240,8 +240,8 @@ impl Part<'_> {
         watch: &dyn Watch,
     ) -> Result<Vec<Element>, Error> {
         let mut open = before;
-        open.extend(around(self.given, moved));
-        open.sort_unstable_by_key(|element| element.key());
+        open.extend(around(self.given, moved, watch)?);
+        sort(&mut open, watch)?;
         self.new_cuts(placement, &open, watch)
     }
 

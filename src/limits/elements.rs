@@ -1,8 +1,12 @@
 //! Elements: source triangles, strips and fills, and the sectors that they depend on.
 
+use std::cmp::Ordering;
+
+use crate::error::Error;
 use crate::flaps;
 use crate::ids::{Corner, Edge, Few, Ring, Sector, Triangle};
 use crate::strips;
+use crate::watch::{Watch, sort, stretches};
 
 use crate::given::Given;
 
@@ -29,6 +33,18 @@ impl Element {
     }
 }
 
+impl Ord for Element {
+    fn cmp(&self, other: &Element) -> Ordering {
+        self.key().cmp(&other.key())
+    }
+}
+
+impl PartialOrd for Element {
+    fn partial_cmp(&self, other: &Element) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
 /// The sectors that an element's corners stand on.
 pub fn sectors_of(given: &Given, element: Element) -> Few<Sector> {
     let sector_of = |corner: Corner| given.chamfers.sectors.sector_of[corner];
@@ -47,13 +63,18 @@ pub fn sectors_of(given: &Given, element: Element) -> Few<Sector> {
     }
 }
 
-/// Everything that depends on the sectors, each once.
-pub fn around(given: &Given, sectors: &[Sector]) -> Vec<Element> {
-    let mut elements: Vec<Element> =
-        sectors.iter().flat_map(|&sector| elements_of(given, sector)).collect();
-    elements.sort_unstable_by_key(|element| element.key());
+/// Everything that depends on the sectors, each once, in order.
+///
+/// # Errors
+/// [`Error::Cancelled`] where the watch stops it.
+pub fn around(given: &Given, sectors: &[Sector], watch: &dyn Watch) -> Result<Vec<Element>, Error> {
+    let mut elements = Vec::new();
+    for stretch in stretches(sectors.len(), watch) {
+        elements.extend(sectors[stretch?].iter().flat_map(|&sector| elements_of(given, sector)));
+    }
+    sort(&mut elements, watch)?;
     elements.dedup();
-    elements
+    Ok(elements)
 }
 
 /// Everything that depends on one sector.
