@@ -7,7 +7,6 @@ use glam::DVec2;
 use crate::breaks::{seam_between, uv_point};
 use crate::ids::{Corner, Id, Triangle};
 use crate::math::area_vector;
-use crate::mesh::Uv;
 use crate::surface::Surface;
 use crate::tolerance::{EXPORTED_ROUNDING, TEXTURE_MARGIN, TEXTURE_ROUNDING};
 use crate::view::View;
