@@ -1,17 +1,15 @@
 //! Place: a course, measured in an unfolded fan, as a vector in space and a foot on a face.
 
-use std::array::from_fn;
-use std::cmp::Ordering;
-
 use glam::DVec3;
 
 use super::{Blade, Course, Offset, arms};
-use crate::breaks::{is_hard, same_chart, seam_between, uv_point};
+use crate::breaks::{is_hard, same_chart, seam_between, uv_at};
 use crate::faces::Faces;
 use crate::foot::{Foot, locate};
-use crate::ids::{Corner, Few, Triangle};
+use crate::ids::{Corner, Few, Id};
 use crate::math::{area_vector, unit};
-use crate::mesh::UV_CHANNELS;
+use crate::mesh::{UV_CHANNELS, Uv};
+use crate::report::Blend;
 use crate::surface::Surface;
 use crate::tolerance::{LEVEL_COSINE, LEVEL_HEIGHT};
 use crate::view::View;
@@ -19,6 +17,10 @@ use crate::view::View;
 /// Past this many times a triangle's sides, rounding of its streams shows in what it tells of a
 /// place: then a larger triangle in its plane is asked.
 const FARTHEST: f64 = 16.0;
+
+/// Values are one map over two triangles where that of the one is off that of the other by this share of
+/// their size: less than a texel shows.
+const ONE_MAP: f64 = 1e-4;
 
 /// So many triangles beyond a fan are looked at for a larger one.
 const MOST_BEYOND: usize = 16;
@@ -89,7 +91,7 @@ fn steadiest(view: &View, faces: &Faces, spread: &[Blade], corner: Corner) -> Co
         return corner;
     }
     let level = chart_of(view, spread, corner).filter(holds_plane_of(view, faces, corner));
-    largest(view, level.filter(lies_as(view, corner)), corner)
+    largest(view, level, corner)
 }
 
 /// Whether a triangle's plane holds that of a corner.
@@ -106,23 +108,33 @@ fn holds_plane_of(view: &View, faces: &Faces, corner: Corner) -> impl Fn(&Corner
     }
 }
 
-/// Whether the texture lies the same way up on a triangle as on a corner's, in all channels: where it is
-/// mirrored in the middle of a model, one half does not tell of the other.
-fn lies_as(view: &View, corner: Corner) -> impl Fn(&Corner) -> bool {
-    let side_up = |of: Corner, channel: usize| texture_side(view, channel, of.triangle());
-    let own: [Option<Ordering>; UV_CHANNELS] = from_fn(|channel| side_up(corner, channel));
-    move |other| (0..UV_CHANNELS).all(|channel| side_up(*other, channel) == own[channel])
+/// Whether all streams of a triangle lead on to those of a corner's, at each corner of that. A texture may
+/// bend on the way, and in the middle of many models it is mirrored.
+fn leads_on_to(view: &View, corner: Corner) -> impl Fn(&Corner) -> bool {
+    let mesh = &view.mesh;
+    let colors = Uv { components: 4, values: mesh.colors.as_flattened() };
+    let tangents = Uv { components: 4, values: mesh.tangents.as_flattened() };
+    let streams = mesh.uvs.into_iter().chain([colors, tangents]);
+    let streams: Few<Uv> = streams.filter(|stream| !stream.values.is_empty()).collect();
+    move |plane| {
+        let tells = |own: Corner| {
+            let foot = locate(view, *plane, view.position_at(own), DVec3::ZERO)?;
+            let (blend, own) = (foot.blend(view, 0.0), view.vertex_at(own).index());
+            Some(streams.iter().all(|stream| tells(stream, &blend, own)))
+        };
+        corner.triangle().corners().into_iter().all(|own| tells(own).unwrap_or(false))
+    }
 }
 
-/// Which side of its texture a triangle shows; none without one.
-fn texture_side(view: &View, channel: usize, triangle: Triangle) -> Option<Ordering> {
-    let uv = &view.mesh.uvs[channel];
-    if uv.components < 2 {
-        return None;
-    }
-    let at = |corner| uv_point(uv, view.vertex_at(corner).0);
-    let [a, b, c] = triangle.corners().map(at);
-    (b - a).perp_dot(c - a).partial_cmp(&0.0)
+/// Whether a blend has the values of a vertex.
+fn tells(stream: &Uv, blend: &Blend, vertex: usize) -> bool {
+    let value = |vertex: usize, component: usize| f64::from(uv_at(stream, vertex)[component]);
+    (0..stream.components as usize).all(|component| {
+        let values = blend.vertices.map(|vertex| value(vertex as usize, component));
+        let told: f64 = (0..3).map(|k| values[k] * f64::from(blend.weights[k])).sum();
+        let largest = values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+        (told - value(vertex, component)).abs() <= ONE_MAP * largest
+    })
 }
 
 /// The corner of the largest triangle of some; another one unless it is larger than that one's.
@@ -142,7 +154,7 @@ fn largest_beyond(surface: Surface, corner: Corner) -> Corner {
         let mut corners = other.triangle().corners().into_iter();
         corners.all(|own| view.normal_at(own) == normal) && holds_plane(other)
     };
-    let lies_as_own = lies_as(view, corner);
+    let leads_on = leads_on_to(view, corner);
     let mut found: Few<Corner> = [corner].into_iter().collect();
     let mut done = 0;
     while done < found.len() && found.len() < MOST_BEYOND {
@@ -154,14 +166,13 @@ fn largest_beyond(surface: Surface, corner: Corner) -> Corner {
                 && goes_on(view, side, across)
                 && holds_own(&across)
                 && is_new(across)
-                && lies_as_own(&across)
             {
                 found.push(across);
             }
         }
         done += 1;
     }
-    largest(view, found.iter().copied(), corner)
+    largest(view, found.iter().copied().filter(leads_on), corner)
 }
 
 /// Whether all streams go on from a half-edge to its twin.
