@@ -367,3 +367,19 @@ fn pieces_keep_to_the_plane_of_their_triangle() {
         assert!(findings.count(Rule::Place) > 0, "{out}: {findings}");
     }
 }
+
+//    .-----------.     a thin box that is open on its right, of whose front the lowest cells are so small
+//   /           /|     that larger ones tell where the lower edge's chamfer ends: beside the opening, too
+//  +-+---------+-+
+//  +-+---------+-/
+//  '-'---------'-'
+#[test]
+fn a_chamfer_that_farther_cells_tell_may_end_at_an_opening() {
+    let open = Cells { copies: 0, ..whole() };
+    let front = face(134, &[0, 58]);
+    let faces = vec![whole(), open, whole(), front, whole(), whole()];
+    let thin = Grid { low: [0.0; 3], high: [1.0, 1.0, 0.1], faces };
+    let mesh = grids(&[thin], &Layout::exact(DMat3::IDENTITY, DVec3::ZERO));
+    let options = Options::default().with_width(Width::Units(0.36));
+    assert_sound("a thin box", &mesh.as_mesh(), &chamfer(&mesh.as_mesh(), &options).unwrap());
+}

@@ -63,13 +63,18 @@ pub(super) fn check_borders(
     findings: &mut Findings,
 ) {
     let source = Openings::of(before);
-    let touches_border = origins.touches(before.mesh, after.mesh, &source.vertices);
+    // A copy that a chamfer needs is told as the vertex that it stands at.
+    let mut touches_border = vec![false; after.mesh.positions.len()];
+    let touches = origins.touches(before.mesh, after.mesh, &source.vertices);
+    for (&cluster, touches) in after.clusters().iter().zip(touches) {
+        touches_border[cluster as usize] |= touches;
+    }
     for (forward, backward) in after.edges().filter(|(a, b)| a.len() != b.len()) {
         let may_be_open = |half_edge: &HalfEdge| {
             let [corner, end] = half_edge.corners;
             match origins.triangles[corner as usize / 3] {
                 Some(corners) => source.corners[corners[corner as usize % 3] as usize],
-                None => [corner, end].iter().all(|&c| touches_border[after.vertex(c)]),
+                None => [corner, end].iter().all(|&c| touches_border[after.cluster(c) as usize]),
             }
         };
         // Of an edge that several triangles share, one that was open is enough.
