@@ -63,7 +63,8 @@ pub(super) fn check_borders(
     findings: &mut Findings,
 ) {
     let source = Openings::of(before);
-    let touches_border = origins.touches(before.mesh, after.mesh, &source.vertices);
+    let touches = origins.touches(before.mesh, after.mesh, &source.vertices);
+    let touches_border = where_any(after.clusters(), &touches);
     for (forward, backward) in after.edges().filter(|(a, b)| a.len() != b.len()) {
         let may_be_open = |half_edge: &HalfEdge| {
             let [corner, end] = half_edge.corners;
@@ -78,6 +79,14 @@ pub(super) fn check_borders(
             findings.note(Rule::Gapes, Element::Edge(a, b));
         }
     }
+}
+
+/// `#vertices`: whether something holds for any at the same place. A copy that continues another texture
+/// stands where the vertex does that it is a copy of.
+fn where_any(clusters: &[u32], holds: &[bool]) -> Vec<bool> {
+    let mut at_place = vec![false; clusters.len()];
+    clusters.iter().zip(holds).for_each(|(&at, holds)| at_place[at as usize] |= holds);
+    clusters.iter().map(|&at| at_place[at as usize]).collect()
 }
 
 /// Where a mesh is open.
@@ -102,5 +111,18 @@ impl Openings {
         }
         let vertices = surface.clusters().iter().map(|&c| clusters[c as usize]).collect();
         Openings { corners, vertices }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    // The third vertex is a copy of the first, the fourth one of the second.
+    #[test]
+    fn a_copy_is_at_a_border_where_its_vertex_is() {
+        let places = [0, 1, 0, 1];
+        assert_eq!(where_any(&places, &[true, false, false, false]), [true, false, true, false]);
+        assert_eq!(where_any(&places, &[false, false, true, false]), [true, false, true, false]);
     }
 }
