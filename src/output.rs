@@ -146,8 +146,7 @@ impl Made<'_> {
         for (point, at) in rounded.points.iter().zip(first..) {
             let joint = parts.joints.get(point.parents.places[0] as usize);
             let cluster = self.cluster_at(*joint.unwrap_or(&parts.joints[0]));
-            let stored = self.space.measured.stored(point.position);
-            let place = (stored, self.space.normal_back(point.normal));
+            let place = (point.position, self.space.normal_back(point.normal));
             let streams = &mut self.attributes.streams;
             self.vertices.push(if at < first + parts.middles.len() {
                 streams.add_between(source, cluster, place, (point.near, chart.taken_at(at)))

@@ -97,6 +97,15 @@ impl<'a> Placement<'a> {
         apart.moved(sector, Vec3::from(view.stored_positions()[vertex.index()]).as_dvec3(), stored)
     }
 
+    /// Where a point is stored that is none of a sector's vertices, but is told apart as they are. What is
+    /// measured as it is stored has its rank there.
+    pub fn stored_by(&self, sector: Sector, point: DVec3) -> DVec3 {
+        let view = self.surface.view;
+        let (stored, is_mapped) = (view.stored(point), view.stored.is_some());
+        let apart = self.apart.filter(|_| is_mapped);
+        apart.map_or(stored, |apart| apart.point(sector, stored))
+    }
+
     /// Where a corner is stored.
     #[inline]
     pub fn stored_at(&self, corner: Corner) -> [f32; 3] {

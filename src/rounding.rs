@@ -43,6 +43,7 @@ pub struct Rounding {
 
 /// A point of a rounded patch that is no joint.
 pub struct Point {
+    /// As it is stored.
     pub position: DVec3,
     pub normal: DVec3,
     /// What comes nearest to it on the source.
@@ -244,10 +245,10 @@ fn triangles_of(
 ) -> Option<Vec<Triangle>> {
     let mut lay = Lay::default();
     lay_patch(given, patches, rows, patch, &mut lay).then(|| {
-        let joints = patches.parts(patch).joints;
-        let stored = |place: usize| match joints.get(place) {
+        let parts = patches.parts(patch);
+        let stored = |place: usize| match parts.joints.get(place) {
             Some(&joint) => given.placement.stored_at(joint),
-            None => given.view.stored(lay.places[place].point).as_vec3().to_array(),
+            None => lay.stored_at(&given, parts, place).as_vec3().to_array(),
         };
         lay.triangles.iter().map(|triangle| triangle.map(|place| stored(place as usize))).collect()
     })
@@ -279,17 +280,18 @@ impl Rounding {
         for (at, place) in (joints..).zip(&lay.places[joints..joints + parts.middles.len()]) {
             let near = nearest(given.view, parts.joints, place.point);
             let parents = Parents { places: [at as u32; 3], weights: [1.0, 0.0, 0.0] };
-            let (position, normal) = (place.point, place.normal);
+            let (position, normal) = (lay.stored_at(&given, parts, at), place.normal);
             self.points.push(Point { position, normal, near, parents, is_shared: false });
         }
-        let added = lay.added.iter().zip(&lay.places[joints + parts.middles.len()..]);
-        for (added, place) in added {
+        let added = lay.added.iter().zip(joints + parts.middles.len()..);
+        for (added, at) in added {
+            let place = lay.places[at];
             let near = match &added.end {
                 Some((end, point)) => given.near_end(*end, point),
                 None => self.near_inside(given, parts, added.parents, place.point),
             };
             self.points.push(Point {
-                position: place.point,
+                position: lay.stored_at(&given, parts, at),
                 normal: place.normal,
                 near,
                 parents: added.parents,

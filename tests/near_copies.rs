@@ -40,22 +40,39 @@ fn chamfered(mesh: &MeshBuffers, options: &Options) -> Chamfered {
 }
 
 fn options(segments: u32) -> Options {
-    Options::default().with_width(Width::Units(0.03)).with_segments(segments)
+    Options::default().with_width(Width::PercentOfExtent(3.0)).with_segments(segments)
 }
 
-/// One corner is off, by what is lost where the corner goes.
+/// Cubes beside the origin, each with a copy of which two opposite corners are one step off, along one
+/// axis: some of their chamfers cross to where steps are longer, others to where they are shorter.
+fn cubes_off_at_two_corners() -> impl Iterator<Item = MeshBuffers> {
+    let places = [[-0.7, 0.9, 0.4], [-0.2, -0.4, 0.6], [0.5, 0.8, 0.7]];
+    let all = [1.3, 1.7].into_iter().flat_map(move |side| places.map(|at| (side, at)));
+    let ways = || (0..3).flat_map(|axis| [f32::next_up, f32::next_down].map(|step| (axis, step)));
+    all.flat_map(move |cube| ways().map(move |way| off_at_two_corners(cube, way)))
+}
+
+fn off_at_two_corners(
+    (side, place): (f32, [f32; 3]),
+    (axis, step): (usize, fn(f32) -> f32),
+) -> MeshBuffers {
+    let far = [0, 1, 2].map(|k| side + place[k]);
+    let mut cube = cube();
+    cube.positions.iter_mut().for_each(|at| *at = [0, 1, 2].map(|k| at[k] * side + place[k]));
+    copied(&cube, 1, |_, mut at| {
+        if at == place || at == far {
+            at[axis] = step(at[axis]);
+        }
+        at
+    })
+}
+
 #[test]
-fn a_copy_of_a_cube_may_be_off_at_a_corner() {
-    for segments in [1, 2, 3, 4] {
-        for off in [1e-9, 1e-8, -1e-8, 1e-7] {
-            for axis in 0..3 {
-                let mesh = copied(&cube(), 1, |_, mut at| {
-                    at[axis] += if at == [0.0; 3] { off } else { 0.0 };
-                    at
-                });
-                let result = chamfered(&mesh, &options(segments));
-                assert_eq!(result.totals.chamfered, 24, "all of both");
-            }
+fn a_copy_of_a_cube_may_be_off_at_corners() {
+    for mesh in cubes_off_at_two_corners() {
+        for segments in [1, 4, 6] {
+            let result = chamfered(&mesh, &options(segments));
+            assert_eq!(result.totals.chamfered, 24, "all of both");
         }
     }
 }
@@ -63,10 +80,12 @@ fn a_copy_of_a_cube_may_be_off_at_a_corner() {
 /// In the space that a mesh is measured in vertices are rounded, and once more where they are stored.
 #[test]
 fn a_copy_may_be_off_in_a_scene_that_stretches_it() {
-    let scale = [[3.0, 0.0, 0.0], [0.0, 0.7, 0.0], [0.0, 0.0, 1.0]];
-    for off in [1e-9, 1e-8, 1e-7] {
-        let mesh = copied(&cube(), 1, |_, at| if at == [0.0; 3] { [off, 0.0, off] } else { at });
-        chamfered(&mesh, &options(1).with_scale(scale));
+    for mesh in cubes_off_at_two_corners() {
+        for [x, y] in [[3.0, 0.7], [0.4, 2.5]] {
+            let scale = [[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, 1.0]];
+            chamfered(&mesh, &options(1).with_scale(scale));
+            chamfered(&mesh, &options(4).with_scale(scale));
+        }
     }
 }
 

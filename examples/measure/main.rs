@@ -217,8 +217,9 @@ fn of_file(request: &Request, path: &Path, percent: f32, more: &mut More) -> Vec
     let options = request.options(percent);
     let measured = match request.unlike {
         Some(seed) => {
-            let mut noise = Noise(path.as_os_str().len() as u32 ^ seed.wrapping_mul(2_654_435_761));
-            measure_with(path, &noise.options(options), |mesh| Noise(seed).unlike(mesh), inspect)
+            let mut noise = Noise::of(path, seed);
+            let options = noise.options(options);
+            measure_with(path, &options, |mesh| Noise(seed).unlike(mesh), inspect)
         }
         None => measure_with(path, &options, |_| Unlike::default(), inspect),
     };
@@ -249,6 +250,14 @@ const SCALES: [[[f32; 3]; 3]; 4] = [
 struct Noise(u32);
 
 impl Noise {
+    /// Unlike for each file, wherever it is.
+    fn of(path: &Path, seed: u32) -> Noise {
+        let name = path.file_name().unwrap_or_default().as_encoded_bytes();
+        let begin = seed.wrapping_mul(2_654_435_761);
+        let with = |hash: u32, &byte: &u8| (hash ^ u32::from(byte)).wrapping_mul(16_777_619);
+        Noise(name.iter().fold(begin, with))
+    }
+
     fn pick<T: Copy>(&mut self, choices: &[T]) -> T {
         self.0 = self.0.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
         choices[(self.0 >> 16) as usize % choices.len()]

@@ -64,17 +64,14 @@ pub(super) fn check_borders(
 ) {
     let source = Openings::of(before);
     // A copy that a chamfer needs is told as the vertex that it stands at.
-    let mut touches_border = vec![false; after.mesh.positions.len()];
     let touches = origins.touches(before.mesh, after.mesh, &source.vertices);
-    for (&cluster, touches) in after.clusters().iter().zip(touches) {
-        touches_border[cluster as usize] |= touches;
-    }
+    let touches_border = where_any(after.clusters(), &touches);
     for (forward, backward) in after.edges().filter(|(a, b)| a.len() != b.len()) {
         let may_be_open = |half_edge: &HalfEdge| {
             let [corner, end] = half_edge.corners;
             match origins.triangles[corner as usize / 3] {
                 Some(corners) => source.corners[corners[corner as usize % 3] as usize],
-                None => [corner, end].iter().all(|&c| touches_border[after.cluster(c) as usize]),
+                None => [corner, end].iter().all(|&c| touches_border[after.vertex(c)]),
             }
         };
         // Of an edge that several triangles share, one that was open is enough.
@@ -83,6 +80,14 @@ pub(super) fn check_borders(
             findings.note(Rule::Gapes, Element::Edge(a, b));
         }
     }
+}
+
+/// `#vertices`: whether something holds for any at the same place. A copy that continues another texture
+/// stands where the vertex does that it is a copy of.
+fn where_any(clusters: &[u32], holds: &[bool]) -> Vec<bool> {
+    let mut at_place = vec![false; clusters.len()];
+    clusters.iter().zip(holds).for_each(|(&at, holds)| at_place[at as usize] |= holds);
+    clusters.iter().map(|&at| at_place[at as usize]).collect()
 }
 
 /// Where a mesh is open.
@@ -107,5 +112,18 @@ impl Openings {
         }
         let vertices = surface.clusters().iter().map(|&c| clusters[c as usize]).collect();
         Openings { corners, vertices }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    // The third vertex is a copy of the first, the fourth one of the second.
+    #[test]
+    fn a_copy_is_at_a_border_where_its_vertex_is() {
+        let places = [0, 1, 0, 1];
+        assert_eq!(where_any(&places, &[true, false, false, false]), [true, false, true, false]);
+        assert_eq!(where_any(&places, &[false, false, true, false]), [true, false, true, false]);
     }
 }

@@ -148,7 +148,13 @@ impl Given<'_> {
         with_shares([arc.at(0.0).point, arc.at(1.0).point], places.collect())
     }
 
-    /// A place by a sector as it will be stored.
+    /// That by which the points of an end's curve are told apart.
+    pub fn sector(&self, end: End) -> Sector {
+        let first = self.twin_of(end).filter(|_| self.is_second(end)).unwrap_or(end);
+        self.sectors(first)[0]
+    }
+
+    /// A place by a sector, rounded as it is measured.
     pub fn stored(&self, sector: Sector, place: Place) -> Place {
         let point = match self.placement.apart {
             Some(apart) => apart.point(sector, place.point),

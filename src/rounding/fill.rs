@@ -163,7 +163,7 @@ impl FillLay<'_> {
                     let place =
                         self.given.stored(self.sector, self.inside(&arcs, corners, weights));
                     let parents = Parents { places: triangle, weights };
-                    lay.push(place, Added { parents, end: None })
+                    lay.push(place, Added { parents, sector: self.sector, end: None })
                 }
             };
         }
@@ -201,10 +201,8 @@ impl FillLay<'_> {
                     places: [pair[0], pair[1], pair[0]],
                     weights: [1.0 - share, share, 0.0],
                 };
-                lay.push(
-                    self.given.stored(self.sector, arc.at(share)),
-                    Added { parents, end: None },
-                )
+                let added = Added { parents, sector: self.sector, end: None };
+                lay.push(self.given.stored(self.sector, arc.at(share)), added)
             };
             (1..count).map(step).collect()
         });

@@ -23,6 +23,8 @@ pub struct Parents {
 #[derive(Clone, Copy)]
 pub struct Added {
     pub parents: Parents,
+    /// What tells it apart.
+    pub sector: Sector,
     /// The end on whose curve it lies.
     pub end: Option<(End, EndPoint)>,
 }
@@ -60,14 +62,23 @@ impl Lay {
         end: End,
         [from, to]: [u32; 2],
     ) -> Vec<u32> {
-        let mut line = vec![from];
+        let (mut line, sector) = (vec![from], given.sector(end));
         for point in given.points(rows, end) {
             let [one, other] = point.shares;
             let parents = Parents { places: [from, to, from], weights: [one, other, 0.0] };
-            line.push(self.push(point.place, Added { parents, end: Some((end, point)) }));
+            line.push(self.push(point.place, Added { parents, sector, end: Some((end, point)) }));
         }
         line.push(to);
         line
+    }
+
+    /// Where a place is stored that is no joint; joints come first, then the middles of the patch.
+    pub fn stored_at(&self, given: &Given, parts: Parts, place: usize) -> DVec3 {
+        let point = self.places[place].point;
+        match place.checked_sub(parts.joints.len() + parts.middles.len()) {
+            Some(added) => given.placement.stored_by(self.added[added].sector, point),
+            None => given.view.stored(point),
+        }
     }
 
     /// Whether all triangles have area and face out.
