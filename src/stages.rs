@@ -281,7 +281,15 @@ mod tests {
             let Stages { view, topology, faces, weld, offsets: vectors, .. } = &stages;
             let Stages { rests: held, deep, threads, shares: open, .. } = &stages;
             let (surface, chamfers) = (stages.surface(), stages.chamfers());
-            let given = &Given { surface, chamfers, offsets: vectors, rests: held, deep, threads };
+            let given = &Given {
+                surface,
+                chamfers,
+                offsets: vectors,
+                apart: None,
+                rests: held,
+                deep,
+                threads,
+            };
             let found = contacts(view, topology, faces, &Unwatched).unwrap();
             let selection = selection(view, weld, &Options::default());
             let of_edges = |watch: &dyn Watch| {
