@@ -285,10 +285,10 @@ mod tests {
                 surface,
                 chamfers,
                 offsets: vectors,
-                apart: None,
                 rests: held,
                 deep,
                 threads,
+                apart: None,
             };
             let found = contacts(view, topology, faces, &Unwatched).unwrap();
             let selection = selection(view, weld, &Options::default());
