@@ -6,7 +6,7 @@
 
 use crate::bvh::{Aabb, Tree};
 use crate::error::Error;
-use crate::ids::{Id, IdVec, Sector, Vertex};
+use crate::ids::{Id, IdVec, Ring, Sector, Vertex};
 use crate::mesh::Mesh;
 use crate::placement::Placement;
 use crate::ranks::{Ranks, stepped, steps};
@@ -39,10 +39,10 @@ pub fn apart(
 ) -> Result<Option<Ranks>, Error> {
     let near = surface.view.resolution as f32;
     let cluster = |sector: Sector| surface.topology.cluster_at[sectors.fans[sector].first].0;
+    let is_open = open_rings(sectors, watch)?;
     let skin = |sector: Sector| {
         let ring = sectors.fans[sector].ring;
-        let is_open = sectors.ring(ring).iter().any(|&own| sectors.fans[own].ends_at_border());
-        if is_open { sectors.rings.len() as u32 + cluster(sector) } else { ring.0 }
+        if is_open[ring] { sectors.rings.len() as u32 + cluster(sector) } else { ring.0 }
     };
     if segments == 1 && !has_met(placement, &skin, near, watch)? {
         return Ok(None);
@@ -51,6 +51,16 @@ pub fn apart(
         return Ok(None);
     }
     ranks(placement, &skin, near, watch).map(Some)
+}
+
+/// `#rings`: whether it has a border.
+///
+/// Found once: asked of each sector, a large ring would take quadratic time.
+fn open_rings(sectors: &Sectors, watch: &dyn Watch) -> Result<IdVec<Ring, bool>, Error> {
+    watch.worked(sectors.fans.len())?;
+    let has_border = |sector: &Sector| sectors.fans[*sector].ends_at_border();
+    let is_open = |ring| sectors.ring(Ring::new(ring)).iter().any(has_border);
+    collect(sectors.rings.len(), watch, is_open).map(IdVec::from_vec)
 }
 
 /// Where something stands in the source, in steps of single precision, and its number.

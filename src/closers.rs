@@ -12,12 +12,14 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 
+use crate::error::Error;
 use crate::faces::{is_blurred, long_side};
 use crate::ids::{Cluster, Corner, Triangle, Vertex};
 use crate::mesh::{Mesh, MeshBuffers};
 use crate::report::{Chamfered, TriangleKind};
 use crate::shape::Shape;
 use crate::view::View;
+use crate::watch::{Watch, each};
 
 /// Of lines in a row each takes what the one before has taken. More than so many are broken geometry.
 const MOST_IN_A_ROW: usize = 16;
@@ -70,13 +72,19 @@ impl Closers {
 }
 
 /// For a mesh with such lines: mostly none. None either at a width at which nothing opens.
-pub fn closers(view: &View, shape: &Shape) -> Closers {
+///
+/// # Errors
+/// [`Error::Cancelled`] where the watch stops it.
+pub fn closers(view: &View, shape: &Shape, watch: &dyn Watch) -> Result<Closers, Error> {
     let mut closers = Closers::default();
     if view.width <= view.resolution {
-        return closers;
+        return Ok(closers);
     }
-    let is_unknown = |&triangle: &Triangle| shape.faces.normal[triangle] == DVec3::ZERO;
-    let lines: Vec<Triangle> = view.triangles().filter(is_unknown).collect();
+    let mut lines: Vec<Triangle> = Vec::new();
+    each(shape.faces.normal.len(), watch, |triangle| {
+        let is_unknown = shape.faces.normal[triangle] == DVec3::ZERO;
+        lines.extend(is_unknown.then_some(triangle));
+    })?;
     let (unclear, mut left) = unclear(view, shape, lines);
     for _ in 0..MOST_IN_A_ROW {
         let found: Vec<_> = left
@@ -92,7 +100,7 @@ pub fn closers(view: &View, shape: &Shape) -> Closers {
     }
     left.extend(unclear);
     closers.leave_beside(left, shape);
-    closers
+    Ok(closers)
 }
 
 /// The lines that may not be what they seem, and those that are left: where several lie on each other,

@@ -11,6 +11,8 @@
 mod fronts;
 mod place;
 
+use std::sync::{Mutex, PoisonError};
+
 use glam::DVec3;
 
 use crate::breaks::{is_hard, uv_at};
@@ -45,6 +47,10 @@ const LEAST_BALANCE: f64 = 0.25;
 
 /// So many steps it takes to unfold a sector and to find its way, as a watch counts them.
 const STEPS_OF_SECTOR: usize = 4;
+
+/// A sector of more corners takes long by itself: it is done on the calling thread, which tells of its
+/// corners.
+const MANY_CORNERS: usize = 4096;
 
 /// Where a sector's vertex goes at full width.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -121,21 +127,30 @@ pub fn offsets(
     let (Surface { view, topology, faces }, Chamfers { sectors, .. }) = (surface, chamfers);
     let count = sectors.fans.len();
     let slow = &Times(STEPS_OF_SECTOR, watch);
+    let large = Mutex::new(Vec::new());
     let mut offsets = threads.map_with(count, slow, Vec::new, |spread, sector| {
         if let Some(offset) = known.and_then(|known| known.of(topology, sectors, sector)) {
             return offset;
         }
-        unfold(view, topology, sectors, sector, spread);
-        let fan = &sectors.fans[sector];
-        let chosen = course(surface, chamfers.edges, fan, spread)
-            .and_then(|course| place(surface, spread, &course));
-        let offset = chosen.unwrap_or(Offset::none(fan.first));
-        Offset { is_plain: !fan.holds_hard && is_plain(view, faces, spread), ..offset }
+        let (fan, mut blades) = (&sectors.fans[sector], blades(view, topology, sectors, sector));
+        spread.clear();
+        spread.extend(blades.by_ref().take(MANY_CORNERS));
+        if blades.next().is_some() {
+            large.lock().unwrap_or_else(PoisonError::into_inner).push(sector);
+            return Offset::none(fan.first);
+        }
+        let course = course(surface, chamfers.edges, fan, spread);
+        let placed = course.and_then(|course| place(surface, spread, &course));
+        told(surface, fan, spread, placed)
     })?;
+    for sector in large.into_inner().unwrap_or_else(PoisonError::into_inner) {
+        offsets[sector] = offset_of_large(surface, chamfers, sector, watch)?;
+    }
     for followers in sectors.followers.chunk_by(|one, other| one.sector == other.sector) {
         slow.worked(followers.len())?;
         let sector = followers[0].sector;
         let corners: Vec<Corner> = sectors.corners(topology, sector).collect();
+        watch.worked(corners.len())?;
         if let Some(offset) = follow(view, faces, &offsets, &corners, followers) {
             offsets[sector] = offset;
         }
@@ -143,6 +158,7 @@ pub fn offsets(
     for &corner in &sectors.spanned {
         slow.worked(1)?;
         let fan: Vec<Corner> = sectors.corners(topology, sectors.sector_of[corner]).collect();
+        watch.worked(fan.len())?;
         if let Some(offset) = span(view, faces, sectors, &offsets, &fan) {
             offsets[sectors.sector_of[corner]] = offset;
         }
@@ -190,21 +206,47 @@ struct Blade {
     angle: Turn,
 }
 
-fn unfold(
-    view: &View,
-    topology: &Topology,
-    sectors: &Sectors,
+/// The corners of a sector, unfolded one after the other.
+fn blades<'a>(
+    view: &'a View,
+    topology: &'a Topology,
+    sectors: &'a Sectors,
     sector: Sector,
-    spread: &mut Vec<Blade>,
-) {
-    spread.clear();
+) -> impl Iterator<Item = Blade> + 'a {
     let mut start = Turn::ZERO;
-    for corner in sectors.corners(topology, sector) {
+    sectors.corners(topology, sector).map(move |corner| {
         let [to_next, to_prev] = arms(view, corner);
-        let angle = Turn::between(to_next, to_prev);
-        spread.push(Blade { corner, start, angle });
-        start = start.plus(angle);
+        let blade = Blade { corner, start, angle: Turn::between(to_next, to_prev) };
+        start = start.plus(blade.angle);
+        blade
+    })
+}
+
+/// The offset of a sector of many corners, of which the watch is told.
+fn offset_of_large(
+    surface: Surface,
+    chamfers: Chamfers,
+    sector: Sector,
+    watch: &dyn Watch,
+) -> Result<Offset, Error> {
+    let (fan, mut spread) = (&chamfers.sectors.fans[sector], Vec::new());
+    for blade in blades(surface.view, surface.topology, chamfers.sectors, sector) {
+        spread.push(blade);
+        if spread.len().is_multiple_of(MANY_CORNERS) {
+            watch.worked(MANY_CORNERS)?;
+        }
     }
+    let course = course(surface, chamfers.edges, fan, &spread);
+    watch.worked(spread.len())?;
+    let placed = course.and_then(|course| place(surface, &spread, &course));
+    watch.worked(spread.len())?;
+    Ok(told(surface, fan, &spread, placed))
+}
+
+/// Where a fan's vertex was placed, or that it stays, with what is known of the fan.
+fn told(surface: Surface, fan: &Fan, spread: &[Blade], placed: Option<Offset>) -> Offset {
+    let is_plain = !fan.holds_hard && is_plain(surface.view, surface.faces, spread);
+    Offset { is_plain, ..placed.unwrap_or(Offset::none(fan.first)) }
 }
 
 /// Whether a fan has one vertex, and a plane on every face.

@@ -293,7 +293,7 @@ fn chamfer_hard(
     let view = space.measured;
     let threads = &Threads::new(options.threads, view.corner_count());
     let shape = shape(view, weld, &[], options, (threads, done))?;
-    let closers = closers(view, &shape);
+    let closers = closers(view, &shape, &Caller::new(&mut || done(None)))?;
     if closers.is_empty() {
         return chamfer_closed(space, shape, options, (threads, done));
     }
@@ -374,7 +374,9 @@ fn chamfer_found(
     let ask = &mut || done(None);
     let offsets =
         find_offsets(shape.surface(view), shape.chamfers(), None, (threads, &Caller::new(ask)))?;
-    let refined = if space.is_plain(&shape.edges) { refine(view, &shape, &offsets)? } else { None };
+    let ask = &mut || done(None);
+    let is_plain = space.is_plain(&shape.edges);
+    let refined = if is_plain { refine(view, &shape, &offsets, &Caller::new(ask))? } else { None };
     let chamfered = match refined {
         Some(refined) => chamfer_refined(space, (shape, offsets), &refined, options, done),
         None => {

@@ -35,6 +35,7 @@ use crate::offsets::Offset;
 use crate::report::Blend;
 use crate::shape::Shape;
 use crate::view::{View, wide};
+use crate::watch::Watch;
 
 pub use restored::{Origins, restored};
 pub use shape::shape;
@@ -143,8 +144,9 @@ pub fn refine(
     view: &View,
     shape: &Shape,
     offsets: &IdVec<Sector, Offset>,
+    watch: &dyn Watch,
 ) -> Result<Option<Refined>, Error> {
-    let mut splits = splits::splits(view, shape, offsets);
+    let mut splits = splits::splits(view, shape, offsets, watch)?;
     if splits.is_empty() {
         return Ok(None);
     }

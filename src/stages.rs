@@ -295,9 +295,16 @@ mod tests {
             let of_edges = |watch: &dyn Watch| {
                 super::edges(view, (topology, faces), &found, &selection, (threads, watch))
             };
+            let (again, options) =
+                (super::weld(&view.mesh, &Unwatched).unwrap(), Options::default());
+            let shape =
+                crate::pipeline::shape(view, again, &[], &options, (threads, &mut |_| Ok(())));
+            let shape = &shape.unwrap();
             [
                 steps(|watch| contacts(view, topology, faces, watch)),
                 steps(of_edges),
+                steps(|watch| crate::closers::closers(view, shape, watch)),
+                steps(|watch| crate::refine::refine(view, shape, vectors, watch)),
                 steps(|watch| offsets(surface, chamfers, None, (threads, watch))),
                 steps(|watch| room(given, watch)),
                 steps(|watch| evenness(given, room(given, &Unwatched)?, 0.5, watch)),
@@ -308,8 +315,36 @@ mod tests {
         let [one, two] = [1, 2].map(told);
         assert_eq!(two, one.map(|told| 2 * told));
         // Stored anew where a stage passes over less than before.
-        let least = [72, 180, 96, 52, 152, 3736, 4527];
+        let least = [72, 180, 12, 12, 96, 52, 152, 3736, 4527];
         assert!(one.iter().zip(least).all(|(told, least)| *told >= least), "{one:?}");
+    }
+
+    /// At the tip of a slice of cake one sector has all triangles of the top, and one all below. Of few no
+    /// more is told than of others.
+    #[test]
+    fn a_sector_of_many_corners_tells_of_them() {
+        let told = |steps_of_arc: u32| {
+            let arc = (0..=steps_of_arc).map(|step| {
+                let turn = f64::from(step) / f64::from(steps_of_arc) * std::f64::consts::FRAC_PI_2;
+                [turn.cos() as f32, turn.sin() as f32]
+            });
+            let mut slice = shapes::Builder::default();
+            slice.prism(&std::iter::once([0.0; 2]).chain(arc).collect::<Vec<_>>(), -1.0, 1.0);
+            let slice = slice.finish();
+            let stages = stages_of(&slice, 0.001);
+            let (surface, chamfers) = (stages.surface(), stages.chamfers());
+            let of_offsets =
+                |watch: &dyn Watch| offsets(surface, chamfers, None, (&stages.threads, watch));
+            let all = Bears(Cell::new(usize::MAX));
+            assert!(of_offsets(&all).is_ok());
+            let (words, sectors) = (usize::MAX - all.0.get(), stages.sectors.fans.len());
+            // Of all sectors it is told in stretches.
+            (words - sectors.div_ceil(256), steps(of_offsets) - 4 * sectors)
+        };
+        assert_eq!(told(1000), (0, 0));
+        let (words, corners) = told(20_000);
+        assert!(corners >= 2 * 2 * 20_000, "{corners}");
+        assert!(words >= 2 * 4, "stretch by stretch: {words}");
     }
 
     #[test]

@@ -231,3 +231,35 @@ fn no_edge_lies_on_a_cut_along_an_edge_of_others() {
         assert!(ends.all(|end| (end as usize) < mesh.positions.len()));
     }
 }
+
+/// As above, where no edge on the cut would be hard. Of a cube whose top is drawn out to `Q`, one triangle is
+/// shaded otherwise, `T-R-S`: `T` stands on the edge from `R` to `Q`, and the back ends at the line from `T`
+/// to `P`, along which the top would be cut.
+///
+/// ```text
+///  R---T---Q
+///   \  |  /
+///    \ | /
+///     \|/
+///      P
+/// ```
+#[test]
+fn no_triangle_is_cut_along_a_border_of_another() {
+    let corner = |k: usize| [0, 1, 2].map(|axis| if k >> axis & 1 == 1 { 0.5 } else { -0.5 });
+    let points: Vec<[f32; 3]> = (0..8).map(corner).chain([[0.5, 0.5, -1.921_875]]).collect();
+    let [p, q, r, s, t] = [2, 8, 7, 1, 3];
+    let otherwise = [s, t, r];
+    let like_each_other =
+        [[p, 6, r], [p, r, q], [0, s, 5], [0, 5, 4], [4, 5, r], [4, r, 6], [0, p, t], [0, t, s]];
+    let corners = otherwise.iter().chain(like_each_other.as_flattened());
+    let mesh = MeshBuffers {
+        positions: corners.map(|&point| points[point]).collect(),
+        normals: [[[1.0, 0.0, 0.0]; 3].as_slice(), &[[0.0, 0.0, 1.0]; 24]].concat(),
+        indices: (0..27).collect(),
+        submesh_index_counts: vec![27],
+        ..MeshBuffers::default()
+    };
+    for width in [0.5, 1.0, 2.0].map(Width::PercentOfExtent) {
+        assert_sound("a cut along a border", &mesh.as_mesh(), &chamfered(&mesh, width));
+    }
+}

@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::{LEAST_DEPTH, Piece, Refined, Split};
+use crate::error::Error;
 use crate::ids::{Corner, Edge, Few, IdVec, Sector, Triangle};
 use crate::math::area_vector;
 use crate::mesh::Mesh;
@@ -11,6 +12,7 @@ use crate::report::Reason;
 use crate::shape::Shape;
 use crate::strips;
 use crate::view::{View, wide};
+use crate::watch::{Watch, each};
 
 /// A chamfer gets from nothing to full width within so many widths: shorter looks like a notch.
 const TAPER: f64 = 2.0;
@@ -46,10 +48,18 @@ const LEAST_HEIGHT: f64 = 32.0;
 const LEAST_STAKE: f64 = 0.005;
 
 /// The vertices that edges need.
-pub fn splits(view: &View, shape: &Shape, offsets: &IdVec<Sector, Offset>) -> Vec<Split> {
+///
+/// # Errors
+/// [`Error::Cancelled`] where the watch stops it.
+pub fn splits(
+    view: &View,
+    shape: &Shape,
+    offsets: &IdVec<Sector, Offset>,
+    watch: &dyn Watch,
+) -> Result<Vec<Split>, Error> {
     let mut splits = Vec::new();
     let (mut all, mut stake) = (0.0, 0.0);
-    for edge in shape.edges.hard.ids() {
+    each(shape.edges.hard.len(), watch, |edge| {
         let edge = EdgeOf { view, shape, offsets, edge, length: length(view, shape, edge) };
         all += edge.length;
         let found = edge.places();
@@ -58,16 +68,16 @@ pub fn splits(view: &View, shape: &Shape, offsets: &IdVec<Sector, Offset>) -> Ve
             let at = found.at.into_iter().map(|place| place / edge.length).collect();
             splits.push(Split { sides: edge.sides(), at });
         }
-    }
+    })?;
     if splits.is_empty() || stake < LEAST_STAKE * all {
-        return Vec::new();
+        return Ok(Vec::new());
     }
     // Other half-edges that lie there would need the vertices too.
     let mut crowded = shape.topology.touching.as_flattened().to_vec();
     crowded.sort_unstable();
     let is_alone = |side: &Corner| crowded.binary_search(side).is_err();
     splits.retain(|split| split.sides.iter().all(is_alone));
-    splits
+    Ok(splits)
 }
 
 fn length(view: &View, shape: &Shape, edge: Edge) -> f64 {

@@ -84,11 +84,13 @@ struct Meeting {
     counts: [u32; 2],
     /// Whether they come together by what was added alone.
     is_new: bool,
+    /// Whether a triangle is cut there, and so has both sides.
+    is_cut: bool,
 }
 
 impl Meeting {
     fn is_pair(&self) -> bool {
-        self.is_new && self.counts == [1, 1]
+        self.is_new && !self.is_cut && self.counts == [1, 1]
     }
 
     /// Whether nobody can tell which belong together.
@@ -200,17 +202,10 @@ impl Stitched {
         pieces.map(|piece| (piece.triangle, source.normal[piece.source])).collect()
     }
 
-    /// What brings no chamfer, and what brings a hard edge where the source has none, by the edges of the
-    /// finer mesh.
+    /// What brings no chamfer, by the edges of the finer mesh.
     pub fn idle(&self, shape: &Shape, edges: &Edges) -> Left {
         let is_chamfered = |meeting: &&Meeting| edges.chamfered_at[meeting.sides[0]].is_some();
-        let mut idle = self.all_but(shape, self.new_twins.iter().filter(is_chamfered));
-        for side in edges.hard.iter().flat_map(|edge| edge.sides) {
-            let cut = self.refined.piece(side.triangle());
-            let cut = cut.filter(|piece| piece.source_side(side.0 as usize % 3).is_none());
-            idle.sides.extend(cut.into_iter().flat_map(|piece| self.long_sides_of(piece.source)));
-        }
-        idle
+        self.all_but(shape, self.new_twins.iter().filter(is_chamfered))
     }
 
     /// All that none of these half-edges needs.
@@ -229,12 +224,13 @@ impl Stitched {
     }
 
     /// What would turn a triangle over, or nearly; what would cut a face beside; what would bring more than two sides together, or
-    /// two that run the same way; and what brings none together.
+    /// two that run the same way, as where a triangle is cut along an edge of others; and what brings none together.
     fn bad(&mut self, view: &View, shape: &Shape) -> Left {
         let mut meetings = self.meetings(shape);
         let mut bad = self.all_but(shape, meetings.iter().filter(|meeting| meeting.is_pair()));
         for &side in meetings.iter().filter(|m| m.is_crowded()).flat_map(|m| &m.sides) {
             bad.sides.extend(self.refined.long_side(side));
+            bad.sides.extend(self.cut_at(side).into_iter().flat_map(|t| self.long_sides_of(t)));
             let ends = self.ends(shape, side).into_iter();
             bad.places.extend(ends.filter(|end| self.joins.contains_key(end)));
         }
@@ -243,6 +239,12 @@ impl Stitched {
         meetings.retain(Meeting::is_pair);
         self.new_twins = meetings;
         bad
+    }
+
+    /// The source triangle that is cut along a half-edge of the finer mesh.
+    fn cut_at(&self, side: Corner) -> Option<Triangle> {
+        let piece = self.refined.piece(side.triangle())?;
+        piece.source_side(side.0 as usize % 3).is_none().then_some(piece.source)
     }
 
     /// Those of a source triangle.
@@ -281,11 +283,15 @@ impl Stitched {
         }
     }
 
-    /// All half-edges on parts of long sides, and at ends that are put together.
+    /// All half-edges on parts of long sides and on cuts, and at ends that are put together.
     fn meetings(&self, shape: &Shape) -> Vec<Meeting> {
         let parts = self.long_sides.iter().flat_map(|&side| self.refined.parts_of_side(side));
-        let mut on: BTreeMap<[Cluster; 2], Meeting> =
-            parts.map(|part| (self.ends(shape, part), Meeting::new())).collect();
+        let pieces = self.refined.pieces.iter().flat_map(|piece| piece.triangle.corners());
+        let cuts = pieces.filter(|&side| self.cut_at(side).is_some());
+        let cuts =
+            cuts.map(|cut| (self.ends(shape, cut), Meeting { is_cut: true, ..Meeting::new() }));
+        let parts = parts.map(|part| (self.ends(shape, part), Meeting::new()));
+        let mut on: BTreeMap<[Cluster; 2], Meeting> = cuts.chain(parts).collect();
         let mut is_end = vec![false; shape.weld.first_vertex.len()];
         on.keys().flatten().for_each(|end| is_end[end.0 as usize] = true);
         for corner in (0..self.refined.mesh.indices.len() as u32).map(Corner) {
@@ -330,7 +336,7 @@ impl Stitched {
 }
 
 impl Meeting {
-    /// On a part of a long side.
+    /// On a part of a long side, or where a triangle is cut.
     fn new() -> Meeting {
         Meeting { is_new: true, ..Meeting::default() }
     }

@@ -244,17 +244,17 @@ fn with_offsets(bar: &MeshBuffers, check: impl FnOnce(&View, &Shape, IdVec<Secto
 #[test]
 fn near_a_corner_that_stays_a_long_edge_gets_a_vertex() {
     with_offsets(&bar(), |view, shape, mut offsets| {
-        assert_eq!(splits::splits(view, shape, &offsets), []);
+        assert_eq!(splits::splits(view, shape, &offsets, &Unwatched).unwrap(), []);
         let ring = shape.sectors.ring(Ring(0)).to_vec();
         ring.iter().for_each(|&sector| offsets[sector].vector = DVec3::ZERO);
         let corner = view.position_at(shape.sectors.fans[ring[0]].first);
-        let [split] = &splits::splits(view, shape, &offsets)[..] else {
+        let [split] = &splits::splits(view, shape, &offsets, &Unwatched).unwrap()[..] else {
             panic!("one edge is long")
         };
         let [from, to] = [split.sides[0], split.sides[0].next()].map(|c| view.position_at(c));
         let at = from.lerp(to, split.at[0]);
         assert!((at.distance(corner) - 0.3).abs() < 1e-6 && split.at.len() == 1, "{split:?}");
-        let refined = refine(view, shape, &offsets).unwrap().unwrap();
+        let refined = refine(view, shape, &offsets, &Unwatched).unwrap().unwrap();
         assert_eq!(refined.mesh.indices.len(), 3 * (12 + 2 * 3));
     });
 }
