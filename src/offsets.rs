@@ -9,6 +9,7 @@
 //! the end of a sector, or along the sharpest crease inside of it.
 
 mod fronts;
+mod large;
 mod place;
 
 use std::sync::{Mutex, PoisonError};
@@ -33,6 +34,7 @@ use crate::watch::{Times, Watch};
 
 use fronts::follow;
 pub use fronts::{narrow, narrowed, parts};
+use large::{MANY_CORNERS, offset_of_large};
 use place::place;
 
 /// No vertex moves farther than this many widths: between edges that meet at less than 39 degrees
@@ -47,10 +49,6 @@ const LEAST_BALANCE: f64 = 0.25;
 
 /// So many steps it takes to unfold a sector and to find its way, as a watch counts them.
 const STEPS_OF_SECTOR: usize = 4;
-
-/// A sector of more corners takes long by itself: it is done on the calling thread, which tells of its
-/// corners.
-const MANY_CORNERS: usize = 4096;
 
 /// Where a sector's vertex goes at full width.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -220,27 +218,6 @@ fn blades<'a>(
         start = start.plus(blade.angle);
         blade
     })
-}
-
-/// The offset of a sector of many corners, of which the watch is told.
-fn offset_of_large(
-    surface: Surface,
-    chamfers: Chamfers,
-    sector: Sector,
-    watch: &dyn Watch,
-) -> Result<Offset, Error> {
-    let (fan, mut spread) = (&chamfers.sectors.fans[sector], Vec::new());
-    for blade in blades(surface.view, surface.topology, chamfers.sectors, sector) {
-        spread.push(blade);
-        if spread.len().is_multiple_of(MANY_CORNERS) {
-            watch.worked(MANY_CORNERS)?;
-        }
-    }
-    let course = course(surface, chamfers.edges, fan, &spread);
-    watch.worked(spread.len())?;
-    let placed = course.and_then(|course| place(surface, &spread, &course));
-    watch.worked(spread.len())?;
-    Ok(told(surface, fan, &spread, placed))
 }
 
 /// Where a fan's vertex was placed, or that it stays, with what is known of the fan.

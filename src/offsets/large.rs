@@ -1,0 +1,34 @@
+//! Large sectors: what takes long by itself is told of corner by corner.
+
+use super::place::place;
+use super::{Offset, blades, course, told};
+use crate::chamfers::Chamfers;
+use crate::error::Error;
+use crate::ids::Sector;
+use crate::surface::Surface;
+use crate::watch::Watch;
+
+/// A sector of more corners takes long by itself: it is done on the calling thread, which tells of its
+/// corners.
+pub const MANY_CORNERS: usize = 4096;
+
+/// The offset of a sector of many corners, of which the watch is told.
+pub fn offset_of_large(
+    surface: Surface,
+    chamfers: Chamfers,
+    sector: Sector,
+    watch: &dyn Watch,
+) -> Result<Offset, Error> {
+    let (fan, mut spread) = (&chamfers.sectors.fans[sector], Vec::new());
+    for blade in blades(surface.view, surface.topology, chamfers.sectors, sector) {
+        spread.push(blade);
+        if spread.len().is_multiple_of(MANY_CORNERS) {
+            watch.worked(MANY_CORNERS)?;
+        }
+    }
+    let course = course(surface, chamfers.edges, fan, &spread);
+    watch.worked(spread.len())?;
+    let placed = course.and_then(|course| place(surface, &spread, &course));
+    watch.worked(spread.len())?;
+    Ok(told(surface, fan, &spread, placed))
+}
