@@ -63,9 +63,10 @@ pub(super) fn check_borders(
     findings: &mut Findings,
 ) {
     let source = Openings::of(before);
-    // A copy that a chamfer needs is told as the vertex that it stands at.
-    let touches = origins.touches(before.mesh, after.mesh, &source.vertices);
-    let touches_border = where_any(after.clusters(), &touches);
+    let mut touches_border = origins.touches(before.mesh, after.mesh, &source.vertices);
+    if origins.are_told() {
+        touches_border = where_any(after.clusters(), &touches_border);
+    }
     for (forward, backward) in after.edges().filter(|(a, b)| a.len() != b.len()) {
         let may_be_open = |half_edge: &HalfEdge| {
             let [corner, end] = half_edge.corners;

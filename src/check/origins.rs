@@ -109,6 +109,11 @@ impl<'a> Origins<'a> {
         }
     }
 
+    /// Whether it is told from which vertices each was made.
+    pub fn are_told(&self) -> bool {
+        self.vertices.is_some()
+    }
+
     /// `#vertices`: whether the place of each was made from a source vertex of a kind (`is_of_kind:
     /// #source vertices`); where nothing is told of one, as if it was.
     pub fn touches(&self, before: &Mesh, after: &Mesh, is_of_kind: &[bool]) -> Vec<bool> {
