@@ -1,7 +1,5 @@
 //! Breaks: whether two corners or vertices at one position differ in some stream.
 
-use glam::DVec2;
-
 use crate::ids::{Corner, Id, Vertex};
 use crate::mesh::Uv;
 use crate::tolerance::EQUAL_UV;
@@ -37,13 +35,6 @@ pub fn same_chart(view: &View, one: Vertex, other: Vertex) -> bool {
 pub fn uv_at<'a>(uv: &Uv<'a>, vertex: usize) -> &'a [f32] {
     let components = uv.components as usize;
     &uv.values[vertex * components..(vertex + 1) * components]
-}
-
-/// Two components of a vertex in a UV channel: what lies on the texture.
-pub fn uv_point(uv: &Uv, vertex: u32) -> DVec2 {
-    let first = vertex as usize * uv.components as usize;
-    let [v, u] = [first + 1, first].map(|place| f64::from(uv.values[place]));
-    DVec2::new(u, v)
 }
 
 #[cfg(test)]

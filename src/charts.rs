@@ -22,7 +22,6 @@ mod strip_map;
 use glam::DVec2;
 
 use crate::attributes::{Attributes, Taken};
-use crate::breaks::uv_point;
 use crate::chamfers::Chamfers;
 use crate::error::Error;
 use crate::ids::{Few, Id, Patch, Triangle};
@@ -36,6 +35,7 @@ use crate::view::View;
 use crate::watch::Watch;
 
 use fill_map::lay_fill;
+use ground::uv_point;
 use owners::owners;
 use strip_map::lay_strip;
 

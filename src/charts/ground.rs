@@ -4,9 +4,10 @@
 
 use glam::DVec2;
 
-use crate::breaks::{seam_between, uv_point};
+use crate::breaks::seam_between;
 use crate::ids::{Corner, Id, Triangle};
 use crate::math::area_vector;
+use crate::mesh::Uv;
 use crate::surface::Surface;
 use crate::tolerance::{EXPORTED_ROUNDING, TEXTURE_MARGIN, TEXTURE_ROUNDING};
 use crate::view::View;
@@ -246,6 +247,13 @@ fn nearness(triangle: [DVec2; 3]) -> f64 {
 /// The least and the greatest coordinates.
 fn bounds([a, b, c]: [DVec2; 3]) -> [DVec2; 2] {
     [a.min(b).min(c), a.max(b).max(c)]
+}
+
+/// Two components of a vertex in a UV channel: what lies on the texture.
+pub fn uv_point(uv: &Uv, vertex: u32) -> DVec2 {
+    let first = vertex as usize * uv.components as usize;
+    let [v, u] = [first + 1, first].map(|place| f64::from(uv.values[place]));
+    DVec2::new(u, v)
 }
 
 /// UV area over surface area of a source triangle, negative where it is mirrored; 0 where it has

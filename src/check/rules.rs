@@ -316,16 +316,17 @@ const FACT_ROWS: [(&str, Fact); 11] = [
     ("self-intersections", |facts| facts.self_intersections),
 ];
 
-/// A hard edge of the source with two sides, measured in the result.
+/// A hard edge of the source with two sides, measured in the result. Lengths are in mesh units, or in those
+/// of [`Options::scale`](crate::Options::scale) where the mesh stands so.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct MeasuredEdge {
     /// The source vertices at its ends, on the side of the first triangle that uses it.
     pub vertices: [u32; 2],
-    /// Its length, in mesh units.
+    /// Its length.
     pub length: f32,
     /// `#ends by #sides`: how far the corner of the side's triangle is from the line of the old
-    /// edge, in mesh units.
+    /// edge.
     pub distances: [[f32; 2]; 2],
     /// `#ends`: whether the two sides are at different positions there.
     pub is_open: [bool; 2],
@@ -335,8 +336,7 @@ pub struct MeasuredEdge {
 }
 
 impl MeasuredEdge {
-    /// At each end, the mean distance of the two sides from the line of the old edge, in mesh
-    /// units; 0 where the sides did not come apart.
+    /// At each end, the mean distance of the two sides from the line of the old edge; 0 where the sides did not come apart.
     pub fn widths(&self) -> [f32; 2] {
         [0, 1].map(|end| {
             let [one, other] = self.distances[end];

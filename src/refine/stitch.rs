@@ -223,8 +223,9 @@ impl Stitched {
         left
     }
 
-    /// What would turn a triangle over, or nearly; what would cut a face beside; what would bring more than two sides together, or
-    /// two that run the same way, as where a triangle is cut along an edge of others; and what brings none together.
+    /// What would turn a triangle over, or nearly; what would cut a face beside; what would bring more than
+    /// two sides together, as where a triangle is cut along an edge of others, or two that run the same
+    /// way; and what brings none together.
     fn bad(&mut self, view: &View, shape: &Shape) -> Left {
         let mut meetings = self.meetings(shape);
         let mut bad = self.all_but(shape, meetings.iter().filter(|meeting| meeting.is_pair()));
