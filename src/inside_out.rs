@@ -6,14 +6,20 @@
 
 use crate::math::area_vector;
 use crate::report::Chamfered;
+use crate::validity::has_any_area;
 use crate::view::View;
 
-/// Whether the normals of all triangles that have an area point against it.
+/// Whether the normals of all triangles that have an area point against it. What rounding alone leaves
+/// of one has no say: it points anywhere.
 pub fn is_inside_out(view: &View) -> bool {
     let mut any = false;
     // Of nearly all meshes the first triangle tells.
     view.triangles().all(|triangle| {
-        let area = area_vector(view.triangle(triangle));
+        let points = view.triangle(triangle);
+        if !has_any_area(points) {
+            return true;
+        }
+        let area = area_vector(points);
         let normals = triangle.corners().map(|corner| view.normal_at(corner));
         let along = area.dot(normals.into_iter().sum());
         any |= along < 0.0;
@@ -61,6 +67,24 @@ mod tests {
         assert!(!is_turned(&cube.as_mesh()));
         let nothing = Mesh { indices: &[], submesh_index_counts: &[0], ..cube.as_mesh() };
         assert!(!is_turned(&nothing));
+    }
+
+    /// Beside the cube a triangle of which two corners nearly meet in its middle: what is left of its
+    /// area points along with its normals, but is none.
+    #[test]
+    fn a_triangle_without_area_has_no_say() {
+        let mut cube = inside_out(shapes::cube(1.0));
+        let first = cube.positions.len() as u32;
+        cube.positions.extend([[0.0, 1e-41, 0.0], [0.5, -0.5, -0.5], [0.0, 0.0, 1e-41]]);
+        cube.normals.extend([[-1.0, 0.0, 0.0]; 3]);
+        cube.indices.extend([first, first + 1, first + 2]);
+        cube.submesh_index_counts[0] += 3;
+        let (tangents, uvs) = (cube.tangents.first().copied(), [0.0; 2]);
+        cube.tangents.extend(tangents.iter().cycle().take(3));
+        cube.uvs.iter_mut().filter(|uv| uv.components > 0).for_each(|uv| {
+            uv.values.extend(uvs.repeat(3));
+        });
+        assert!(is_turned(&cube.as_mesh()));
     }
 
     /// A cube and a cylinder, whose normals are also blended, and a tangent frame along with them.

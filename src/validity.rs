@@ -16,12 +16,15 @@ pub fn stays_line(old: [DVec3; 3], new: [DVec3; 3], normal: DVec3, resolution: f
     let (old_area, new_area) = (area_vector(old), area_vector(new));
     // As long as it has any area of its own, a line has a side that it may not turn away from, and
     // keeps some.
-    let has_any =
-        |points: [DVec3; 3], area: DVec3| area.length() > longest_side(points).powi(2) * LEAST_AREA;
-    if has_any(old, old_area) && !(has_any(new, new_area) && old_area.dot(new_area) > 0.0) {
+    if has_any_area(old) && !(has_any_area(new) && old_area.dot(new_area) > 0.0) {
         return false;
     }
     opens_along(old, new, [normal; 2], resolution)
+}
+
+/// Whether a triangle has more of an area than what rounding leaves in double precision.
+pub fn has_any_area(points: [DVec3; 3]) -> bool {
+    area_vector(points).length() > longest_side(points).powi(2) * LEAST_AREA
 }
 
 /// Whether a line that opens faces along a direction, from the one before to the one after, or no
