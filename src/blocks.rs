@@ -385,6 +385,7 @@ fn empty(
         triangle_sources: vec![nothing; triangle_count],
         verdicts: Vec::with_capacity(verdicts),
         width: view.width as f32,
+        hard_angle: view.hard_angle,
         ..Chamfered::default()
     })
 }

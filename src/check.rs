@@ -53,12 +53,15 @@ pub fn check(before: &Mesh, after: &Chamfered, depth: Verify) -> Findings {
     if !well_formed(before, &mesh, &mut findings) {
         return findings;
     }
-    let surfaces = [before, &mesh].map(|mesh| Surface::new(mesh).standing(after.scale));
+    let own: Vec<u32> = (0..mesh.submesh_index_counts.len() as u32).collect();
+    let extras = Extras::default()
+        .with_materials([&own; 2])
+        .with_scale(after.scale)
+        .with_hard_angle(after.hard_angle);
+    let surfaces = [before, &mesh].map(|mesh| looked_at(mesh, &extras));
     state_facts(&surfaces, &mut findings);
     verdicts::check_counts(before, after, &mut findings);
     if let Some(origins) = Origins::told(before, after, &mut findings) {
-        let own: Vec<u32> = (0..mesh.submesh_index_counts.len() as u32).collect();
-        let extras = Extras::default().with_materials([&own; 2]).with_scale(after.scale);
         check_geometry(&surfaces, &origins, &extras, depth, &mut findings);
         let ruler = Ruler::new(&surfaces, &origins);
         verdicts::check_verdicts(&ruler, after, &mut findings);
@@ -84,7 +87,7 @@ pub fn compare_with(before: &Mesh, after: &Mesh, extras: &Extras, depth: Verify)
     if !well_formed(before, after, &mut findings) {
         return findings;
     }
-    let surfaces = [before, after].map(|mesh| Surface::new(mesh).standing(extras.scale));
+    let surfaces = [before, after].map(|mesh| looked_at(mesh, extras));
     state_facts(&surfaces, &mut findings);
     let (origins, mut findings) = likelier_origins(&surfaces, extras, findings);
     if depth != Verify::Fast {
@@ -95,6 +98,11 @@ pub fn compare_with(before: &Mesh, after: &Mesh, extras: &Extras, depth: Verify)
         intersections::check_intersections([source, result], solids, &origins, &mut findings);
     }
     findings
+}
+
+/// A mesh where it stands, with the edges that are hard there.
+fn looked_at<'a>(mesh: &'a Mesh<'a>, extras: &Extras) -> Surface<'a> {
+    Surface::new(mesh).standing(extras.scale).hard_from(extras.hard_angle)
 }
 
 /// By order or by geometry, with what is found that way.

@@ -38,6 +38,7 @@ pub fn unchanged(view: &View, target: ChamferSubmesh) -> Chamfered {
         mesh,
         width: view.width as f32,
         largest_width: view.width as f32,
+        hard_angle: view.hard_angle,
         ..Chamfered::default()
     }
 }
@@ -170,6 +171,7 @@ impl Made<'_> {
             vertex_sources: streams.sources,
             triangle_sources: sources,
             width: self.space.measured.width as f32,
+            hard_angle: self.space.measured.hard_angle,
             ..Chamfered::default()
         }
     }

@@ -36,6 +36,9 @@ pub struct Chamfered {
     pub width: f32,
     /// [`Options::scale`](crate::Options::scale), where it was given: widths are those of that space.
     pub scale: Option<[[f32; 3]; 3]>,
+    /// [`Options::hard_angle`](crate::Options::hard_angle), where it was another than the default: what
+    /// differs by less was no edge.
+    pub hard_angle: Option<f32>,
     /// The largest width asked for of any edge, with all factors, in mesh units: no vertex goes
     /// farther than three of these. Under a scale that stretches axes unlike, along the longest one.
     pub largest_width: f32,

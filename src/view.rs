@@ -31,7 +31,9 @@ pub struct View<'a> {
     pub least_breadth: f64,
     /// The shortest length that single precision can tell from zero on this mesh.
     pub resolution: f64,
-    /// Of the angle from which on normals differ.
+    /// The angle from which on normals differ, where it is not the usual one.
+    pub hard_angle: Option<f32>,
+    /// Of that angle.
     pub hard_cosine: f64,
     /// Two normals that both differ from a third one by less than this do not differ.
     pub alike_cosine: f64,
@@ -97,17 +99,26 @@ impl<'a> View<'a> {
     /// A mesh for which no width is asked.
     pub fn new(mesh: Mesh<'a>, hard_angle: f32) -> View<'a> {
         let cosine = |degrees: f64| libm::cos(degrees.to_radians());
-        let is_usual = hard_angle == Options::default().hard_angle;
-        let (hard_cosine, alike_cosine) = if is_usual {
-            (HARD_COSINE, ALIKE_COSINE)
-        } else {
-            (cosine(hard_angle.into()), cosine(f64::from(hard_angle) * ALIKE_SHARE))
+        let hard_angle = (hard_angle != Options::default().hard_angle).then_some(hard_angle);
+        let (hard_cosine, alike_cosine) = match hard_angle.map(f64::from) {
+            None => (HARD_COSINE, ALIKE_COSINE),
+            Some(degrees) => (cosine(degrees), cosine(degrees * ALIKE_SHARE)),
         };
         let resolution = resolution(&mesh);
         let extent = mesh.extent().min(f32::MAX).into();
         let (width, least_breadth) = (0.0, 0.0);
         let stored = None;
-        View { mesh, width, extent, least_breadth, resolution, hard_cosine, alike_cosine, stored }
+        View {
+            mesh,
+            width,
+            extent,
+            least_breadth,
+            resolution,
+            hard_angle,
+            hard_cosine,
+            alike_cosine,
+            stored,
+        }
     }
 
     /// What is nearer to each other was set apart by rounding alone; more may have been modelled. As far

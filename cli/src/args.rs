@@ -6,7 +6,7 @@ use chamfer::Verify;
 use chamfer_formats::{Normals, ReadOptions};
 use clap::{Parser, Subcommand, ValueEnum};
 
-use crate::choices::{Choices, Reading, number};
+use crate::choices::{Choices, Reading, hard_angle, number};
 use crate::length::Length;
 use crate::report::Asked;
 
@@ -186,6 +186,10 @@ pub struct CheckArgs {
     /// The width was that of each mesh by itself
     #[arg(long)]
     pub per_mesh: bool,
+
+    /// Normals were one that differ by less than this [default: that of --options, or else 1]
+    #[arg(long, value_name = "DEG", value_parser = hard_angle, allow_negative_numbers = true)]
+    pub hard_angle: Option<f32>,
 
     /// The file of options that the model was chamfered with: edges that it does not select stay hard,
     /// and have no width

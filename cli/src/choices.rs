@@ -339,7 +339,11 @@ pub fn angle(text: &str) -> Result<f32, String> {
     }
 }
 
-fn hard_angle(text: &str) -> Result<f32, String> {
+/// An angle from which on normals differ.
+///
+/// # Errors
+/// Says what can be given.
+pub fn hard_angle(text: &str) -> Result<f32, String> {
     match text.parse::<f32>() {
         Ok(angle) if 0.0 < angle && angle <= 90.0 => Ok(angle),
         _ => Err("give degrees above 0, up to 90".into()),

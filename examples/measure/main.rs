@@ -10,8 +10,8 @@
 //! could jump; and how even the widths are, but for edges that taper to a point by design.
 //! `--compare` also checks each result as `chamfer check` does, by what went in and what came out
 //! alone. `--unlike` gives each vertex and each submesh a factor at random, some of them 0, and takes
-//! all options but the width and the hard angle, which the checker has one of, at random for each file. `--normals` counts by
-//! what angles normals differ where vertices are split: what `hard_angle` tells apart.
+//! all options but the width at random for each file. `--normals` counts by what angles normals differ
+//! where vertices are split: what `hard_angle` tells apart.
 
 mod chains;
 mod fits;
@@ -275,6 +275,7 @@ impl Noise {
             .with_least_breadth(self.pick(&[options.least_breadth, 0.0, 0.6]))
             .with_chamfer_submesh(self.pick(&[ChamferSubmesh::Owner, ChamferSubmesh::Own]))
             .with_scale(self.pick(&SCALES))
+            .with_hard_angle(self.pick(&[options.hard_angle, 0.1, 5.0, 20.0, 60.0]))
     }
 
     fn unlike(mut self, mesh: &Mesh) -> Unlike {

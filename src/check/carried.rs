@@ -42,6 +42,9 @@ pub struct Extras<'a> {
     /// there edges are hard or not, and new triangles have to face along with their normals. None where
     /// it stands as it is.
     pub scale: Option<[[f32; 3]; 3]>,
+    /// Normals are one that differ by less than this, in degrees, as in
+    /// [`Options::hard_angle`](crate::Options::hard_angle). None where that is the default.
+    pub hard_angle: Option<f32>,
 }
 
 impl<'a> Extras<'a> {
@@ -53,6 +56,11 @@ impl<'a> Extras<'a> {
     /// The same for a mesh that stands scaled.
     pub fn with_scale(self, scale: Option<[[f32; 3]; 3]>) -> Extras<'a> {
         Extras { scale, ..self }
+    }
+
+    /// The same where another angle makes an edge hard.
+    pub fn with_hard_angle(self, hard_angle: Option<f32>) -> Extras<'a> {
+        Extras { hard_angle, ..self }
     }
 
     /// The same with further values of the vertices.

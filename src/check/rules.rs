@@ -185,7 +185,7 @@ pub struct Facts {
     pub border_loops: usize,
     /// Edges with more than two sides, but for those along which solids touch, with two each.
     pub non_manifold_edges: usize,
-    /// Edges whose normals differ by more than about one degree at either end.
+    /// Edges whose normals differ at either end by more than about one degree, or by what was asked for.
     pub hard_edges: usize,
     /// Triangles without area.
     pub flat_triangles: usize,

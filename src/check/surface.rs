@@ -7,10 +7,14 @@ use crate::mesh::Mesh;
 use crate::scale::longest_axis;
 use glam::{DMat3, DVec3};
 
-/// The cosine of the angle by which normals may differ across an edge that is not hard: one degree
-/// is what quantized normals differ by, and half of one more keeps this limit clear of any other
-/// near it.
-const SOFT_COSINE: f64 = 0.999_657;
+/// The angle in degrees by which normals may differ across an edge that is not hard, where nothing
+/// else is told: what quantized ones differ by.
+const HARD_ANGLE: f32 = 1.0;
+
+/// So much more keeps this limit clear of any other near it: half a degree for the usual angle, and for
+/// any larger one.
+const CLEAR_SHARE: f64 = 0.5;
+const MOST_CLEAR: f64 = 0.5;
 
 /// How far a position may be off by rounding alone, relative to the largest coordinate: a few of
 /// the smallest steps of single precision.
@@ -50,6 +54,8 @@ pub(super) struct Surface<'a> {
     rounding: f64,
     /// To where the mesh stands, and how normals go along; none where it stands as it is.
     stands: Option<Standing>,
+    /// The cosine of the angle by which normals may differ across an edge that is not hard.
+    soft_cosine: f64,
     /// Sorted: the clusters of a round surface around which normals may differ by chance.
     round: Vec<u32>,
 }
@@ -70,7 +76,9 @@ impl<'a> Surface<'a> {
         }
         half_edges.sort_unstable();
         let (rounding, round) = (rounding(mesh), Vec::new());
-        Surface { mesh, cluster_of, half_edges, rounding, stands: None, round }.with_noise()
+        let soft_cosine = soft_cosine(HARD_ANGLE);
+        Surface { mesh, cluster_of, half_edges, rounding, stands: None, soft_cosine, round }
+            .with_noise()
     }
 
     /// The same of a mesh that stands scaled so, column by column. Normals that are one there need not
@@ -80,6 +88,12 @@ impl<'a> Surface<'a> {
         let stands = Some(Standing { to, normals_to: normals_to(to) });
         let rounding = self.rounding * longest_axis(to);
         Surface { stands, rounding, ..self }.with_noise()
+    }
+
+    /// The same where normals are one that differ by less than so many degrees.
+    pub fn hard_from(self, degrees: Option<f32>) -> Surface<'a> {
+        let Some(degrees) = degrees else { return self };
+        Surface { soft_cosine: soft_cosine(degrees), ..self }.with_noise()
     }
 
     fn with_noise(self) -> Surface<'a> {
@@ -220,10 +234,10 @@ impl<'a> Surface<'a> {
         Step { normals: normals(near), facings, beyond: a - b }
     }
 
-    /// Whether the normals of two corners are the same, as nearly as importers store them.
+    /// Whether the normals of two corners are one, as nearly as importers store them or the caller has said.
     pub fn share_normal(&self, corners: [u32; 2]) -> bool {
         let [a, b] = corners.map(|corner| self.shading(corner));
-        a.dot(b) >= SOFT_COSINE * a.length() * b.length()
+        a.dot(b) >= self.soft_cosine * a.length() * b.length()
     }
 
     /// `#triangles`: the first triangle of the part that each is connected to across edges.
@@ -260,6 +274,11 @@ impl<'a> Surface<'a> {
             |half_edge: &HalfEdge| half_edge.clusters.iter().any(|&c| on_border[c as usize]);
         !self.edges().filter(is_non_manifold).any(|(a, b)| a.iter().chain(b).any(touches))
     }
+}
+
+fn soft_cosine(hard_angle: f32) -> f64 {
+    let degrees = f64::from(hard_angle);
+    libm::cos((degrees + (CLEAR_SHARE * degrees).min(MOST_CLEAR)).to_radians())
 }
 
 fn is_non_manifold((a, b): &(&[HalfEdge], &[HalfEdge])) -> bool {

@@ -21,7 +21,9 @@ pub fn expected(
     let wish = choices.map_or_else(Wish::default, |choices| choices.wish(1));
     let verify = if args.no_see_through { args.verify.into() } else { Verify::Seen };
     let per_mesh = args.per_mesh || wish.per_mesh;
-    let wish = Wish { core: wish.core.with_verify(verify), width, per_mesh, ..wish };
+    let hard_angle = args.hard_angle.unwrap_or(wish.core.hard_angle);
+    let core = wish.core.with_verify(verify).with_hard_angle(hard_angle);
+    let wish = Wish { core, width, per_mesh, ..wish };
     let made = |segments: u32| {
         let wish = Wish { core: wish.core.with_segments(segments), ..wish.clone() };
         Ok(chamfer_document(before, &wish, &|_| ())?.meshes)

@@ -56,11 +56,13 @@ fn check(args: &CheckArgs) -> Result<Verdict> {
     let pairs = Pairs::new(before.meshes(), after.meshes());
     let expected = expected(&*before, &*after, args, choices.as_ref())?;
     let is_own = args.per_mesh || choices.as_ref().is_some_and(|choices| choices.wish(1).per_mesh);
+    let hard_angle = args.hard_angle.or(choices.as_ref().map(|choices| choices.hard_angle));
     let stretches = if is_own { Vec::new() } else { stretches(&*before) };
     let checks = pairs.both.iter().map(|&[source, result]| {
         let wanted = Wanted {
             expected: expected.get(source),
             scale: stretches.get(source).copied().flatten().and_then(|stretch| stretch.shape()),
+            hard_angle,
         };
         let source = Side { document: &*before, mesh: source };
         check_pair(source, Side { document: &*after, mesh: result }, wanted, args)
@@ -199,6 +201,8 @@ struct Wanted<'a> {
     expected: Option<&'a Chamfered>,
     /// How it stands in the scene, where it is stretched.
     scale: Option<[[f32; 3]; 3]>,
+    /// From where on normals differ, where that is known.
+    hard_angle: Option<f32>,
 }
 
 fn check_pair(source: Side, result: Side, wanted: Wanted, args: &CheckArgs) -> MeshCheck {
@@ -209,7 +213,10 @@ fn check_pair(source: Side, result: Side, wanted: Wanted, args: &CheckArgs) -> M
     let further = [source, result].map(|side| side.document.further(side.mesh));
     let streams = Streams::new(further, counts);
     let extra = streams.extra();
-    let mut extras = Extras::default().with_streams(&extra).with_scale(wanted.scale);
+    let mut extras = Extras::default()
+        .with_streams(&extra)
+        .with_scale(wanted.scale)
+        .with_hard_angle(wanted.hard_angle);
     if let Some([source, result]) = &numbers {
         extras = extras.with_materials([source, result]);
     }

@@ -1,0 +1,91 @@
+//! Where another angle makes an edge hard: what differs by less is no edge, and the checker goes by the
+//! same angle.
+
+use chamfer::check::{Extras, Findings, Rule, check, compare_with};
+use chamfer::{Chamfered, MeshBuffers, Options, Verify, Width, chamfer, shapes};
+
+/// Of a prism with eight sides, which turn by 45 degrees, only the edges of its lids.
+const LIDS_ALONE: f32 = 60.0;
+
+fn prism() -> (MeshBuffers, Chamfered) {
+    let prism = shapes::prism(8);
+    let options =
+        Options::default().with_width(Width::PercentOfExtent(3.0)).with_hard_angle(LIDS_ALONE);
+    let result = chamfer(&prism.as_mesh(), &options).unwrap();
+    (prism, result)
+}
+
+fn found(findings: &Findings, rule: Rule) -> bool {
+    findings.breaches.iter().any(|breach| breach.rule == rule)
+}
+
+/// As the command checks two files: by what went in and what came out.
+fn compared(before: &MeshBuffers, after: &MeshBuffers, hard_angle: Option<f32>) -> Findings {
+    let extras = Extras::default().with_hard_angle(hard_angle);
+    compare_with(&before.as_mesh(), &after.as_mesh(), &extras, Verify::Fast)
+}
+
+#[test]
+fn what_differs_by_less_is_no_edge_and_sound_where_the_angle_is_told() {
+    let (prism, result) = prism();
+    assert_eq!(result.totals.hard_edges, 16);
+    assert_eq!(result.hard_angle, Some(LIDS_ALONE));
+    let findings = check(&prism.as_mesh(), &result, Verify::Full);
+    assert!(findings.is_sound(), "{findings}");
+    let findings = compared(&prism, &result.mesh, Some(LIDS_ALONE));
+    assert!(findings.is_sound(), "{findings}");
+}
+
+/// By the usual angle the sides' edges have no verdict.
+#[test]
+fn where_the_angle_is_not_told_edges_are_missing() {
+    let (prism, mut result) = prism();
+    result.hard_angle = None;
+    assert!(!check(&prism.as_mesh(), &result, Verify::Fast).is_sound());
+}
+
+/// A triangle of a strip with vertices of its own, shaded like the far side of the prism: by more than
+/// any angle that is told.
+#[test]
+fn an_edge_that_is_new_is_found_by_a_larger_angle_too() {
+    let (prism, result) = prism();
+    let mut after = result.mesh;
+    let first = after.indices.len() - 3;
+    for corner in first..first + 3 {
+        let vertex = after.indices[corner] as usize;
+        after.indices[corner] = after.positions.len() as u32;
+        after.positions.push(after.positions[vertex]);
+        after.normals.push(after.normals[vertex].map(|along| -along));
+        let tangent = after.tangents.get(vertex).copied();
+        after.tangents.extend(tangent);
+        for uv in after.uvs.iter_mut().filter(|uv| uv.components > 0) {
+            let own = vertex * uv.components as usize;
+            uv.values.extend_from_within(own..own + uv.components as usize);
+        }
+    }
+    let findings = compared(&prism, &after, Some(LIDS_ALONE));
+    assert!(found(&findings, Rule::HardEdges), "{findings}");
+}
+
+/// Normals that differ by half a degree are an edge to those who ask for a tenth.
+#[test]
+fn a_smaller_angle_finds_more_edges() {
+    let mut cube = shapes::plain_cube(1.0);
+    // Two triangles of a face, each with vertices of its own, one of them turned.
+    let [a, b, c] = [0, 1, 2].map(|corner| cube.indices[corner] as usize);
+    let first = cube.positions.len() as u32;
+    for vertex in [a, b, c] {
+        let normal = cube.normals[vertex];
+        cube.positions.push(cube.positions[vertex]);
+        let axis = normal.iter().position(|along| along.abs() > 0.5).unwrap();
+        let mut turned = normal;
+        turned[(axis + 1) % 3] = 0.5_f32.to_radians();
+        cube.normals.push(turned);
+    }
+    for corner in 0..3 {
+        cube.indices[corner] = first + corner as u32;
+    }
+    let facts = |angle| compared(&cube, &cube, angle).before.hard_edges;
+    assert_eq!(facts(None), 12);
+    assert_eq!(facts(Some(0.1)), 13);
+}
