@@ -197,6 +197,23 @@ fn sides_that_nearly_meet_are_chamfered() {
     }
 }
 
+/// A speck between the two ends, no larger than what rounding has set them apart by, would lose its
+/// area: so they stay apart.
+#[test]
+fn sides_that_nearly_meet_stay_apart_for_a_triangle_between_them() {
+    let mut mesh = roof_on_wall(&[0.0, 4.0], &[[0.0, 4.0]], FRONT);
+    mesh.positions[4..].iter_mut().for_each(|place| {
+        place[1] -= if *place == [4.0, 0.0, 0.0] { 1e-9 } else { 0.0 };
+    });
+    let first = mesh.positions.len() as u32;
+    mesh.positions.extend([[4.0, 0.0, 0.0], [4.0, -1e-9, 0.0], [4.0, 0.0, -1e-9]]);
+    mesh.normals.extend([[1.0, 0.0, 0.0]; 3]);
+    mesh.indices.extend([0, 1, 2].map(|corner| first + corner));
+    mesh.submesh_index_counts = vec![mesh.indices.len() as u32];
+    let result = chamfered(&mesh);
+    assert_eq!(result.mesh.positions, mesh.positions);
+}
+
 /// Two walls back to back, of which one is longer: there is nothing to cut off between them.
 #[test]
 fn walls_back_to_back_stay_and_say_so() {

@@ -19,6 +19,7 @@ use crate::mesh::{EdgeFactor, Factors, Mesh};
 use crate::scale::Space;
 use crate::shape::Shape;
 use crate::tolerance::LEVEL_COSINE;
+use crate::validity::keeps_side;
 use crate::view::View;
 
 /// Each round leaves out what the one before has found bad. Where so many do not do, nobody can tell
@@ -274,11 +275,11 @@ impl Stitched {
             let moved = || clusters.iter().filter_map(|cluster| self.joins.get(cluster));
             let place = |cluster: Cluster| self.joins.get(&cluster).copied().unwrap_or(cluster);
             let points = clusters.map(|c| view.position(shape.weld.first_vertex[place(c)]));
-            let normal = shape.faces.normal[triangle];
-            if moved().next().is_some()
-                && bends(view, points, normal)
-                && !bends(view, view.triangle(triangle), normal)
-            {
+            let (old, normal) = (view.triangle(triangle), shape.faces.normal[triangle]);
+            let is_worse = || {
+                bends(view, points, normal) && !bends(view, old, normal) || !keeps_side(old, points)
+            };
+            if moved().next().is_some() && is_worse() {
                 bad.places.extend(moved());
             }
         }
