@@ -191,7 +191,7 @@ pub fn pieces(
     let points = [0, 1, 2].map(|side| on_side(&points[side], side));
     let mut pieces = Vec::new();
     match middle {
-        None => cut(whole, points, &mut pieces),
+        None => cut(whole, points.each_ref().map(|points| &points[..]), &mut pieces),
         Some(middle) => cut_around(whole, &points, middle, &mut pieces),
     }
     let shared = |one: &[CutCorner; 3], other: &[CutCorner; 3]| {
@@ -205,7 +205,8 @@ pub fn pieces(
 pub(super) fn side_by_side<T>(pieces: &mut [T], are_beside: impl Fn(&T, &T) -> bool) {
     for done in 1..pieces.len() {
         let (before, rest) = pieces.split_at(done);
-        let is_beside = |piece: &T| before.iter().any(|one| are_beside(one, piece));
+        // Nearly always it is the last one.
+        let is_beside = |piece: &T| before.iter().rev().any(|one| are_beside(one, piece));
         let next = rest.iter().position(is_beside).unwrap_or(0);
         pieces[done..=done + next].rotate_right(1);
     }
@@ -255,21 +256,23 @@ fn on_side(points: &[Point], side: usize) -> Few<CutCorner> {
 ///       /  |  \       the second one b and c
 ///      a---m---b
 /// ```
-fn cut(corners: [CutCorner; 3], points: [Few<CutCorner>; 3], pieces: &mut Vec<[CutCorner; 3]>) {
-    let Some(side) = (0..3).find(|&side| !points[side].is_empty()) else {
-        pieces.push(corners);
-        return;
-    };
-    let [onward, back] = [(side + 1) % 3, (side + 2) % 3];
-    let middle = points[side][0];
-    let mut halves = [corners; 2];
-    halves[0][onward] = middle;
-    halves[1][side] = middle;
-    let mut left: [Few<CutCorner>; 3] = Default::default();
-    let mut right: [Few<CutCorner>; 3] = Default::default();
-    left[back] = points[back].clone();
-    right[side] = Few::from_slice(&points[side][1..]);
-    right[onward] = points[onward].clone();
-    cut(halves[0], left, pieces);
-    cut(halves[1], right, pieces);
+fn cut(corners: [CutCorner; 3], points: [&[CutCorner]; 3], pieces: &mut Vec<[CutCorner; 3]>) {
+    // Thousands of vertices may stand on one side: no call for each.
+    let mut waiting = vec![(corners, points)];
+    while let Some((corners, points)) = waiting.pop() {
+        let Some(side) = (0..3).find(|&side| !points[side].is_empty()) else {
+            pieces.push(corners);
+            continue;
+        };
+        let [onward, back] = [(side + 1) % 3, (side + 2) % 3];
+        let middle = points[side][0];
+        let mut halves = [corners; 2];
+        halves[0][onward] = middle;
+        halves[1][side] = middle;
+        let mut of_halves: [[&[CutCorner]; 3]; 2] = Default::default();
+        of_halves[0][back] = points[back];
+        of_halves[1][side] = &points[side][1..];
+        of_halves[1][onward] = points[onward];
+        waiting.extend([(halves[1], of_halves[1]), (halves[0], of_halves[0])]);
+    }
 }

@@ -67,6 +67,14 @@ fn vertices_on_all_sides_and_several_on_one() {
     assert_eq!(cut_at([&[0.2, 0.4, 0.9], &[0.1, 0.3], &[0.5, 0.6]]).len(), 8);
 }
 
+/// Where a wall of very many columns stands below a roof: a thread of few bytes of stack does it.
+#[test]
+fn so_many_on_one_side_that_no_call_can_be_made_for_each() {
+    let shares: Vec<f64> = (1..20_000).map(|step| f64::from(step) / 20_000.0).collect();
+    let cut = move || assert_eq!(cut_at([&shares, &[], &[]]).len(), 20_000);
+    std::thread::Builder::new().stack_size(1 << 18).spawn(cut).unwrap().join().unwrap();
+}
+
 #[test]
 fn a_triangle_without_any_stays() {
     let whole = [0, 1, 2].map(|k| (k, WHOLE[k as usize]));
