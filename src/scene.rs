@@ -64,7 +64,8 @@ pub fn chamfer_scene<E>(
     run: &mut dyn FnMut(usize, &Mesh) -> Result<Chamfered, E>,
 ) -> Result<ChamferedScene, E> {
     let objects = objects(meshes, placed);
-    let mut held = contacts_across(meshes, &objects);
+    let bounds: Vec<[DVec3; 2]> = objects.iter().map(|o| bounds(o, &meshes[o.mesh])).collect();
+    let mut held = contacts_across(meshes, &objects, &bounds);
     let mut chamfer = |mesh: usize, held: &[Held]| run(mesh, &Mesh { held, ..meshes[mesh] });
     let all = (0..meshes.len()).map(|mesh| chamfer(mesh, &held[mesh]));
     let mut scene = ChamferedScene { meshes: all.collect::<Result<_, E>>()?, ..Default::default() };
@@ -80,7 +81,7 @@ pub fn chamfer_scene<E>(
         if may_leak {
             scene.rounds += 1;
             let grip = Grip::in_round(scene.rounds, width);
-            for mesh in hold(&objects, &scene.leaks, &grip, &mut held) {
+            for mesh in hold((&objects, &bounds), &scene.leaks, &grip, &mut held) {
                 scene.meshes[mesh] = chamfer(mesh, &held[mesh])?;
             }
         }
@@ -145,13 +146,13 @@ fn width(objects: &[Object], meshes: &[Chamfered]) -> f64 {
 }
 
 /// `#meshes`: what the caller holds, and the open borders of all other objects.
-fn contacts_across(meshes: &[Mesh], objects: &[Object]) -> Vec<Vec<Held>> {
+/// `bounds: #objects`.
+fn contacts_across(meshes: &[Mesh], objects: &[Object], bounds: &[[DVec3; 2]]) -> Vec<Vec<Held>> {
     let mut held: Vec<Vec<Held>> = meshes.iter().map(|mesh| mesh.held.to_vec()).collect();
     if objects.len() < 2 {
         return held;
     }
     let borders: Vec<Vec<[DVec3; 2]>> = meshes.iter().map(border_lines).collect();
-    let bounds: Vec<[DVec3; 2]> = objects.iter().map(|o| bounds(o, &meshes[o.mesh])).collect();
     let boxes: Vec<Aabb> = bounds.iter().map(aabb).collect();
     let tree = Tree::new(&boxes, &[]);
     for (number, object) in objects.iter().enumerate() {
@@ -221,15 +222,20 @@ impl Grip {
 }
 
 /// Holds what is around the places where light shows; tells the meshes that have something new to
-/// hold, in order. Of places within a width of each other one stands for all.
+/// hold, in order. Of places within a width of each other one stands for all. Objects that are nowhere near
+/// a place (`bounds: #objects`) are not told of it: each of many would be told all that leaks anywhere.
 fn hold(
-    objects: &[Object],
+    (objects, bounds): (&[Object], &[[DVec3; 2]]),
     leaks: &[Leak],
     grip: &Grip,
     held: &mut [Vec<Held>],
 ) -> BTreeSet<usize> {
     let mut cells = BTreeSet::new();
     let mut changed = BTreeSet::new();
+    let reach = DVec3::splat(grip.reach.max(grip.width));
+    let boxes: Vec<Aabb> =
+        bounds.iter().map(|[low, high]| aabb(&[*low - reach, *high + reach])).collect();
+    let tree = Tree::new(&boxes, &[]);
     let places = leaks.iter().flat_map(|leak| {
         let is_gentle = grip.is_gentle && leak.is_past_outlines;
         leak.places.iter().map(move |&place| (wide(place), is_gentle))
@@ -240,7 +246,9 @@ fn hold(
         if !cells.insert((cell, is_gentle)) {
             continue;
         }
-        for object in objects {
+        let mut near: Vec<u32> = tree.overlapping(aabb(&[place; 2])).collect();
+        near.sort_unstable();
+        for object in near.into_iter().map(|number| &objects[number as usize]) {
             let Some(to_mesh) = object.to_mesh else { continue };
             let at = to_mesh.transform_point3(place).as_vec3().to_array();
             let reach = if is_gentle { 0.0 } else { grip.reach };

@@ -111,3 +111,22 @@ fn one_mesh_is_looked_at_as_a_scene_is() {
     assert_eq!(contacts(&of(Verify::Full)), 0);
     assert!(contacts(&of(Verify::Seen)) >= 2);
 }
+
+/// Two cubes that touch, and a third one far off, which is a mesh of its own: nobody asks for it again.
+#[test]
+fn who_is_nowhere_near_is_not_told() {
+    let (cube, placed) = touching_cubes();
+    let far = Placed { mesh: 1, transform: at(20.0, 0.0, 0.0) };
+    let [one, other] = placed;
+    let meshes = [cube.as_mesh(), cube.as_mesh()];
+    let options = Options { width: Width::Units(0.05), ..Options::default() };
+    let mut asked = [0, 0];
+    let mut run = |number: usize, mesh: &Mesh| -> Result<Chamfered, Error> {
+        asked[number] += 1;
+        chamfer(mesh, &options)
+    };
+    let eyes = Some(Eyes::default());
+    let scene = chamfer_scene(&meshes, &[one, other, far], eyes, &mut run).unwrap();
+    assert_eq!((scene.rounds, scene.leaks.len()), (1, 0));
+    assert_eq!(asked, [2, 1]);
+}
