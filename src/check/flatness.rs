@@ -90,8 +90,11 @@ pub(super) fn check_flatness(
             |fan: &Fan| fan.plane.is_some() || !is_low(after.triangle(triangle), least_height);
         let is_bent = |corner: u32| {
             let face = faces.as_ref().zip(origins.own_corner(corner)).map(|(f, own)| f.at(own));
-            let stays =
-                |face: &&Fan| face.distance(after.position(corner)) <= STAYS * before.rounding();
+            let stays = |face: &&Fan| {
+                let off_plane = face.distance(after.position(corner));
+                // What is but a line is shaded as what it lies beside.
+                face.plane.is_some() && off_plane <= STAYS * before.rounding()
+            };
             face.filter(stays).is_some_and(|face| face.bends(after.normal(corner)))
         };
         if corners().any(|(fan, corner, _)| {
