@@ -1,5 +1,7 @@
 //! Breaks: whether two corners or vertices at one position differ in some stream.
 
+use glam::DVec3;
+
 use crate::ids::{Corner, Id, Vertex};
 use crate::mesh::Uv;
 use crate::tolerance::EQUAL_UV;
@@ -7,9 +9,19 @@ use crate::view::View;
 
 /// Whether the stored normals differ between two half-edges that are twins.
 pub fn is_hard(view: &View, side: Corner, other: Corner) -> bool {
+    differ(view, side, other, |normals| view.normals_differ(normals))
+}
+
+/// Whether light breaks between two half-edges that are twins, be they a hard edge or not.
+pub fn is_broken(view: &View, side: Corner, other: Corner) -> bool {
+    differ(view, side, other, |normals| view.normals_break(normals))
+}
+
+/// Whether two half-edges that are twins have different normals at either end.
+fn differ(view: &View, side: Corner, other: Corner, differ: impl Fn([DVec3; 2]) -> bool) -> bool {
     let differ = |one: Corner, other: Corner| {
         let (one, other) = (view.vertex_at(one), view.vertex_at(other));
-        one != other && view.normals_differ([view.normal(one), view.normal(other)])
+        one != other && differ([view.normal(one), view.normal(other)])
     };
     differ(side, other.next()) || differ(side.next(), other)
 }

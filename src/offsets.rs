@@ -222,7 +222,7 @@ fn blades<'a>(
 
 /// Where a fan's vertex was placed, or that it stays, with what is known of the fan.
 fn told(surface: Surface, fan: &Fan, spread: &[Blade], placed: Option<Offset>) -> Offset {
-    let is_plain = !fan.holds_hard && is_plain(surface.view, surface.faces, spread);
+    let is_plain = !fan.is_broken && is_plain(surface.view, surface.faces, spread);
     Offset { is_plain, ..placed.unwrap_or(Offset::none(fan.first)) }
 }
 

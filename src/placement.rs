@@ -151,9 +151,11 @@ impl<'a> Placement<'a> {
         &self.offsets[sector]
     }
 
-    /// The way that a corner of a sector goes at full width, on the surface: see [`surface_foot`].
+    /// The way that a corner of a sector goes at full width, on the surface where it stands: see
+    /// [`surface_foot`].
     pub fn surface_foot(&self, sector: Sector, corner: Corner) -> Foot {
-        surface_foot(self.surface, self.sectors, &self.offsets[sector], corner)
+        let way = (&self.offsets[sector], self.share[sector]);
+        surface_foot(self.surface, self.sectors, way, corner)
     }
 
     /// The same in the corner's own texture chart: see [`chart_foot`].

@@ -5,7 +5,7 @@
 
 use glam::DVec3;
 
-use crate::breaks::{is_hard, same_chart};
+use crate::breaks::{is_broken, is_hard, same_chart};
 use crate::edges::seam_channels;
 use crate::foot::{Foot, MOST_WEIGHT, locate};
 use crate::ids::{Corner, Few, Sector, Triangle, Vertex};
@@ -14,7 +14,7 @@ use crate::offsets::Offset;
 use crate::report::Blend;
 use crate::sectors::Sectors;
 use crate::surface::Surface;
-use crate::tolerance::CREASE_COSINE;
+use crate::tolerance::{CREASE_COSINE, TOUCHING_STEPS};
 use crate::view::{Stored, View, wide};
 
 /// So much nearer than the farthest place that can be told, for the sake of rounding.
@@ -22,16 +22,19 @@ const TOLD_SAFETY: f64 = 1.0005;
 
 /// Where a sector's full offset takes one of its corners on the surface: the triangle that the
 /// offset lies on, or one of the corner's own vertex if the surface breaks between the two and that
-/// has a plane.
-pub fn surface_foot(surface: Surface, sectors: &Sectors, offset: &Offset, corner: Corner) -> Foot {
+/// has a plane. It stands at a share of the offset.
+pub fn surface_foot(
+    surface: Surface,
+    sectors: &Sectors,
+    (offset, share): (&Offset, f64),
+    corner: Corner,
+) -> Foot {
     let agree = |one: Vertex, other: Vertex| {
-        let (one, other) = (surface.view.normal(one), surface.view.normal(other));
-        one.dot(other)
-            >= surface.view.hard_cosine * (one.length_squared() * other.length_squared()).sqrt()
+        !surface.view.normals_differ([one, other].map(|vertex| surface.view.normal(vertex)))
     };
     let usual = foot(surface, sectors, offset, corner, agree).unwrap_or(offset.foot);
     // Most fans are one part, and most ways lie on a face: there is nothing to walk around for.
-    if !sectors.fans[sectors.sector_of[corner]].holds_hard && !leaves(surface, offset, corner) {
+    if !sectors.fans[sectors.sector_of[corner]].is_broken && !leaves(surface, offset, corner) {
         return usual;
     }
     let normal = surface.view.normal_at(corner);
@@ -39,7 +42,27 @@ pub fn surface_foot(surface: Surface, sectors: &Sectors, offset: &Offset, corner
     if corners.all(|corner| surface.view.normal_at(corner) == normal) {
         return usual;
     }
-    own_foot(surface, sectors, offset, corner).unwrap_or(usual)
+    let own = |breaks: Breaks| own_foot(surface, sectors, offset, (corner, breaks));
+    own(is_hard).unwrap_or_else(|| match surface.view.has_soft_breaks() {
+        // What is no hard edge may be left over its other side: then that is the surface there.
+        true => own(is_broken)
+            .filter(|own| stays_on(surface, own.corner, offset.vector * share))
+            .unwrap_or(offset.foot),
+        false => usual,
+    })
+}
+
+/// Whether the surface breaks between two half-edges that are twins.
+type Breaks = fn(&View, Corner, Corner) -> bool;
+
+/// Whether a way from a corner stays in the plane of its triangle, and that is shaded flat: past a curved
+/// one nobody knows.
+fn stays_on(surface: Surface, corner: Corner, way: DVec3) -> bool {
+    let Surface { view, faces, .. } = surface;
+    let off_plane = faces.normal[corner.triangle()].dot(way).abs();
+    let bends = |other: Corner| view.normals_break([corner, other].map(|at| view.normal_at(at)));
+    off_plane <= TOUCHING_STEPS * view.resolution
+        && ![corner.next(), corner.prev()].into_iter().any(bends)
 }
 
 /// As [`surface_foot`], within the corner's own texture chart; where that has no plane, the corner
@@ -147,9 +170,14 @@ fn likest(surface: Surface, fan: &[Corner], line: Corner) -> Option<Corner> {
 /// that is not chamfered or, from a line, where the faces around the corner have one normal all over,
 /// so that they keep it. Where the offset leads a hair out of that face's plane, the place below counts:
 /// a face that is shaded flat stays so.
-fn own_foot(surface: Surface, sectors: &Sectors, offset: &Offset, corner: Corner) -> Option<Foot> {
+fn own_foot(
+    surface: Surface,
+    sectors: &Sectors,
+    offset: &Offset,
+    (corner, breaks): (Corner, Breaks),
+) -> Option<Foot> {
     let fan: Few<Corner> = sectors.corners(surface.topology, sectors.sector_of[corner]).collect();
-    let parts = || fan.chunk_by(|&one, &other| !is_hard(surface.view, other, one.prev()));
+    let parts = || fan.chunk_by(|&one, &other| !breaks(surface.view, other, one.prev()));
     let vertex = surface.view.vertex_at(corner);
     let has_vertex = |part: &&[Corner]| part.iter().any(|at| surface.view.vertex_at(*at) == vertex);
     // Where both sides of a hard edge share the vertex, the one that would show it comes first.

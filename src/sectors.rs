@@ -4,7 +4,7 @@
 //! every other edge; one vertex whose corners lie in two sectors is split later (thesis 6.2,
 //! corner-connected vertices). Sectors that are joined by chamfered edges form a ring.
 
-use crate::breaks::is_hard;
+use crate::breaks::{is_broken, is_hard};
 use crate::contacts::Contacts;
 use crate::edges::Edges;
 use crate::error::Error;
@@ -27,8 +27,9 @@ pub struct Fan {
     /// Whether several borders run through the cluster, of parts that only touch here, or a border
     /// at all where something outside of the mesh rests on it.
     pub borders_meet: bool,
-    /// Whether a hard edge that stays hard reaches the cluster here.
-    pub holds_hard: bool,
+    /// Whether light breaks at an edge inside of it: at a hard edge that stays hard, or at one that is not
+    /// hard by the angle asked for.
+    pub is_broken: bool,
     pub ring: Ring,
 }
 
@@ -143,6 +144,9 @@ pub fn sectors(
     }
     sectors.fans.shrink();
     mark_kept(edges, &mut sectors);
+    if view.has_soft_breaks() {
+        mark_soft_breaks(view, topology, edges, &mut sectors, watch)?;
+    }
     join_rings(topology, &mut sectors, watch)?;
     mark_meeting_borders(view, topology, contacts, &mut sectors, watch)?;
     Ok(sectors)
@@ -192,7 +196,7 @@ fn add_fan(topology: &Topology, edges: &Edges, sectors: &mut Sectors, corner: Co
         next: Sector::NONE,
         starts_at_border,
         borders_meet: false,
-        holds_hard: false,
+        is_broken: false,
         ring: Ring::NONE,
     });
 }
@@ -228,7 +232,7 @@ fn add_whole(view: &View, topology: &Topology, sectors: &mut Sectors, corner: Co
         next: Sector::NONE,
         starts_at_border: false,
         borders_meet: false,
-        holds_hard: false,
+        is_broken: false,
         ring: Ring::NONE,
     });
 }
@@ -237,9 +241,26 @@ fn mark_kept(edges: &Edges, sectors: &mut Sectors) {
     let kept = edges.hard.iter().filter(|edge| edge.skipped.is_some());
     for sector in kept.flat_map(|edge| edge.sides).map(|side| sectors.sector_of[side]) {
         if sector.is_some() {
-            sectors.fans[sector].holds_hard = true;
+            sectors.fans[sector].is_broken = true;
         }
     }
+}
+
+/// The same where light breaks at an edge that is not hard by the angle asked for.
+fn mark_soft_breaks(
+    view: &View,
+    topology: &Topology,
+    edges: &Edges,
+    sectors: &mut Sectors,
+    watch: &dyn Watch,
+) -> Result<(), Error> {
+    each(topology.twin.len(), watch, |side: Corner| {
+        let (sector, twin) = (sectors.sector_of[side], topology.twin[side]);
+        let is_inside = sector.is_some() && twin.is_some() && !edges.parts_at_start(side);
+        if is_inside && is_broken(view, side, twin) {
+            sectors.fans[sector].is_broken = true;
+        }
+    })
 }
 
 fn join_rings(topology: &Topology, sectors: &mut Sectors, watch: &dyn Watch) -> Result<(), Error> {

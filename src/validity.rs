@@ -13,13 +13,14 @@ use crate::tolerance::{
 /// Whether a source triangle that is hardly more than a line may become the new one: it may open,
 /// but not fold over its neighbours, which lie in a plane of this normal.
 pub fn stays_line(old: [DVec3; 3], new: [DVec3; 3], normal: DVec3, resolution: f64) -> bool {
-    keeps_side(old, new) && opens_along(old, new, [normal; 2], resolution)
+    keeps_side([old, new], |area| area) && opens_along(old, new, [normal; 2], resolution)
 }
 
-/// As long as it has any area of its own, a line has a side that it may not turn away from, and keeps
-/// some.
-pub fn keeps_side(old: [DVec3; 3], new: [DVec3; 3]) -> bool {
-    !has_any_area(old) || has_any_area(new) && area_vector(old).dot(area_vector(new)) > 0.0
+/// Whether a line still has an area, and faces along with the old one: as long as it has any of its own, it
+/// has a side that it may not turn away from. `measured` takes area vectors to where sides are told.
+pub fn keeps_side([old, new]: [[DVec3; 3]; 2], measured: impl Fn(DVec3) -> DVec3) -> bool {
+    let [old_area, new_area] = [old, new].map(|points| measured(area_vector(points)));
+    !has_any_area(old) || has_any_area(new) && old_area.dot(new_area) > 0.0
 }
 
 /// Whether a triangle has more of an area than what rounding leaves in double precision.

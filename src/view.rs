@@ -35,6 +35,9 @@ pub struct View<'a> {
     pub hard_angle: Option<f32>,
     /// Of that angle.
     pub hard_cosine: f64,
+    /// Of the angle from which on light breaks between two normals, be their edge hard or not: the usual
+    /// one, or that from which on edges are hard, if that is less.
+    pub broken_cosine: f64,
     /// Two normals that both differ from a third one by less than this do not differ.
     pub alike_cosine: f64,
     /// How what is measured is stored; none where both are one.
@@ -116,6 +119,7 @@ impl<'a> View<'a> {
             resolution,
             hard_angle,
             hard_cosine,
+            broken_cosine: hard_cosine.max(HARD_COSINE),
             alike_cosine,
             stored,
         }
@@ -181,11 +185,21 @@ impl<'a> View<'a> {
         wide(self.mesh.normals[vertex.index()])
     }
 
-    /// Whether light breaks between two normals. One without length differs from none.
+    /// Whether two normals are those of a hard edge. One without length differs from none.
     #[inline]
-    pub fn normals_differ(&self, [one, other]: [DVec3; 2]) -> bool {
-        let lengths = (one.length_squared() * other.length_squared()).sqrt();
-        one.dot(other) < self.hard_cosine * lengths
+    pub fn normals_differ(&self, normals: [DVec3; 2]) -> bool {
+        differ(normals, self.hard_cosine)
+    }
+
+    /// Whether light breaks between two normals: what is seen of a face is not what is seen of the other.
+    #[inline]
+    pub fn normals_break(&self, normals: [DVec3; 2]) -> bool {
+        differ(normals, self.broken_cosine)
+    }
+
+    /// Whether light breaks at some edges that are not hard.
+    pub fn has_soft_breaks(&self) -> bool {
+        self.hard_cosine < self.broken_cosine
     }
 
     #[inline]
@@ -222,6 +236,11 @@ impl<'a> View<'a> {
 }
 
 #[inline]
+fn differ([one, other]: [DVec3; 2], cosine: f64) -> bool {
+    let lengths = (one.length_squared() * other.length_squared()).sqrt();
+    one.dot(other) < cosine * lengths
+}
+
 pub fn wide(value: [f32; 3]) -> DVec3 {
     DVec3::new(f64::from(value[0]), f64::from(value[1]), f64::from(value[2]))
 }

@@ -2,7 +2,7 @@
 //! same angle.
 
 use chamfer::check::{Extras, Findings, Rule, check, compare_with};
-use chamfer::{Chamfered, MeshBuffers, Options, Verify, Width, chamfer, shapes};
+use chamfer::{Chamfered, MeshBuffers, Options, TriangleKind, Verify, Width, chamfer, shapes};
 
 /// Of a prism with eight sides, which turn by 45 degrees, only the edges of its lids.
 const LIDS_ALONE: f32 = 60.0;
@@ -34,6 +34,25 @@ fn what_differs_by_less_is_no_edge_and_sound_where_the_angle_is_told() {
     assert!(findings.is_sound(), "{findings}");
     let findings = compared(&prism, &result.mesh, Some(LIDS_ALONE));
     assert!(findings.is_sound(), "{findings}");
+}
+
+/// The sides are flat and shaded so, though their edges are not hard: where these are shortened at the
+/// lids, each side has its own normal on its end still.
+#[test]
+fn faces_between_edges_that_are_not_hard_keep_their_normals() {
+    let (prism, result) = prism();
+    let mut count = 0;
+    for (triangle, source) in result.triangle_sources.iter().enumerate() {
+        if source.kind == TriangleKind::Source {
+            let normals = |mesh: &MeshBuffers, triangle: usize| {
+                let corners = &mesh.indices[3 * triangle..3 * triangle + 3];
+                corners.iter().map(|&corner| mesh.normals[corner as usize]).collect::<Vec<_>>()
+            };
+            assert_eq!(normals(&result.mesh, triangle), normals(&prism, source.index as usize));
+            count += 1;
+        }
+    }
+    assert_eq!(count, prism.indices.len() / 3);
 }
 
 /// By the usual angle the sides' edges have no verdict.

@@ -6,7 +6,7 @@ use super::junctions::{Borders, reach};
 use super::origins::Origins;
 use super::rules::{Element, Findings, Rule};
 use super::stored::{is_unit, normal_with_area};
-use super::surface::Surface;
+use super::surface::{HalfEdge, Surface};
 use crate::groups::Groups;
 
 /// How far, relative to the extent, corners may be off a plane that counts as flat.
@@ -29,6 +29,10 @@ pub(super) const LEAST_HEIGHT: f64 = 16.0;
 /// How much a normal may change where all around it are the same: rounding when it is made unit
 /// length again.
 const NORMAL_TOLERANCE: f64 = 1e-6;
+
+/// A corner that is nearer to a plane than this share of the rounding has not left it: what is farther
+/// off may be seen as part of the face beside.
+const STAYS: f64 = 0.25;
 
 /// The triangles that meet at one cluster between two hard edges.
 #[derive(Clone, Copy, Default)]
@@ -53,8 +57,9 @@ pub(super) fn check_flatness(
     origins: &Origins,
     findings: &mut Findings,
 ) {
-    let fan_of = fans(before);
-    let fans = measure(before, &fan_of);
+    let fans = Fans::new(before, |a, b| before.is_soft(a, b));
+    // Where light breaks at edges that are not hard, a face between those is one by itself.
+    let faces = before.breaks_softly().then(|| Fans::new(before, |a, b| before.is_even(a, b)));
     let extent = before.extent();
     let tolerance = (PLANE_TOLERANCE * extent).max(before.rounding());
     let least_height = LEAST_HEIGHT * before.rounding();
@@ -66,7 +71,7 @@ pub(super) fn check_flatness(
         }
         let alone = || Fan::of_triangle(before, source[0] / 3, least_height);
         let fan_at = |corner: u32| match origins.own_corner(corner) {
-            Some(own) => (fans[fan_of[own as usize] as usize], corner, tolerance),
+            Some(own) => (*fans.at(own), corner, tolerance),
             // A corner that a cut has added on a hard edge belongs to nothing but its triangle. The
             // vertex at whose place it stands may have been a little off that.
             None => (alone(), corner, tolerance.max(reach(before))),
@@ -83,7 +88,18 @@ pub(super) fn check_flatness(
         // What is but a line, and stays one, shows no normal.
         let shows =
             |fan: &Fan| fan.plane.is_some() || !is_low(after.triangle(triangle), least_height);
-        if corners().any(|(fan, corner, _)| shows(&fan) && fan.bends(after.normal(corner))) {
+        let is_bent = |corner: u32| {
+            let face = faces.as_ref().zip(origins.own_corner(corner)).map(|(f, own)| f.at(own));
+            let stays = |face: &&Fan| {
+                let off_plane = face.distance(after.position(corner));
+                // What is but a line is shaded as what it lies beside.
+                face.plane.is_some() && off_plane <= STAYS * before.rounding()
+            };
+            face.filter(stays).is_some_and(|face| face.bends(after.normal(corner)))
+        };
+        if corners().any(|(fan, corner, _)| {
+            shows(&fan) && (fan.bends(after.normal(corner)) || is_bent(corner))
+        }) {
             findings.note(Rule::FlatNormal, Element::Triangle(triangle));
         }
     }
@@ -96,13 +112,33 @@ pub(super) fn is_low(corners: [DVec3; 3], least_height: f64) -> bool {
     area < least_height * sides.into_iter().fold(0.0, f64::max)
 }
 
+/// The fans of a mesh.
+struct Fans {
+    /// `#corners`: the first corner of the fan that each is in.
+    fan_of: Vec<u32>,
+    /// `#corners`, by the first corner of each fan.
+    fans: Vec<Fan>,
+}
+
+impl Fans {
+    /// Those between the edges at which two half-edges do not go on.
+    fn new(surface: &Surface, goes_on: impl Fn(&HalfEdge, &HalfEdge) -> bool) -> Fans {
+        let fan_of = first_corners(surface, goes_on);
+        Fans { fans: measure(surface, &fan_of), fan_of }
+    }
+
+    fn at(&self, corner: u32) -> &Fan {
+        &self.fans[self.fan_of[corner as usize] as usize]
+    }
+}
+
 /// `#corners`: the first corner of the fan that each is in. Faces that only rounding has set apart are
 /// of one fan, as the result may have put them together.
-fn fans(surface: &Surface) -> Vec<u32> {
+fn first_corners(surface: &Surface, goes_on: impl Fn(&HalfEdge, &HalfEdge) -> bool) -> Vec<u32> {
     let mut fans = Groups::singles(surface.mesh.indices.len());
     for (forward, backward) in surface.edges() {
         for (a, b) in forward.iter().flat_map(|a| backward.iter().map(move |b| (a, b))) {
-            if surface.is_soft(a, b) {
+            if goes_on(a, b) {
                 fans.join(a.corners[0], b.corners[1]);
                 fans.join(a.corners[1], b.corners[0]);
             }

@@ -1,6 +1,6 @@
 //! The values of vertices, and whether one is that of a place on the source.
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
 use super::ground::Foot;
 use super::rules::Rule;
@@ -40,8 +40,8 @@ pub(super) struct Stream<'a> {
     /// `#components`: between which values past the sides of a triangle are kept: colours within
     /// those of the source, all others within single precision.
     ranges: Vec<[f64; 2]>,
-    /// `#vertices by 3`, of the result: what a tangent is at a right angle to.
-    normals: &'a [[f32; 3]],
+    /// `#vertices`, of the source and of the result: what a tangent is at a right angle to.
+    normals: [&'a [[f32; 3]]; 2],
 }
 
 #[derive(Clone, Copy, PartialEq)]
@@ -96,7 +96,7 @@ impl<'a> Stream<'a> {
             [before.colors.as_flattened(), after.colors.as_flattened()],
         ];
         let new = |rule, kind, components, values| Stream {
-            normals: after.normals,
+            normals: [before.normals, after.normals],
             ..Stream::new(rule, kind, components, values)
         };
         let mut streams = vec![
@@ -135,7 +135,7 @@ impl<'a> Stream<'a> {
             values,
             tolerance: share * f64::from(largest),
             ranges: (0..components).map(|k| range(rule, values[0], components, k)).collect(),
-            normals: &[],
+            normals: [&[]; 2],
         }
     }
 
@@ -188,7 +188,24 @@ impl<'a> Stream<'a> {
         if was.length() < LEAST_DIRECTION {
             return true;
         }
-        let Some(was) = self.beside_normal(was, vertex).try_normalize() else { return false };
+        if self.kind != Kind::Tangent {
+            return self.is_near(now, was, (corners, weights), slack);
+        }
+        // Either way there may be taken for the one beside a normal that is not the one of the place.
+        [was, self.turned_along(was, vertex, (corners, weights))].into_iter().any(|was| {
+            let beside = was.reject_from(vector(&self.normals[1][vertex]).normalize_or(was));
+            self.is_near(now, beside, (corners, weights), slack)
+        })
+    }
+
+    fn is_near(
+        &self,
+        now: DVec3,
+        was: DVec3,
+        (corners, weights): ([usize; 3], [f64; 3]),
+        slack: Slack,
+    ) -> bool {
+        let Some(was) = was.try_normalize() else { return false };
         let Slack::Exact(share) = slack else { return now.dot(was) > 0.0 };
         let spread = DVec3::from([0, 1, 2].map(|component| self.spread(corners, component)));
         // Past the sides of its triangle, a blend of unlike tangents enlarges what turning them
@@ -200,14 +217,17 @@ impl<'a> Stream<'a> {
         now.distance(was) <= enlarged * SAME_DIRECTION + share * spread.length()
     }
 
-    /// A tangent without what it has along the normal that the vertex has now.
-    fn beside_normal(&self, tangent: DVec3, vertex: usize) -> DVec3 {
-        match self.kind {
-            Kind::Tangent => {
-                tangent.reject_from(vector(&self.normals[vertex]).normalize_or(tangent))
-            }
-            _ => tangent,
-        }
+    /// A tangent turned as the normal of its place is to become that of the vertex.
+    fn turned_along(
+        &self,
+        tangent: DVec3,
+        vertex: usize,
+        (corners, weights): ([usize; 3], [f64; 3]),
+    ) -> DVec3 {
+        let blended: DVec3 =
+            (0..3).map(|k| weights[k] * vector(&self.normals[0][corners[k]])).sum();
+        let ends = blended.try_normalize().zip(vector(&self.normals[1][vertex]).try_normalize());
+        ends.map_or(tangent, |(from, to)| DQuat::from_rotation_arc(from, to) * tangent)
     }
 
     /// Handedness is that of one of the corners.
@@ -241,4 +261,41 @@ fn range(rule: Rule, values: &[f32], components: usize, component: usize) -> [f6
         [least.min(value), most.max(value)]
     });
     if least <= most { [least, most] } else { all }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// As a mesh, with one normal and one tangent all over.
+    fn with_triangle<T>(normal: [f32; 3], tangent: [f32; 4], f: impl Fn(&Mesh) -> T) -> T {
+        f(&Mesh {
+            positions: &[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+            normals: &[normal; 3],
+            tangents: &[tangent; 3],
+            indices: &[0, 1, 2],
+            submesh_index_counts: &[3],
+            ..Mesh::default()
+        })
+    }
+
+    /// Beside a normal that is not the one of the place a tangent is turned along, or laid down; it is no
+    /// other one.
+    #[test]
+    fn a_tangent_beside_another_normal() {
+        let is_at = |tangent: [f32; 4]| {
+            with_triangle([0.0, 0.0, 1.0], [0.6, 0.8, 0.0, 1.0], |before| {
+                with_triangle([0.8, 0.0, 0.6], tangent, |after| {
+                    let streams = Stream::all([before, after], &[]);
+                    let stream = streams.iter().find(|s| s.rule == Rule::TangentTurned).unwrap();
+                    let foot = Foot { triangle: 0, weights: [1.0, 0.0, 0.0] };
+                    stream.is_at(0, &Surface::new(before), foot, Slack::Exact(0.0))
+                })
+            })
+        };
+        assert!(is_at([0.36, 0.8, -0.48, 1.0]), "turned along");
+        assert!(is_at([0.2459, 0.9108, -0.3279, 1.0]), "laid down");
+        assert!(!is_at([0.48, 0.6, -0.64, 1.0]));
+        assert!(!is_at([0.36, 0.8, -0.48, -1.0]), "of the other hand");
+    }
 }

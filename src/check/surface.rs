@@ -56,6 +56,8 @@ pub(super) struct Surface<'a> {
     stands: Option<Standing>,
     /// The cosine of the angle by which normals may differ across an edge that is not hard.
     soft_cosine: f64,
+    /// Of that by which they may where light does not break: that angle or the usual one, if that is less.
+    even_cosine: f64,
     /// Sorted: the clusters of a round surface around which normals may differ by chance.
     round: Vec<u32>,
 }
@@ -76,8 +78,9 @@ impl<'a> Surface<'a> {
         }
         half_edges.sort_unstable();
         let (rounding, round) = (rounding(mesh), Vec::new());
-        let soft_cosine = soft_cosine(HARD_ANGLE);
-        Surface { mesh, cluster_of, half_edges, rounding, stands: None, soft_cosine, round }
+        let [soft_cosine, even_cosine] = [soft_cosine(HARD_ANGLE); 2];
+        let stands = None;
+        Surface { mesh, cluster_of, half_edges, rounding, stands, soft_cosine, even_cosine, round }
             .with_noise()
     }
 
@@ -93,7 +96,8 @@ impl<'a> Surface<'a> {
     /// The same where normals are one that differ by less than so many degrees.
     pub fn hard_from(self, degrees: Option<f32>) -> Surface<'a> {
         let Some(degrees) = degrees else { return self };
-        Surface { soft_cosine: soft_cosine(degrees), ..self }.with_noise()
+        let soft_cosine = soft_cosine(degrees);
+        Surface { soft_cosine, even_cosine: soft_cosine.max(self.even_cosine), ..self }.with_noise()
     }
 
     fn with_noise(self) -> Surface<'a> {
@@ -190,6 +194,18 @@ impl<'a> Surface<'a> {
         })
     }
 
+    /// Whether light breaks at some edges that are not hard.
+    pub fn breaks_softly(&self) -> bool {
+        self.soft_cosine < self.even_cosine
+    }
+
+    /// Whether light goes on from a half-edge to an opposite one.
+    pub fn is_even(&self, a: &HalfEdge, b: &HalfEdge) -> bool {
+        let is_even =
+            |end: usize| self.share(self.even_cosine, [a.corners[end], b.corners[1 - end]]);
+        is_even(0) && is_even(1)
+    }
+
     /// Sorted: the clusters where some normals differ across an edge but by less than they are off
     /// their triangles, and none otherwise.
     fn round_clusters(&self) -> Vec<u32> {
@@ -236,8 +252,12 @@ impl<'a> Surface<'a> {
 
     /// Whether the normals of two corners are one, as nearly as importers store them or the caller has said.
     pub fn share_normal(&self, corners: [u32; 2]) -> bool {
+        self.share(self.soft_cosine, corners)
+    }
+
+    fn share(&self, cosine: f64, corners: [u32; 2]) -> bool {
         let [a, b] = corners.map(|corner| self.shading(corner));
-        a.dot(b) >= self.soft_cosine * a.length() * b.length()
+        a.dot(b) >= cosine * a.length() * b.length()
     }
 
     /// `#triangles`: the first triangle of the part that each is connected to across edges.

@@ -6,11 +6,12 @@ use crate::contacts::Wedge;
 use crate::error::Error;
 use crate::fills;
 use crate::flaps;
-use crate::ids::{Edge, Ring, Triangle};
+use crate::ids::{Edge, Id, Ring, Triangle};
 use crate::math::{area_vector, unit};
 use crate::placement::Placement;
 use crate::strips;
-use crate::validity::{opens_along, stays_line, survives};
+use crate::validity::{keeps_side, opens_along, stays_line, survives};
+use crate::view::{Stored, wide};
 use crate::watch::Watch;
 
 use super::elements::{Element, flap_joints};
@@ -79,11 +80,22 @@ fn surface_is_valid(given: &Given, placement: &Placement, triangle: Triangle) ->
                 [facing_before(given, triangle), facing_after(placement, triangle)].map(unit),
                 resolution,
             )
+            && keeps_side_as_stored(given, placement, triangle)
     } else {
         survives(old, new)
             && breadth::is_kept(given, triangle, [old, new])
             && still_faces_out(given, placement, triangle, [old, new])
     }
+}
+
+/// Whether a line that is measured elsewhere than it is stored keeps its side where it is stored, too: on
+/// the way back rounding could turn it over.
+fn keeps_side_as_stored(given: &Given, placement: &Placement, line: Triangle) -> bool {
+    let view = given.surface.view;
+    let Some(Stored { positions, normal_to, .. }) = view.stored else { return true };
+    let old = line.corners().map(|corner| wide(positions[view.vertex_at(corner).index()]));
+    let new = line.corners().map(|corner| wide(placement.stored_at(corner)));
+    keeps_side([old, new], |area| normal_to * area)
 }
 
 /// Whether a triangle that faced the way its vertex normals point still does.
@@ -146,6 +158,8 @@ fn fill_is_valid(given: &Given, placement: &Placement, ring: Ring) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use glam::DMat3;
+
     use super::*;
     use crate::given::tests::given_of;
     use crate::shapes;
@@ -167,6 +181,28 @@ mod tests {
             still_faces_out(&given_of(&stages), &placement, Triangle(0), [old, turned]),
             "it never did"
         );
+    }
+
+    /// What is pulled by a tenth where it is measured goes past the other side where it is stored, along one
+    /// axis.
+    #[test]
+    fn a_line_may_not_turn_over_where_it_is_stored() {
+        let cube = shapes::plain_cube(1.0);
+        let keeps_side = |along_x: f64| {
+            let mut stages = stages_of(&cube, 0.1);
+            stages.view.stored = Some(Stored {
+                positions: &cube.positions,
+                normals: &cube.normals,
+                back: DMat3::from_diagonal(DVec3::new(along_x, 1.0, 1.0)),
+                normal_to: DMat3::IDENTITY,
+            });
+            let placement = stages.placed(1.0);
+            let given = given_of(&stages);
+            let mut triangles = (0..12).map(Triangle);
+            triangles.all(|triangle| keeps_side_as_stored(&given, &placement, triangle))
+        };
+        assert!(keeps_side(1.0));
+        assert!(!keeps_side(8.0));
     }
 
     // .-------.      a cube's edges pulled past their old lines, and one corner of it pulled by unlike

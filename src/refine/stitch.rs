@@ -277,7 +277,8 @@ impl Stitched {
             let points = clusters.map(|c| view.position(shape.weld.first_vertex[place(c)]));
             let (old, normal) = (view.triangle(triangle), shape.faces.normal[triangle]);
             let is_worse = || {
-                bends(view, points, normal) && !bends(view, old, normal) || !keeps_side(old, points)
+                bends(view, points, normal) && !bends(view, old, normal)
+                    || !keeps_side([old, points], |area| area)
             };
             if moved().next().is_some() && is_worse() {
                 bad.places.extend(moved());
