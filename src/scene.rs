@@ -153,11 +153,16 @@ fn contacts_across(meshes: &[Mesh], objects: &[Object], bounds: &[[DVec3; 2]]) -
         return held;
     }
     let borders: Vec<Vec<[DVec3; 2]>> = meshes.iter().map(border_lines).collect();
-    let boxes: Vec<Aabb> = bounds.iter().map(aabb).collect();
+    // Closed objects have nothing that rests on others.
+    let has_borders = |object: &Object| !borders[object.mesh].is_empty();
+    let boxes = objects.iter().zip(bounds);
+    let boxes: Vec<Aabb> = boxes
+        .map(|(object, bounds)| if has_borders(object) { aabb(bounds) } else { Aabb::EMPTY })
+        .collect();
     let tree = Tree::new(&boxes, &[]);
     for (number, object) in objects.iter().enumerate() {
         let Some(to_mesh) = object.to_mesh else { continue };
-        let mut near: Vec<u32> = tree.overlapping(boxes[number]).collect();
+        let mut near: Vec<u32> = tree.overlapping(aabb(&bounds[number])).collect();
         near.sort_unstable();
         for other_number in near.into_iter().map(|other| other as usize) {
             let other = &objects[other_number];
