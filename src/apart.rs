@@ -12,7 +12,7 @@ use crate::placement::Placement;
 use crate::ranks::{Ranks, stepped, steps};
 use crate::sectors::Sectors;
 use crate::surface::Surface;
-use crate::watch::{Watch, collect, sort, stretches};
+use crate::watch::{Watch, collect, each, sort, stretches};
 use crate::weld::{Weld, weld};
 
 /// Of more skins that lie on each other the next ones begin anew: a place is never off by more steps
@@ -44,6 +44,9 @@ pub fn apart(
         let ring = sectors.fans[sector].ring;
         if is_open[ring] { sectors.rings.len() as u32 + cluster(sector) } else { ring.0 }
     };
+    if !may_touch(sectors, placement, &skin, near, watch)? {
+        return Ok(None);
+    }
     if segments == 1 && !has_met(placement, &skin, near, watch)? {
         return Ok(None);
     }
@@ -72,6 +75,44 @@ fn is_near([one, other]: [[f32; 3]; 2], near: f32) -> bool {
 
 fn base(placement: &Placement, sector: Sector) -> [f32; 3] {
     placement.base(sector).as_vec3().to_array()
+}
+
+/// A cell of the grid by which it is told what may nearly touch is so many times as large as what
+/// counts as near: most vertices reach into no other one then, and few share theirs.
+const CELL: f32 = 61.0;
+
+/// The cells into which what is near a place reaches.
+fn cells(place: [f32; 3], near: f32) -> impl Iterator<Item = [f32; 3]> {
+    let share = 1.0 / (CELL * near);
+    let cell = |at: f32| (at * share) as i32 as f32;
+    // Twice as far, for rounding.
+    let ends = place.map(|at| [cell(at - 2.0 * near), cell(at + 2.0 * near)]);
+    let is_one = ends.iter().all(|[low, high]| low == high);
+    let is_other =
+        move |k: usize| (0..3).all(|axis| k >> axis & 1 == 0 || ends[axis][0] != ends[axis][1]);
+    let corners = (0..if is_one { 1 } else { 8 }).filter(move |&k| is_one || is_other(k));
+    corners.map(move |k| [0, 1, 2].map(|axis| ends[axis][k >> axis & 1]))
+}
+
+/// Whether some of different skins are in one cell before they move. In most meshes none are, and so
+/// none are near each other.
+fn may_touch(
+    sectors: &Sectors,
+    placement: &Placement,
+    skin: &dyn Fn(Sector) -> u32,
+    near: f32,
+    watch: &dyn Watch,
+) -> Result<bool, Error> {
+    let (mut places, mut skins) = (Vec::with_capacity(sectors.rings.len()), Vec::new());
+    each(sectors.rings.len(), watch, |ring: Ring| {
+        let first = sectors.ring(ring)[0];
+        places.extend(cells(base(placement, first), near));
+        skins.resize(places.len(), skin(first));
+    })?;
+    let Weld { cluster_of, first_vertex } =
+        weld(&Mesh { positions: &places, ..Mesh::default() }, watch)?;
+    let is_shared = |k: usize| skins[first_vertex[cluster_of[Vertex::new(k)]].index()] != skins[k];
+    Ok((0..skins.len()).any(is_shared))
 }
 
 /// Whether some of different skins that have moved have met, of those that were near each other before.
@@ -130,4 +171,25 @@ fn ranks(
         places.binary_search(&place(sector)).map_or(0, |place| rank_at[place])
     })?;
     Ok(Ranks::new(IdVec::from_vec(rank)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Wherever the borders of cells are between two places.
+    #[test]
+    fn what_is_near_shares_a_cell() {
+        let near = 1.0 / 4096.0;
+        for step in 0..4000 {
+            let at = [step as f32 / 8192.0 - 0.25, 0.3, step as f32 / -1024.0];
+            let others = [at.map(|k| k + near), [at[0] + near, at[1], at[2] - near]];
+            for other in others {
+                let mut shared =
+                    cells(at, near).filter(|cell| cells(other, near).any(|c| c == *cell));
+                assert!(shared.next().is_some(), "{at:?} {other:?}");
+            }
+        }
+        assert!(cells([0.3; 3], near).all(|cell| cells([0.4; 3], near).all(|c| c != cell)));
+    }
 }

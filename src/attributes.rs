@@ -123,7 +123,7 @@ impl Moving {
     /// past the source vertices its number among those parted stands for it.
     fn take(&mut self, notes: &mut Notes) {
         let sources = self.taken.len() as u32;
-        for place in 0..notes.moved.len() {
+        for (place, row) in (0..notes.moved.len()).zip(&notes.rows) {
             let (before, own) = notes.moved.split_at_mut(place);
             let own = &mut own[0];
             own.output = match before.get(own.twin as usize) {
@@ -134,7 +134,7 @@ impl Moving {
                 }
                 None => {
                     self.taken[own.vertex] = true;
-                    self.attributes.streams.set(own.vertex, &own.row, own.blends);
+                    self.attributes.streams.set(own.vertex, row, own.blends);
                     own.vertex.0
                 }
             };
@@ -151,18 +151,19 @@ impl Moving {
 #[derive(Default)]
 struct Notes {
     moved: Vec<Moved>,
+    /// The values of each of them where it moves; past them, what is left of earlier notes.
+    rows: Vec<Row>,
     /// The corners of the sectors, each with the place of its vertex among those.
     corners: Vec<(Corner, u32)>,
 }
 
-/// A source vertex of a sector, with its values where it moves.
+/// A source vertex of a sector.
 struct Moved {
     sector: Sector,
     /// The first of the sector that has the vertex.
     corner: Corner,
     vertex: Vertex,
     blends: [Blend; 2],
-    row: Row,
     /// The place of one that it has become equal to, or none.
     twin: u32,
     /// What stands for it in the result, once that is known.
@@ -187,26 +188,26 @@ impl Notes {
                 continue;
             }
             let blends = blends(surface.view, placement, sector, corner);
-            let (row, twin, output) = (Row::EMPTY, NONE, NONE);
-            self.moved.push(Moved { sector, corner, vertex, blends, row, twin, output });
-            let (others, own) = self.moved.split_at_mut(place);
-            let (others, own) = (&others[first..], &mut own[0]);
-            fill(space, placement, streams, (sector, blends), &mut own.row);
-            let twin = twin_of(space.source, streams, others, own);
-            own.twin = twin.map_or(NONE, |twin| (first + twin) as u32);
+            if self.rows.len() == place {
+                self.rows.push(Row::EMPTY);
+            }
+            fill(space, placement, streams, (sector, blends), &mut self.rows[place]);
+            let twin = self.twin_of(space.source, streams, (first, vertex));
+            self.moved.push(Moved { sector, corner, vertex, blends, twin, output: NONE });
         }
     }
-}
 
-/// The place of the vertex of a sector that another one of it has become equal to, though they differed
-/// before: their normals were less than a degree apart.
-fn twin_of(view: &View, streams: &Streams, others: &[Moved], own: &Moved) -> Option<usize> {
-    let is_twin = |other: &Moved| {
-        streams.are_equal(&other.row, &own.row)
-            && !(view.normal(other.vertex) == view.normal(own.vertex)
-                && same_chart(view, other.vertex, own.vertex))
-    };
-    others.iter().position(is_twin)
+    /// The place of a vertex of the sector, noted from the first place on, that the next one has become
+    /// equal to, though they differed before: their normals were less than a degree apart. Or else none.
+    fn twin_of(&self, view: &View, streams: &Streams, (first, own): (usize, Vertex)) -> u32 {
+        let row = &self.rows[self.moved.len()];
+        let is_twin = |place: &usize| {
+            let other = self.moved[*place].vertex;
+            streams.are_equal(&self.rows[*place], row)
+                && !(view.normal(other) == view.normal(own) && same_chart(view, other, own))
+        };
+        (first..self.moved.len()).find(is_twin).map_or(NONE, |twin| twin as u32)
+    }
 }
 
 /// Appends the vertices that were parted, and puts them in the place of their numbers.
@@ -252,15 +253,17 @@ fn fill(
 fn blends(view: &View, placement: &Placement, sector: Sector, corner: Corner) -> [Blend; 2] {
     let share = placement.share[sector];
     let offset = placement.offset(sector);
-    let (on_surface, in_chart) = if offset.is_plain {
-        (offset.foot, offset.foot)
+    let (surface, mut chart, start);
+    if offset.is_plain {
+        surface = offset.foot.blend(view, share);
+        (chart, start) = (surface, offset.foot.start);
     } else {
-        (placement.surface_foot(sector, corner), placement.chart_foot(sector, corner))
-    };
-    let surface = on_surface.blend(view, share);
-    let mut chart = if in_chart == on_surface { surface } else { in_chart.blend(view, share) };
+        let in_chart = placement.chart_foot(sector, corner);
+        surface = placement.surface_foot(sector, corner).blend(view, share);
+        (chart, start) = (in_chart.blend(view, share), in_chart.start);
+    }
     // Where the way begins at the vertex itself, that is the one to begin with.
-    if in_chart.start == [0.0, 0.0] {
+    if start == [0.0, 0.0] {
         chart.vertices[0] = view.vertex_at(corner).0;
     }
     [surface, chart]

@@ -78,7 +78,8 @@ impl Chart<'_> {
 
     /// The joints, of so many, that take something from another chart, in turn.
     pub fn taking(&self, joints: usize) -> impl Iterator<Item = (usize, &Taken)> {
-        let first = self.taken.partition_point(|(at, _)| (*at as usize) < self.begin);
+        let first = self.taken.iter().position(|(at, _)| *at as usize >= self.begin);
+        let first = first.unwrap_or(self.taken.len());
         let in_turn = self.taken[first..].iter().chain(&self.taken[..first]);
         in_turn.map(|(at, taken)| (*at as usize, taken)).filter(move |(at, _)| *at < joints)
     }
@@ -100,7 +101,7 @@ pub fn charts(
     let channels: Few<usize> = channels_of(surface.view).collect();
     let given = Given { surface, chamfers, placement, attributes, channels: &channels };
     let owners = owners(&given, patches, (threads, watch))?;
-    let lay = |_: &Charts, patch: Patch, charts: &mut Charts| {
+    let lay = |patch: Patch, charts: &mut Charts| {
         let parts = patches.parts(patch);
         let (mut face, mut begin) = (Triangle::NONE, 0);
         if !parts.triangles.is_empty() {
@@ -120,7 +121,7 @@ pub fn charts(
         // At a seam both far vertices of a strip, and of fills about as many.
         taken: Vec::with_capacity(4 * seamed),
     };
-    threads.blocks_then((patches.len(), watch), &mut charts, lay, Charts::append)?;
+    threads.gather((patches.len(), watch), &mut charts, lay, Charts::append)?;
     Ok(charts)
 }
 

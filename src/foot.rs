@@ -52,17 +52,17 @@ pub fn locate(view: &View, corner: Corner, from: DVec3, vector: DVec3) -> Option
     let to_next = view.position_at(corner.next()) - at;
     let to_prev = view.position_at(corner.prev()) - at;
     let normal = to_next.cross(to_prev);
-    let in_edges = |way: DVec3| {
-        [way.cross(to_prev), to_next.cross(way)].map(|part| {
-            let weight = part.dot(normal) / normal.length_squared();
-            if weight.abs() < LEAST_WEIGHT { 0.0 } else { weight }
-        })
+    let square = normal.length_squared();
+    let weight = |part: DVec3| {
+        let weight = part.dot(normal) / square;
+        if weight.abs() < LEAST_WEIGHT { 0.0 } else { weight }
     };
+    let in_edges = |way: DVec3| [weight(way.cross(to_prev)), weight(to_next.cross(way))];
     // Nearly all ways begin at the corner.
     let start = if from == at { [0.0; 2] } else { in_edges(from - at) };
-    let foot = Foot { corner, start, along: in_edges(vector) };
-    let is_sound = foot.start.iter().chain(&foot.along).all(|weight| weight.is_finite());
-    is_sound.then_some(foot)
+    let along = in_edges(vector);
+    let is_finite = |way: [f64; 2]| way[0].is_finite() && way[1].is_finite();
+    (is_finite(start) && is_finite(along)).then_some(Foot { corner, start, along })
 }
 
 #[cfg(test)]

@@ -66,11 +66,13 @@ pub fn limits<'a>(
 ) -> Result<Limits<'a>, Error> {
     let mut limits = bounded(given, room, watch)?;
     let bad = bad_elements(given, &limits.placement, watch)?;
-    shrink(given, &mut limits, bad, watch)?;
+    let mut shrunk = shrink(given, &mut limits, bad, watch)?;
+    sort(&mut shrunk, watch)?;
+    shrunk.dedup();
     for _ in 0..GROW_PASSES {
-        grow(given, room, &mut limits, room.ids(), watch)?;
+        grow(given, room, &mut limits, &shrunk, watch)?;
     }
-    give_way(given, room, &mut limits, watch)?;
+    give_way(given, room, &mut limits, &shrunk, watch)?;
     if verify != Verify::Fast {
         collisions::resolve(given, &mut limits, watch)?;
     }
@@ -235,7 +237,7 @@ fn grow(
     given: &Given,
     room: &IdVec<Sector, f64>,
     limits: &mut Limits,
-    sectors: impl Iterator<Item = Sector>,
+    sectors: &[Sector],
     watch: &dyn Watch,
 ) -> Result<(), Error> {
     for sector in in_turn(given, room, &limits.placement, sectors, watch)? {
@@ -265,11 +267,13 @@ fn give_way(
     given: &Given,
     room: &IdVec<Sector, f64>,
     limits: &mut Limits,
+    shrunk: &[Sector],
     watch: &dyn Watch,
 ) -> Result<(), Error> {
-    watch.worked(room.len())?;
+    watch.worked(shrunk.len())?;
     let folds = |sector: &Sector| limits.reason[*sector] == Reason::Folds;
-    let (folding, mut away): (Vec<Sector>, _) = (room.ids().filter(folds).collect(), Vec::new());
+    let folding: Vec<Sector> = shrunk.iter().copied().filter(folds).collect();
+    let mut away = Vec::new();
     each_of(&folding, watch, |&sector| {
         away.extend(turned_away(given, room, &limits.placement, sector));
     })?;
@@ -286,7 +290,7 @@ fn give_way(
     near.extend(beside.flat_map(|element| sectors_of(given, element)));
     sort(&mut near, watch)?;
     near.dedup();
-    grow(given, room, limits, near.into_iter(), watch)?;
+    grow(given, room, limits, &near, watch)?;
     turned.into_iter().for_each(|sector| limits.reason[sector] = Reason::Folds);
     Ok(())
 }
@@ -318,7 +322,7 @@ fn in_turn(
     given: &Given,
     room: &IdVec<Sector, f64>,
     placement: &Placement,
-    sectors: impl Iterator<Item = Sector>,
+    sectors: &[Sector],
     watch: &dyn Watch,
 ) -> Result<Vec<Sector>, Error> {
     let is_asked = |sector: &Sector| {
@@ -326,10 +330,8 @@ fn in_turn(
         placement.share[*sector] != room[*sector]
             && given.chamfers.sectors.ring(ring).len() <= LONGEST_GROWN
     };
-    let told = |sector: Sector| watch.worked(1).map(|()| is_asked(&sector).then_some(sector));
-    let sectors: Result<Vec<Sector>, Error> =
-        sectors.map(told).filter_map(Result::transpose).collect();
-    let sectors = sectors?;
+    watch.worked(sectors.len())?;
+    let sectors: Vec<Sector> = sectors.iter().copied().filter(is_asked).collect();
     if sectors.len() > 1 {
         let center = given.surface.view.center();
         let key = |sector: Sector| {
@@ -451,7 +453,7 @@ mod tests {
         let mut limits = bounded(&given, room, &Unwatched).unwrap();
         limits.placement.set(sector, taken * room[sector]);
         limits.reason[sector] = Reason::Folds;
-        give_way(&given, room, &mut limits, &Unwatched).unwrap();
+        give_way(&given, room, &mut limits, &[sector], &Unwatched).unwrap();
         assert_eq!(limits.reason[sector], Reason::Folds);
         let way = limits.placement.point[sector] - limits.placement.base(sector);
         let narrow = way.y.abs();
@@ -502,7 +504,8 @@ mod tests {
             let stages = stages_of(mesh, 0.1);
             let (given, placement) = (given_of(&stages), stages.placed(0.5));
             let room = IdVec::filled(1.0, stages.offsets.len());
-            let turns = in_turn(&given, &room, &placement, room.ids(), &Unwatched).unwrap();
+            let all: Vec<Sector> = room.ids().collect();
+            let turns = in_turn(&given, &room, &placement, &all, &Unwatched).unwrap();
             let goal = |s: Sector| placement.base(s) + stages.offsets[s].vector;
             let round = |at: glam::DVec3| at.to_array().map(|x| (x * 1000.0).round() as i32);
             turns.into_iter().map(|sector| round(goal(sector))).collect()

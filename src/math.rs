@@ -22,14 +22,24 @@ impl Turn {
     pub fn between(a: DVec3, b: DVec3) -> Turn {
         let cos = a.dot(b);
         let sin = a.cross(b).length();
-        let length = (cos * cos + sin * sin).sqrt();
-        if length > 0.0 { Turn::ZERO.rotated(cos / length, sin / length) } else { Turn::ZERO }
+        Turn::below_half(cos, sin, (cos * cos + sin * sin).sqrt())
     }
 
     /// The angle (0 to pi) by which a direction in the upper half of a plane turns from ahead.
     pub fn toward(ahead: f64, aside: f64) -> Turn {
-        let length = ahead.hypot(aside);
-        if length > 0.0 { Turn::ZERO.rotated(ahead / length, aside / length) } else { Turn::ZERO }
+        Turn::below_half(ahead, aside, ahead.hypot(aside))
+    }
+
+    /// The angle (0 to pi) of a direction of some length in the upper half of a plane.
+    fn below_half(ahead: f64, aside: f64, length: f64) -> Turn {
+        let (cos, sin) = (ahead / length, aside / length);
+        match () {
+            () if length > 0.0 && sin == 0.0 && cos < 0.0 => {
+                Turn { half_turns: 1, cos: -cos, sin: -sin }
+            }
+            () if length > 0.0 => Turn { half_turns: 0, cos, sin },
+            () => Turn::ZERO,
+        }
     }
 
     /// The sum of two angles.

@@ -33,7 +33,7 @@ use crate::view::View;
 use crate::watch::{Times, Watch};
 
 use fronts::follow;
-pub use fronts::{narrow, narrowed, parts};
+pub use fronts::{narrow, narrow_all, parts};
 use large::{MANY_CORNERS, offset_of_large};
 use place::place;
 
@@ -202,6 +202,8 @@ struct Blade {
     start: Turn,
     /// The angle of the corner.
     angle: Turn,
+    /// The angle from the fan's first edge to the corner's last edge.
+    end: Turn,
 }
 
 /// The corners of a sector, unfolded one after the other.
@@ -214,8 +216,9 @@ fn blades<'a>(
     let mut start = Turn::ZERO;
     sectors.corners(topology, sector).map(move |corner| {
         let [to_next, to_prev] = arms(view, corner);
-        let blade = Blade { corner, start, angle: Turn::between(to_next, to_prev) };
-        start = start.plus(blade.angle);
+        let angle = Turn::between(to_next, to_prev);
+        let blade = Blade { corner, start, angle, end: start.plus(angle) };
+        start = blade.end;
         blade
     })
 }
@@ -268,7 +271,7 @@ fn widths(edges: &Edges, fan: &Fan) -> [f64; 2] {
 fn course(surface: Surface, edges: &Edges, fan: &Fan, spread: &[Blade]) -> Option<Course> {
     let (Surface { view, topology, faces }, widths) = (surface, widths(edges, fan));
     let (first, last) = (spread.first()?, spread.last()?);
-    let total = last.start.plus(last.angle);
+    let total = last.end;
     match (fan.starts_at_border, fan.ends_at_border()) {
         // Light would show where one of the solids left the contact.
         _ if holds_contact(topology, spread) => None,
@@ -317,7 +320,7 @@ fn slide_parted(
     };
     if edges.chamfered_at[fan.last.prev()].is_some() {
         let whole = spread.last()?;
-        return slide(fan.first, Turn::ZERO, &[(whole.start.plus(whole.angle), last)]);
+        return slide(fan.first, Turn::ZERO, &[(whole.end, last)]);
     }
     let (corner, distance) = (fan.first, parted.width);
     Some(Course { corner, angle: Turn::ZERO, distance, is_capped: false })
@@ -339,7 +342,7 @@ fn meet(total: Turn, spread: &[Blade], [first, last]: [f64; 2]) -> Option<Course
     let ahead = (last + first * total.cos()) / total.sin();
     let (distance, angle) = (ahead.hypot(first), Turn::toward(ahead, first));
     let is_near = distance <= MITER_LIMIT * first.max(last) && angle < total;
-    let blade = spread.iter().find(|blade| angle <= blade.start.plus(blade.angle));
+    let blade = spread.iter().find(|blade| angle <= blade.end);
     match blade.filter(|_| is_near) {
         Some(blade) => {
             let angle = angle.minus(blade.start);
@@ -355,7 +358,7 @@ fn meet(total: Turn, spread: &[Blade], [first, last]: [f64; 2]) -> Option<Course
 /// Along the direction at half the fan's angle.
 fn bisect(total: Turn, spread: &[Blade], width: f64) -> Option<Course> {
     let half = total.half();
-    let blade = spread.iter().find(|blade| half <= blade.start.plus(blade.angle))?;
+    let blade = spread.iter().find(|blade| half <= blade.end)?;
     let sine = half.sin();
     let distance = (width / sine).min(width * MITER_LIMIT);
     (sine > 0.0).then(|| Course {
@@ -434,8 +437,13 @@ impl Crease<'_> {
 
 /// The hard edge that is not chamfered, if there is one, or else the sharpest bend.
 fn crease<'a>(view: &View, faces: &Faces, spread: &'a [Blade]) -> Crease<'a> {
-    // A single triangle does not bend.
-    if spread.len() == 1 {
+    // A single triangle does not bend, and most faces of more are flat.
+    let normal = |blade: &Blade| faces.normal[blade.corner.triangle()];
+    let is_flat = |pair: &[Blade]| {
+        normal(&pair[0]) == normal(&pair[1])
+            && !is_hard(view, pair[1].corner, pair[0].corner.prev())
+    };
+    if spread.windows(2).all(is_flat) {
         return Crease::None;
     }
     let mut sharpest = (CREASE_COSINE, Crease::None);

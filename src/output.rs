@@ -92,9 +92,10 @@ impl Made<'_> {
     fn add(&mut self, (patch, parts): (Patch, Parts), chart: Chart, source: TriangleSource) {
         let rounded = self.rounding.and_then(|rounding| rounding.of(patch));
         self.find_vertices(rounded, parts, chart);
+        let submesh = self.submeshes.of_new(chart.face);
         for triangle in rounded.map_or(parts.triangles, |rounded| rounded.triangles) {
             let vertices = triangle.map(|place| self.vertices[place as usize]);
-            self.submeshes.add(chart.face, vertices, source);
+            self.submeshes.add(submesh, vertices, source);
         }
     }
 
@@ -108,8 +109,8 @@ impl Made<'_> {
         let normal = blended_normal(space.source, place);
         let across = streams.add_between(space.source, cluster, (at, normal), (*place, None));
         let (kind, index) = (TriangleKind::Corner, space.source.vertex_at(joints[0]).0);
-        let face = joints[2].triangle();
-        self.submeshes.add_beside(face, [across, own, end], TriangleSource { kind, index });
+        let submesh = self.submeshes.of_source_triangle(joints[2].triangle());
+        self.submeshes.add(submesh, [across, own, end], TriangleSource { kind, index });
     }
 
     /// Each joint has the vertex of its corner, or a copy of it that takes something from another
@@ -246,25 +247,18 @@ impl Submeshes {
         Submeshes { starts, target, parts }
     }
 
-    /// Adds a new triangle whose owner's face is the given one.
-    pub fn add(&mut self, owner: Triangle, vertices: [u32; 3], source: TriangleSource) {
-        let submesh = self.of_new(owner);
-        self.parts[submesh].indices.extend_from_slice(&vertices);
-        self.parts[submesh].sources.push(source);
-    }
-
-    /// Adds a new triangle to the submesh of a face.
-    pub fn add_beside(&mut self, face: Triangle, vertices: [u32; 3], source: TriangleSource) {
-        let submesh = self.of_source_triangle(face);
-        self.parts[submesh].indices.extend_from_slice(&vertices);
-        self.parts[submesh].sources.push(source);
+    /// Adds a new triangle to a submesh.
+    pub fn add(&mut self, submesh: usize, vertices: [u32; 3], source: TriangleSource) {
+        let part = &mut self.parts[submesh];
+        part.indices.extend_from_slice(&vertices);
+        part.sources.push(source);
     }
 
     fn of_source_triangle(&self, triangle: Triangle) -> usize {
         self.starts.partition_point(|&start| start <= triangle.0) - 1
     }
 
-    /// Where a new triangle goes whose owner's face is the given one.
+    /// Where new triangles go whose owner's face is the given one.
     fn of_new(&self, owner: Triangle) -> usize {
         match self.target {
             ChamferSubmesh::Given(submesh) => submesh as usize,
@@ -326,11 +320,8 @@ mod tests {
         let bolt = shapes::bolt();
         let [head, shank] = [0, 1].map(|submesh| bolt.submesh_index_counts[submesh]);
         let mut submeshes = submeshes(&bolt, ChamferSubmesh::Own);
-        submeshes.add(
-            Triangle(0),
-            [7, 8, 9],
-            TriangleSource { kind: TriangleKind::Edge, index: 5 },
-        );
+        let own = submeshes.of_new(Triangle(0));
+        submeshes.add(own, [7, 8, 9], TriangleSource { kind: TriangleKind::Edge, index: 5 });
         let triangles = submeshes.joined();
         assert_eq!(triangles.index_counts, [head, shank, 3]);
         assert_eq!(triangles.indices[(head + shank) as usize..], [7, 8, 9]);

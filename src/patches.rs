@@ -13,7 +13,7 @@ use crate::math::unit;
 use crate::placement::Placement;
 use crate::report::Blend;
 use crate::sectors::Sectors;
-use crate::strips::{self, cut, quad};
+use crate::strips::{self, cut};
 use crate::threads::Threads;
 use crate::tolerance::EQUALLY_NEAR;
 use crate::view::View;
@@ -61,23 +61,24 @@ pub fn patches(
 ) -> Result<Patches, Error> {
     let Chamfers { edges, sectors } = chamfers;
     let mut patches = Patches::with_room(edges.hard.len(), sectors);
-    let add_strip = |_: &Patches, edge: Edge, strips: &mut Patches| {
+    let add_strip = |edge: Edge, strips: &mut Patches| {
         let edge = &edges.hard[edge];
         if edge.skipped.is_none() {
-            let triangles = cut(&quad(placement, edge)).triangles();
+            let corners = strips::corners(edge);
+            let triangles = cut(corners.map(|corner| placement.position_at(corner))).triangles();
             if !triangles.is_empty() {
-                strips.joints.extend(strips::corners(edge));
+                strips.joints.extend(corners);
                 strips.triangles.extend(triangles.iter().map(as_places));
             }
         }
         strips.end();
     };
-    threads.blocks_then((edges.hard.len(), watch), &mut patches, add_strip, Patches::append)?;
-    let add_fill = |_: &Patches, ring: Ring, fills: &mut Patches| {
+    threads.gather((edges.hard.len(), watch), &mut patches, add_strip, Patches::append)?;
+    let add_fill = |ring: Ring, fills: &mut Patches| {
         fills.add_fill(view, placement, sectors.ring(ring), |s| sectors.fans[s].first);
         fills.end();
     };
-    threads.blocks_then((sectors.rings.len(), watch), &mut patches, add_fill, Patches::append)?;
+    threads.gather((sectors.rings.len(), watch), &mut patches, add_fill, Patches::append)?;
     Ok(patches)
 }
 

@@ -21,7 +21,7 @@ use crate::inside_out::{is_inside_out, turned_back, turned_normals};
 use crate::limits::{Element, lessen_cuts, limits};
 use crate::memory;
 use crate::mesh::Mesh;
-use crate::offsets::{Known, Offset, narrowed, offsets as find_offsets};
+use crate::offsets::{Known, Offset, narrow_all, offsets as find_offsets};
 use crate::options::{Options, Verify};
 use crate::output::{output, unchanged};
 use crate::patches::{Patches, patches};
@@ -454,7 +454,7 @@ fn chamfer_shape(
     options: &Options,
     (threads, done): (&Threads, &mut Done),
 ) -> Result<Chamfered, Error> {
-    let made = make(space, (&shape, &offsets), options, (threads, done))?;
+    let made = make(space, (&shape, offsets), options, (threads, done))?;
     done(None)?;
     let Made { patches, rounding, charts, flaps, attributes, verdicts: (verdicts, totals) } = made;
     let largest_width = (shape.edges.widest(space.measured.width) / space.largest()) as f32;
@@ -462,8 +462,6 @@ fn chamfer_shape(
     let Shape { weld, topology, faces, contacts, edges, sectors } = shape;
     let (target, ask) = (options.chamfer_submesh, &mut || done(None));
     let watch = &Caller::new(ask);
-    drop(offsets);
-    watch.worked(space.source.corner_count())?;
     drop(topology);
     watch.worked(space.source.corner_count())?;
     drop((faces, contacts, edges, sectors));
@@ -488,7 +486,7 @@ struct Made {
 /// The stages from the limits to the charts.
 fn make(
     space: Space,
-    (shape, offsets): (&Shape, &IdVec<Sector, Offset>),
+    (shape, mut offsets): (&Shape, IdVec<Sector, Offset>),
     options: &Options,
     (threads, done): (&Threads, &mut Done),
 ) -> Result<Made, Error> {
@@ -498,18 +496,20 @@ fn make(
     let mut ask = || done(None);
     let watch = Caller::new(&mut ask);
     let deep = &deep(topology, chamfers.sectors, &watch)?;
-    let none = &Rests::default();
-    let asked = &Given { surface, chamfers, offsets, apart: None, rests: none, deep, threads };
+    let (none, nowhere) = (&Rests::default(), &IdVec::default());
+    let base =
+        Given { surface, chamfers, offsets: nowhere, apart: None, rests: none, deep, threads };
+    let asked = &Given { offsets: &offsets, ..base };
     let room = evenness(asked, room(asked, &watch)?, options.evenness.into(), &watch)?;
-    let narrowed = narrowed(surface, chamfers.sectors, offsets, &room.fronts, &watch)?;
-    let offsets = &*narrowed;
-    let shares = room.shares(&Given { offsets, ..*asked }, &watch)?;
+    narrow_all(surface, chamfers.sectors, &mut offsets, &room.fronts, &watch)?;
+    let asked = &Given { offsets: &offsets, ..base };
+    let shares = room.shares(asked, &watch)?;
     // The stages to come take far more memory than these, so what they do not read is given back.
     drop(room);
     watch.worked(view.corner_count())?;
-    let most = Most { offsets, shares: &shares };
+    let most = Most { offsets: &offsets, shares: &shares };
     let rests = &rests(surface, chamfers, contacts, most, (threads, &watch))?;
-    let given = &Given { offsets, rests, ..*asked };
+    let given = &Given { rests, ..*asked };
     let mut limits = self::limits(given, &shares, options.verify, &watch)?;
     let apart = apart(surface, chamfers.sectors, &limits.placement, options.segments, &watch)?;
     if apart.is_some() {
@@ -540,6 +540,9 @@ fn make(
     let rounding = rounding(round, &patches, options.segments, (threads, &watch), search)?;
     let work = (threads, &watch as &dyn Watch);
     let verdicts = verdicts(view, chamfers, &limits, (&patches, rounding.as_ref()), work)?;
+    // Nor do the stages to come read these.
+    limits.placement.normals = IdVec::default();
+    let placement = &limits.placement;
     done(Some(Stage::Patches))?;
     let ask = &mut || done(None);
     let work = (threads, &Caller::new(ask) as &dyn Watch);
@@ -553,7 +556,7 @@ fn make(
     // Giving back so much memory takes a while, too.
     drop(limits);
     done(None)?;
-    drop(narrowed);
+    drop(offsets);
     done(None)?;
     Ok(Made { patches, rounding, charts, flaps, attributes, verdicts })
 }

@@ -91,6 +91,9 @@ impl<'a> Placement<'a> {
     #[inline]
     pub fn stored(&self, sector: Sector) -> DVec3 {
         let view = self.surface.view;
+        if view.stored.is_none() && self.apart.is_none() {
+            return self.point[sector];
+        }
         let vertex = view.vertex_at(self.sectors.fans[sector].first);
         let stored = view.stored_from(vertex, self.point[sector]);
         let Some(apart) = self.apart else { return stored };

@@ -262,14 +262,14 @@ fn made(
     (threads, watch): (&Threads, &dyn Watch),
 ) -> Result<Rounding, Error> {
     let mut rounding = Rounding::default();
-    let add = |_: &Rounding, patch: Patch, block: &mut Rounding| {
+    let add = |patch: Patch, block: &mut Rounding| {
         let mut lay = Lay::default();
         if lay_patch(given, patches, &rows, patch, &mut lay) {
             block.add(given, patches, patch, &lay);
         }
         block.end();
     };
-    threads.blocks_then((patches.len(), watch), &mut rounding, add, Rounding::append)?;
+    threads.gather((patches.len(), watch), &mut rounding, add, Rounding::append)?;
     Ok(Rounding { rows, ..rounding })
 }
 

@@ -11,7 +11,7 @@ use crate::given::{Given, deep};
 use crate::ids::{Cluster, IdVec, Sector};
 use crate::limits::{Limits, limits};
 use crate::mesh::{Mesh, MeshBuffers};
-use crate::offsets::{Offset, narrowed, offsets};
+use crate::offsets::{Offset, narrow_all, offsets};
 use crate::options::{Options, Verify, Width};
 use crate::patches::{Patches, patches};
 use crate::placement::Placement;
@@ -76,8 +76,8 @@ pub fn stages_of_mesh<'a>(mesh: Mesh<'a>, options: &Options) -> Stages<'a> {
         let given = &Given { surface, chamfers, offsets, apart: None, rests, deep, threads };
         let room = room(given, &Unwatched).unwrap();
         let room = evenness(given, room, options.evenness.into(), &Unwatched).unwrap();
-        let narrowed =
-            narrowed(surface, &sectors, offsets, &room.fronts, &Unwatched).unwrap().into_owned();
+        let mut narrowed = offsets.clone();
+        narrow_all(surface, &sectors, &mut narrowed, &room.fronts, &Unwatched).unwrap();
         let shares = room.shares(&Given { offsets: &narrowed, ..*given }, &Unwatched).unwrap();
         (narrowed, shares)
     };

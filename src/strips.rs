@@ -69,8 +69,7 @@ pub fn quad(placement: &Placement, edge: &HardEdge) -> Quad {
 }
 
 /// Cuts the strip by the diagonal that folds less.
-pub fn cut(quad: &Quad) -> Cut {
-    let [b1, a1, a2, b2] = quad.points;
+pub fn cut([b1, a1, a2, b2]: [DVec3; 4]) -> Cut {
     match (a1 == a2, b1 == b2) {
         (true, true) => Cut::Closed,
         (true, false) => Cut::OpenAtB,
@@ -122,29 +121,32 @@ mod tests {
     #[test]
     fn an_open_strip_is_two_triangles_that_face_out() {
         let quad = quad(FLAT);
-        assert_eq!(cut(&quad).triangles().len(), 2);
-        assert!(is_valid(&quad, cut(&quad), DVec3::X, 1e-6));
-        assert!(!is_valid(&quad, cut(&quad), DVec3::NEG_X, 1e-6), "the pulled edges are reversed");
+        assert_eq!(cut(quad.points).triangles().len(), 2);
+        assert!(is_valid(&quad, cut(quad.points), DVec3::X, 1e-6));
+        assert!(
+            !is_valid(&quad, cut(quad.points), DVec3::NEG_X, 1e-6),
+            "the pulled edges are reversed"
+        );
     }
 
     #[test]
     fn an_end_that_does_not_open_leaves_one_triangle() {
         let [b1, a1, a2, b2] = FLAT;
-        assert_eq!(cut(&quad([b1, a1, a1, b2])), Cut::OpenAtB);
-        assert_eq!(cut(&quad([b1, a1, a2, b1])), Cut::OpenAtA);
-        assert_eq!(cut(&quad([b1, a1, a1, b1])), Cut::Closed);
+        assert_eq!(cut([b1, a1, a1, b2].map(DVec3::from)), Cut::OpenAtB);
+        assert_eq!(cut([b1, a1, a2, b1].map(DVec3::from)), Cut::OpenAtA);
+        assert_eq!(cut([b1, a1, a1, b1].map(DVec3::from)), Cut::Closed);
     }
 
     #[test]
     fn the_diagonal_that_folds_less_is_taken() {
         let [b1, a1, a2, b2] = FLAT;
         let shifted = quad([b1, [1.0, 1.0, 0.0], a2, b2]);
-        assert_eq!(cut(&shifted), Cut::FromA1, "flat: the shorter diagonal");
+        assert_eq!(cut(shifted.points), Cut::FromA1, "flat: the shorter diagonal");
         let [mut low_b1, a1_again] = [b1, a1];
         low_b1[2] = -0.5;
         let twisted = quad([low_b1, a1_again, a2, b2]);
         let [b1, a1, a2, b2] = twisted.points;
         let folds = [fold([b1, a1, a2], [b1, a2, b2]), fold([b1, a1, b2], [a1, a2, b2])];
-        assert_eq!(cut(&twisted) == Cut::FromA1, folds[1] >= folds[0]);
+        assert_eq!(cut(twisted.points) == Cut::FromA1, folds[1] >= folds[0]);
     }
 }

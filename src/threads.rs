@@ -149,6 +149,29 @@ impl Threads {
         Ok(())
     }
 
+    /// Adds what is made of each id to all, in ascending order: right there, or by several threads to
+    /// what is then appended, block by block.
+    ///
+    /// # Errors
+    /// What `watch` gives, which is told again and again.
+    pub fn gather<I: Id, T: Default + Send + Sync>(
+        &self,
+        (count, watch): (usize, &dyn Watch),
+        all: &mut T,
+        add: impl Fn(I, &mut T) + Sync + Send,
+        append: impl Fn(&mut T, &mut T),
+    ) -> Result<(), Error> {
+        if self.count() > 1 {
+            let add = |_: &T, id: I, some: &mut T| add(id, some);
+            return self.blocks_then((count, watch), all, add, append);
+        }
+        for start in (0..count).step_by(BLOCK) {
+            (start..count.min(start + BLOCK)).for_each(|index| add(I::new(index), all));
+            watch.worked(BLOCK * STEPS_OF_PATCH)?;
+        }
+        Ok(())
+    }
+
     /// The value for each item, in their order, where each is some work.
     ///
     /// # Errors

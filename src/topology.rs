@@ -187,16 +187,16 @@ fn buckets(
 ) -> Result<(Vec<u32>, Vec<Spoke>), Error> {
     let cluster_at = &joined.cluster_at;
     let triangles = view.corner_count() / 3;
-    let half_edges = |triangle: Triangle| {
-        let whole = Some(triangle).filter(|&triangle| !is_collapsed(cluster_at, triangle));
-        whole.into_iter().flat_map(Triangle::corners).map(|corner| {
-            let (from, to) = (cluster_at[corner], cluster_at[corner.next()]);
-            (from.min(to), Spoke { far: from.max(to), half_edge: corner })
-        })
+    let sides = |triangle: Triangle| {
+        let [a, b, c] = triangle.corners().map(|corner| cluster_at[corner]);
+        let is_whole = a != b && b != c && c != a;
+        is_whole.then(|| [(a, b), (b, c), (c, a)].map(|(from, to)| [from.min(to), from.max(to)]))
     };
     let mut starts = vec![0_u32; joined.clusters + 1];
     each(triangles, watch, |triangle| {
-        half_edges(triangle).for_each(|(near, _)| starts[near.index()] += 1);
+        for [near, _] in sides(triangle).into_iter().flatten() {
+            starts[near.index()] += 1;
+        }
     })?;
     let mut total = 0;
     for start in &mut starts {
@@ -206,9 +206,10 @@ fn buckets(
     // Filled from the back of each bucket: afterwards every start is where its bucket begins.
     let mut spokes = vec![Spoke { far: Cluster::NONE, half_edge: Corner::NONE }; total as usize];
     each(triangles, watch, |triangle| {
-        for (near, spoke) in half_edges(triangle) {
+        let Some(sides) = sides(triangle) else { return };
+        for (half_edge, [near, far]) in triangle.corners().into_iter().zip(sides) {
             starts[near.index()] -= 1;
-            spokes[starts[near.index()] as usize] = spoke;
+            spokes[starts[near.index()] as usize] = Spoke { far, half_edge };
         }
     })?;
     Ok((starts, spokes))

@@ -8,7 +8,6 @@ use glam::{DVec2, DVec3};
 use smallvec::SmallVec;
 
 use super::Index;
-use crate::breaks::uv_at;
 use crate::error::Error;
 use crate::ids::{Cluster, Id, Vertex};
 use crate::math::unit;
@@ -206,15 +205,21 @@ impl Streams {
 
     /// A vertex of a cluster that has moved away from others of its source vertex.
     pub fn add_moved(&mut self, cluster: Cluster, row: &Row, [surface, chart]: [Blend; 2]) -> u32 {
-        self.add(cluster, row, |sources| sources.push_moved(surface, chart))
+        self.add(self.list_of(cluster, row), row, |sources| sources.push_moved(surface, chart))
     }
 
     /// A vertex of a cluster like another one, but for what it takes from another chart.
     pub fn add_copy(&mut self, view: &View, cluster: Cluster, of: u32, taken: &Taken) -> u32 {
+        // A fill often takes what a strip beside it has taken.
+        let list = self.index.list_at(cluster, self.vertices.positions[of as usize]);
+        let copies = self.sources.copies(of as usize, taken.place, taken.channels);
+        if let Some(copy) = self.index.find(list, copies) {
+            return copy;
+        }
         let mut row = Row::EMPTY;
         self.read(of, &mut row);
         self.take(view, &mut row, taken);
-        self.add(cluster, &row, |sources| {
+        self.add(list, &row, |sources| {
             sources.push_copy(of as usize, taken.place, taken.channels);
         })
     }
@@ -235,7 +240,7 @@ impl Streams {
             self.take(view, &mut row, taken);
             (source.owner, source.owner_channels) = (taken.place, u32::from(taken.channels));
         }
-        self.add(cluster, &row, |sources| sources.push(source))
+        self.add(self.list_of(cluster, &row), &row, |sources| sources.push(source))
     }
 
     /// A vertex of a cluster on a rounded patch, with a place and a normal of its own, near a blend. All
@@ -262,7 +267,7 @@ impl Streams {
             let tangents = rows.map(|row| row.at(column.start));
             row.set(column, &mean_tangent(tangents, weights, wide(row.at(NORMAL))));
         }
-        let list = self.index.list_at(cluster, row.at(POSITION));
+        let list = self.list_of(cluster, &row);
         let known = is_shared.then(|| self.find(list, &row));
         known.flatten().unwrap_or_else(|| {
             let source = self.source_between(near, parents, weights);
@@ -291,14 +296,13 @@ impl Streams {
         VertexSource { surface: near, chart, owner, owner_channels }
     }
 
-    /// The vertex of a cluster that has a row: appended, if there is none.
-    fn add(
-        &mut self,
-        cluster: Cluster,
-        row: &Row,
-        add_source: impl FnOnce(&mut VertexSources),
-    ) -> u32 {
-        let list = self.index.list_at(cluster, row.at(POSITION));
+    /// The list in which a vertex of a cluster stands that has a row.
+    fn list_of(&self, cluster: Cluster, row: &Row) -> usize {
+        self.index.list_at(cluster, row.at(POSITION))
+    }
+
+    /// The vertex of a list that has a row: appended, if there is none.
+    fn add(&mut self, list: usize, row: &Row, add_source: impl FnOnce(&mut VertexSources)) -> u32 {
         self.find(list, row).unwrap_or_else(|| {
             self.push(row);
             add_source(&mut self.sources);
@@ -314,9 +318,12 @@ impl Streams {
 
     /// The vertex of a list that has a row.
     fn find(&self, list: usize, row: &Row) -> Option<u32> {
-        let position = row.at(POSITION);
+        let [x, y, z] = row.at(POSITION);
         // Most that came from one cluster stand elsewhere.
-        let stands_there = |vertex: u32| self.vertices.positions[vertex as usize] == position;
+        let stands_there = |vertex: u32| {
+            let [at_x, at_y, at_z] = self.vertices.positions[vertex as usize];
+            at_x == x && at_y == y && at_z == z
+        };
         self.index.find(list, |listed| stands_there(listed) && self.has(listed, row))
     }
 
@@ -359,19 +366,11 @@ impl Streams {
                     row.set(column, &tangent(view, place, wide(row.at(NORMAL))));
                 }
                 Stream::Uv(channel) if channels >> channel & 1 == 1 => {
-                    let uv = &view.mesh.uvs[channel];
-                    let [a, b, c] = place.vertices.map(|vertex| uv_at(uv, vertex as usize));
-                    match (a, b, c, row.of_mut(column)) {
-                        // Nearly all channels have two components.
-                        (&[a_u, a_v], &[b_u, b_v], &[c_u, c_v], [u, v]) => {
-                            *u = blend_value(place, [a_u, b_u, c_u]);
-                            *v = blend_value(place, [a_v, b_v, c_v]);
-                        }
-                        (a, b, c, values) => {
-                            for (k, value) in values.iter_mut().enumerate() {
-                                *value = blend_value(place, [a[k], b[k], c[k]]);
-                            }
-                        }
+                    let values = view.mesh.uvs[channel].values;
+                    match column.width {
+                        2 => row.set(column, &blended::<2>(values, place)),
+                        3 => row.set(column, &blended::<3>(values, place)),
+                        _ => row.set(column, &blended::<4>(values, place)),
                     }
                 }
                 _ => {}
@@ -425,6 +424,13 @@ fn copied<T: Copy>(values: &[T], room: usize, watch: &dyn Watch) -> Result<Vec<T
         copy.extend_from_slice(&values[stretch?]);
     }
     Ok(copy)
+}
+
+/// A blend of the values of a stream that has so many for each vertex.
+fn blended<const WIDTH: usize>(values: &[f32], blend: &Blend) -> [f32; WIDTH] {
+    let values = values.as_chunks().0;
+    let [a, b, c]: [[f32; WIDTH]; 3] = blend.vertices.map(|vertex| values[vertex as usize]);
+    std::array::from_fn(|k| blend_value(blend, [a[k], b[k], c[k]]))
 }
 
 /// Equal values stay equal to the bit, whatever the weights.

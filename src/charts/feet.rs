@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{Given, Spread, Way, Wings, channels_of};
+use super::{Given, Spread, Way, Wings};
 use crate::breaks::seam_between;
 use crate::foot::locate;
 use crate::ids::{Corner, Edge, Few, Sector};
@@ -199,9 +199,9 @@ fn on_others(
     at: impl Fn(f64) -> Blend,
 ) -> impl Iterator<Item = Option<Blend>> {
     let steps = (count - 2).max(1) as f64;
-    let foot = move |place: usize| match (place + count - owner) % count {
-        0 => None,
-        step => Some(at((step - 1) as f64 / steps)),
+    let foot = move |place: usize| {
+        let step = if place < owner { place + count - owner } else { place - owner };
+        (step > 0).then(|| at((step - 1) as f64 / steps))
     };
     (0..count).map(foot)
 }
@@ -240,8 +240,7 @@ fn feet_of_wings(
         }
     };
     let before = foot(fan.first);
-    let one_chart =
-        channels_of(view).all(|channel| !is_broken(view, chamfers.sectors, sector, channel));
+    let one_chart = given.channels.iter().all(|&k| !is_broken(view, chamfers.sectors, sector, k));
     if !one_chart {
         return [Blend::one(corner), before];
     }

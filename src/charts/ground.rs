@@ -2,6 +2,8 @@
 //!
 //! And density: how much texture a triangle shows for its area.
 
+use std::cell::LazyCell;
+
 use glam::DVec2;
 
 use crate::breaks::seam_between;
@@ -12,16 +14,11 @@ use crate::surface::Surface;
 use crate::tolerance::{EXPORTED_ROUNDING, TEXTURE_MARGIN, TEXTURE_ROUNDING};
 use crate::view::View;
 
-/// Where a new triangle is looked at: its corners, the middles of its sides, and between them.
-const SAMPLES: [[f64; 3]; 7] = [
-    [1.0, 0.0, 0.0],
-    [0.0, 1.0, 0.0],
-    [0.0, 0.0, 1.0],
-    [0.5, 0.5, 0.0],
-    [0.0, 0.5, 0.5],
-    [0.5, 0.0, 0.5],
-    [1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0],
-];
+/// A new triangle is looked at in so many places: its corners, the middles of its sides, and between
+/// them.
+const SAMPLES: usize = 7;
+
+const THIRD: f64 = 1.0 / 3.0;
 
 /// A chamfer may lie on so many triangles of a chart, and of those around a corner on so many from
 /// it on either way: more would take long to find.
@@ -33,29 +30,40 @@ struct Face {
     points: [DVec2; 3],
     /// From each point to the next.
     sides: [DVec2; 3],
-    has_area: bool,
-    /// Its least and its greatest coordinates.
-    bounds: [DVec2; 2],
+    /// Twice its area.
+    area: f64,
 }
 
 impl Face {
     fn new(points: [DVec2; 3]) -> Face {
         let [a, b, c] = points;
-        let has_area = (b - a).perp_dot(c - a) != 0.0;
-        Face { points, sides: [b - a, c - b, a - c], has_area, bounds: bounds(points) }
+        Face { points, sides: [b - a, c - b, a - c], area: texture_area(points) }
+    }
+
+    /// Whether a point is on it, with no margin.
+    fn holds(&self, point: DVec2) -> bool {
+        let turns = [0, 1, 2].map(|k| self.turn(k, point));
+        let is_inside = |sign: f64| turns.iter().all(|turn| turn * sign >= 0.0);
+        self.area != 0.0 && is_inside(1.0_f64.copysign(self.area))
+    }
+
+    /// On which side of one of its sides a point is.
+    fn turn(&self, side: usize, point: DVec2) -> f64 {
+        self.sides[side].perp_dot(point - self.points[side])
     }
 
     /// Whether a point is on it, or as near to it.
     fn is_below(&self, point: DVec2, near: f64) -> bool {
-        let [low, high] = self.bounds;
+        let [low, high] = bounds(self.points);
         let outside = (low - point).max(point - high).max_element();
         outside <= near && self.is_at(point, near)
     }
 
     /// The same without a look at its bounds.
     fn is_at(&self, point: DVec2, near: f64) -> bool {
-        let turns = [0, 1, 2].map(|k| self.sides[k].perp_dot(point - self.points[k]));
-        if self.has_area && (turns.iter().all(|t| *t >= 0.0) || turns.iter().all(|t| *t <= 0.0)) {
+        let turns = [0, 1, 2].map(|k| self.turn(k, point));
+        if self.area != 0.0 && (turns.iter().all(|t| *t >= 0.0) || turns.iter().all(|t| *t <= 0.0))
+        {
             return true;
         }
         (0..3).any(|k| {
@@ -73,16 +81,19 @@ impl Face {
 /// Where a triangle on the texture is looked at, and which of these places lie on no face yet.
 struct Samples {
     /// The corners first.
-    points: [DVec2; SAMPLES.len()],
-    is_left: [bool; SAMPLES.len()],
+    points: [DVec2; SAMPLES],
+    is_left: [bool; SAMPLES],
     /// So near counts as on it.
     near: f64,
 }
 
 impl Samples {
     fn new(triangle: [DVec2; 3]) -> Samples {
-        let points = SAMPLES.map(|weights| (0..3).map(|k| triangle[k] * weights[k]).sum());
-        Samples { points, is_left: [true; SAMPLES.len()], near: nearness(triangle) }
+        let [a, b, c] = triangle;
+        let middle = |one: DVec2, other: DVec2| one * 0.5 + other * 0.5;
+        let points =
+            [a, b, c, middle(a, b), middle(b, c), middle(a, c), a * THIRD + b * THIRD + c * THIRD];
+        Samples { points, is_left: [true; SAMPLES], near: nearness(triangle) }
     }
 
     /// Whether the triangle lies on a face, or all places lie on this one or one that was asked before.
@@ -91,14 +102,14 @@ impl Samples {
         if below == [true; 3] {
             return true;
         }
-        for k in 0..SAMPLES.len() {
+        for k in 0..SAMPLES {
             if !self.is_left[k] {
                 continue;
             }
             let is_below = || face.is_below(self.points[k], self.near);
             self.is_left[k] = !below.get(k).copied().unwrap_or_else(is_below);
         }
-        self.is_left == [false; SAMPLES.len()]
+        self.is_left == [false; SAMPLES]
     }
 }
 
@@ -119,11 +130,13 @@ impl<'a> Ground<'a> {
     /// Whether some triangles on the texture, of which each is three places in the points, lie on it.
     pub fn covers(&self, triangles: &[[u32; 3]], points: &[DVec2]) -> bool {
         let corners = |triangle: &[u32; 3]| triangle.map(|place| points[place as usize]);
-        // Most chamfers lie on the triangle that they are cut off from.
+        // Most chamfers lie on the triangle that they are cut off from, or on one beside it.
         let own = self.face(self.corners[0].triangle());
-        let nears = triangles.iter().map(|triangle| nearness(corners(triangle)));
-        let near = nears.fold(f64::INFINITY, f64::min);
-        points.iter().all(|&point| own.is_below(point, near))
+        let near = LazyCell::new(|| {
+            let nears = triangles.iter().map(|triangle| nearness(corners(triangle)));
+            nears.fold(f64::INFINITY, f64::min)
+        });
+        points.iter().all(|&point| own.holds(point) || own.is_below(point, *near))
             || triangles.iter().all(|triangle| self.covers_one(&own, corners(triangle)))
     }
 

@@ -381,7 +381,8 @@ impl Part<'_> {
             }
             Element::Strip(edge) => {
                 let edge = &given.chamfers.edges.hard[edge];
-                let triangles = strips::cut(&strips::quad(placement, edge)).triangles().iter();
+                let triangles =
+                    strips::cut(strips::quad(placement, edge).points).triangles().iter();
                 let points = strips::corners(edge).map(|corner| placement.stored_at(corner));
                 triangles.for_each(|corners| add(corners.map(|place| points[place])));
             }

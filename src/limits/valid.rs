@@ -126,7 +126,12 @@ fn strip_is_valid(given: &Given, placement: &Placement, edge: Edge) -> bool {
     let quad = strips::quad(placement, edge);
     let [from, to] =
         [edge.sides[0], edge.sides[0].next()].map(|c| given.surface.view.position_at(c));
-    strips::is_valid(&quad, strips::cut(&quad), unit(to - from), given.surface.view.resolution)
+    strips::is_valid(
+        &quad,
+        strips::cut(quad.points),
+        unit(to - from),
+        given.surface.view.resolution,
+    )
 }
 
 /// Whether a strip leaves everything covered that rests beside its edge.

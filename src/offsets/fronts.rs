@@ -3,8 +3,6 @@
 //!
 //! How hidden faces go along with the visible ones in front of them.
 
-use std::borrow::Cow;
-
 use glam::DVec3;
 
 use super::{CREASE_COSINE, Offset, arms};
@@ -12,13 +10,13 @@ use crate::breaks::same_chart;
 use crate::error::Error;
 use crate::faces::Faces;
 use crate::foot::{Foot, locate};
-use crate::ids::{Corner, Few, Id, IdVec, Sector};
+use crate::ids::{Corner, Few, IdVec, Sector};
 use crate::math::{area_vector, unit};
 use crate::sectors::{Follower, Sectors};
 use crate::surface::Surface;
 use crate::tolerance::LEVEL_COSINE;
 use crate::view::View;
-use crate::watch::{Watch, each, stretches};
+use crate::watch::{Watch, each};
 
 /// Edges that meet at less than this (as a sine, 30 degrees), or run on so nearly straight, are
 /// pulled together: a little less width of one of them alone would take the vertex far along the
@@ -63,39 +61,28 @@ pub fn parts(
     Some([along_last, offset.vector - along_last])
 }
 
-/// The offsets, of which some have unlike shares for their two edges (`fronts: #sectors by 2`): the
-/// one that has less goes less far.
+/// Of offsets that have unlike shares for their two edges (`fronts: #sectors by 2`), the one that has
+/// less goes less far.
 ///
 /// # Errors
 /// [`Error::Cancelled`] where the watch stops it.
-pub fn narrowed<'a>(
+pub fn narrow_all(
     surface: Surface,
     sectors: &Sectors,
-    offsets: &'a IdVec<Sector, Offset>,
+    offsets: &mut IdVec<Sector, Offset>,
     fronts: &IdVec<Sector, [f64; 2]>,
     watch: &dyn Watch,
-) -> Result<Cow<'a, IdVec<Sector, Offset>>, Error> {
-    let narrowed_at = |sector: Sector| {
-        let fronts = fronts[sector];
-        let most = fronts[0].max(fronts[1]);
-        let shares = fronts.map(|share| share / most);
-        let is_alike = fronts[0] == fronts[1];
-        if is_alike { None } else { narrow(surface, sectors, sector, &offsets[sector], shares) }
-    };
-    let mut first = None;
-    for stretch in stretches(fronts.len(), watch) {
-        first = stretch?.map(Sector::new).find(|&sector| narrowed_at(sector).is_some());
-        if first.is_some() {
-            break;
-        }
-    }
-    let Some(first) = first else { return Ok(Cow::Borrowed(offsets)) };
-    let mut all = Vec::with_capacity(offsets.len());
+) -> Result<(), Error> {
     each(fronts.len(), watch, |sector: Sector| {
-        let narrowed = if sector < first { None } else { narrowed_at(sector) };
-        all.push(narrowed.unwrap_or(offsets[sector]));
-    })?;
-    Ok(Cow::Owned(IdVec::from_vec(all)))
+        let fronts = fronts[sector];
+        if fronts[0] == fronts[1] {
+            return;
+        }
+        let shares = fronts.map(|share| share / fronts[0].max(fronts[1]));
+        if let Some(narrowed) = narrow(surface, sectors, sector, &offsets[sector], shares) {
+            offsets[sector] = narrowed;
+        }
+    })
 }
 
 /// An offset that pulls its sector's first and its last edge by some shares of what it did; none where

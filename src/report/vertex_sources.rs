@@ -19,7 +19,7 @@ pub struct VertexSources {
 }
 
 /// Where a vertex has its blends.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 enum Own {
     /// It is a source vertex as it was.
     Kept(u32),
@@ -139,6 +139,22 @@ impl VertexSources {
     pub(crate) fn push_copy(&mut self, vertex: usize, owner: Blend, channels: u8) {
         let own = self.own(vertex);
         self.continuing.push(Continuing { own, owner, owner_channels: channels.into() });
+    }
+
+    /// Which vertices were appended as just such a copy.
+    pub(crate) fn copies(
+        &self,
+        vertex: usize,
+        owner: Blend,
+        channels: u8,
+    ) -> impl Fn(u32) -> bool + '_ {
+        let (own, first_continuing) = (self.own(vertex), self.first_continuing());
+        move |other: u32| {
+            let place = (other as usize).checked_sub(first_continuing);
+            place.map(|place| &self.continuing[place]).is_some_and(|copy| {
+                copy.own == own && copy.owner_channels == channels.into() && copy.owner == owner
+            })
+        }
     }
 
     /// Appends a vertex.

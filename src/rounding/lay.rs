@@ -8,7 +8,7 @@ use super::ends::{End, EndPoint, Rows};
 use crate::ids::{Corner, Sector};
 use crate::math::unit;
 use crate::patches::{Middle, Parts};
-use crate::strips::{Quad, cut};
+use crate::strips::cut;
 use crate::validity::faces_out;
 
 /// Where a point of a rounded patch comes from: up to three points of the patch with one segment,
@@ -136,9 +136,8 @@ fn zip(lay: &mut Lay, start: &[u32], stop: &[u32]) {
         let goes_on = [a < counts[0], b < counts[1]];
         if goes_on == [true; 2] && next_a == next_b {
             let corners = [stop[b], start[a], start[a + 1], stop[b + 1]];
-            let places = corners.map(|place| lay.places[place as usize]);
-            let quad = Quad { points: places.map(|p| p.point), normals: places.map(|p| p.normal) };
-            let triangles = cut(&quad).triangles().iter();
+            let points = corners.map(|place| lay.places[place as usize].point);
+            let triangles = cut(points).triangles().iter();
             lay.triangles.extend(triangles.map(|triangle| triangle.map(|k| corners[k])));
             (a, b) = (a + 1, b + 1);
         } else if goes_on[0] && (!goes_on[1] || next_a < next_b) {
