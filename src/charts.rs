@@ -107,7 +107,7 @@ pub fn charts(
         if !parts.triangles.is_empty() {
             (face, begin) = match patches.edge_or_ring(patch) {
                 Ok(edge) => {
-                    let owner = (owners.of(edge), owners.band[edge]);
+                    let owner = (owners.of(edge), owners.band[edge].as_ref());
                     (lay_strip(&given, (edge, parts), owner, &mut charts.taken), 0)
                 }
                 Err(ring) => lay_fill(&given, &owners, (ring, parts), &mut charts.taken),

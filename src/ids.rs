@@ -87,7 +87,8 @@ impl Corner {
     /// The corner that follows in the triangle: where the half-edge ends.
     #[inline]
     pub fn next(self) -> Corner {
-        Corner(if self.0 % 3 == 2 { self.0 - 2 } else { self.0 + 1 })
+        let next = self.0 + 1;
+        Corner(if next.is_multiple_of(3) { next - 3 } else { next })
     }
 
     /// The corner before: its half-edge ends here.

@@ -126,6 +126,7 @@ impl Patches {
         }
     }
 
+    #[inline]
     pub fn parts(&self, patch: Patch) -> Parts<'_> {
         let place = patch.index();
         let [from, to] = [place.checked_sub(1).map_or([0; 3], |k| self.ends[k]), self.ends[place]];

@@ -76,7 +76,7 @@ impl<'a> Placement<'a> {
     }
 
     /// Whether the sector's vertices stand elsewhere than in the source.
-    #[inline]
+    #[inline(always)]
     pub fn has_moved(&self, sector: Sector) -> bool {
         self.point[sector] != self.base(sector)
     }
@@ -128,7 +128,7 @@ impl<'a> Placement<'a> {
 
     /// Where a corner stands now, and its normal there, if it is the first (0) or the last (1) one of its
     /// sector.
-    #[inline]
+    #[inline(always)]
     pub fn stand_at(&self, corner: Corner, end: usize) -> (DVec3, DVec3) {
         let sector = self.sectors.sector_of[corner];
         if sector.is_none() {
@@ -139,7 +139,7 @@ impl<'a> Placement<'a> {
     }
 
     /// The normal at a corner; between the first and the last corner of a sector, the last one's.
-    #[inline]
+    #[inline(always)]
     pub fn normal_at(&self, corner: Corner) -> DVec3 {
         let sector = self.sectors.sector_of[corner];
         if sector.is_none() {

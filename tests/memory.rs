@@ -135,7 +135,7 @@ const MOST_OF_SMOOTH: [f64; 2] = [1.1; 2];
 
 /// One large part has what all stages know of it at the same time, beside the result, and with `full` the
 /// tree in which collisions are looked for.
-const MOST_OF_ONE_PART: [f64; 2] = [4.7, 6.8];
+const MOST_OF_ONE_PART: [f64; 2] = [4.3, 5.7];
 
 fn the_peak_is_a_few_times_input_and_output() {
     let width = Width::Units(0.02);
@@ -168,7 +168,7 @@ fn bytes(mesh: &MeshBuffers) -> usize {
 
 /// The most bytes for each source triangle of a field of cubes that is done as a whole: all its edges
 /// are hard, and each triangle becomes four.
-const MOST_PER_TRIANGLE: usize = 1200;
+const MOST_PER_TRIANGLE: usize = 1120;
 
 /// So many cubes are too few to be done in blocks.
 fn what_a_stage_leaves_behind_is_given_back() {

@@ -64,7 +64,8 @@ impl FillMap<'_> {
         }
         let mut lay = Lay::default();
         let owner = self.best_lay(channels, &mut lay);
-        let places = lay.feet.into_iter().chain(lay.middles.into_iter().map(Some)).zip(0..);
+        let middles = lay.middles.iter().copied().map(Some);
+        let places = lay.feet.iter().copied().chain(middles).zip(0..);
         taken.extend(
             places.filter_map(|(place, point)| Some((point, Taken { channels, place: place? }))),
         );

@@ -54,27 +54,23 @@ impl Face {
 
     /// Whether a point is on it, or as near to it.
     fn is_below(&self, point: DVec2, near: f64) -> bool {
-        let [low, high] = bounds(self.points);
-        let outside = (low - point).max(point - high).max_element();
-        outside <= near && self.is_at(point, near)
+        self.holds(point) || self.is_beside(point, near)
     }
 
-    /// The same without a look at its bounds.
-    fn is_at(&self, point: DVec2, near: f64) -> bool {
-        let turns = [0, 1, 2].map(|k| self.turn(k, point));
-        if self.area != 0.0 && (turns.iter().all(|t| *t >= 0.0) || turns.iter().all(|t| *t <= 0.0))
-        {
-            return true;
-        }
-        (0..3).any(|k| {
-            let ([from, to], way) = ([self.points[k], self.points[(k + 1) % 3]], self.sides[k]);
-            let (along, square) = ((point - from).dot(way), near * near);
-            match way.length_squared() {
-                _ if along <= 0.0 => point.distance_squared(from) <= square,
-                length if along >= length => point.distance_squared(to) <= square,
-                length => turns[k] * turns[k] <= square * length,
-            }
-        })
+    /// Whether a point is as near to one of its sides.
+    fn is_beside(&self, point: DVec2, near: f64) -> bool {
+        let [low, high] = bounds(self.points);
+        let outside = (low - point).max(point - high).max_element();
+        outside <= near
+            && (0..3).any(|k| {
+                let ([from, to], way) = ([self.points[k], self.points[(k + 1) % 3]], self.sides[k]);
+                let (along, square) = ((point - from).dot(way), near * near);
+                match way.length_squared() {
+                    _ if along <= 0.0 => point.distance_squared(from) <= square,
+                    length if along >= length => point.distance_squared(to) <= square,
+                    length => self.turn(k, point).powi(2) <= square * length,
+                }
+            })
     }
 }
 
@@ -136,7 +132,7 @@ impl<'a> Ground<'a> {
             let nears = triangles.iter().map(|triangle| nearness(corners(triangle)));
             nears.fold(f64::INFINITY, f64::min)
         });
-        points.iter().all(|&point| own.holds(point) || own.is_below(point, *near))
+        points.iter().all(|&point| own.holds(point) || own.is_beside(point, *near))
             || triangles.iter().all(|triangle| self.covers_one(&own, corners(triangle)))
     }
 
@@ -310,10 +306,10 @@ mod tests {
     fn a_point_is_as_far_from_a_triangle_as_from_its_nearest_side() {
         let triangle = [DVec2::ZERO, DVec2::X * 2.0, DVec2::Y * 2.0];
         let is_as_far = |triangle, point: [f64; 2], distance: f64| {
-            let within = |near| Face::new(triangle).is_at(point.into(), near);
+            let within = |near| Face::new(triangle).is_below(point.into(), near);
             within(distance * 1.01) && !within(distance * 0.99)
         };
-        assert!(Face::new(triangle).is_at(DVec2::new(0.5, 0.5), 0.0));
+        assert!(Face::new(triangle).is_below(DVec2::new(0.5, 0.5), 0.0));
         assert!(is_as_far(triangle, [1.0, -3.0], 3.0), "from a side");
         assert!(is_as_far(triangle, [5.0, -4.0], 5.0), "from a corner");
         assert!(is_as_far([DVec2::X * 2.0; 3], [5.0, 4.0], 5.0), "from a point");

@@ -232,7 +232,7 @@ fn places(owner: usize) -> [[usize; 2]; 2] {
 pub fn lay_strip(
     given: &Given,
     (edge, strip): (Edge, Parts),
-    (owner, band): (usize, Option<Band>),
+    (owner, band): (usize, Option<&Band>),
     taken_at: &mut Vec<TakenAt>,
 ) -> Triangle {
     let Given { surface, placement, attributes, .. } = *given;
@@ -252,8 +252,10 @@ pub fn lay_strip(
             channels[place] |= 1 << channel;
         }
     }
-    for (point, (place, channels)) in (0..).zip(taken.into_iter().zip(channels)) {
-        taken_at.extend(place.map(|place| (point, Taken { channels, place })));
+    for point in 0..4 {
+        if let Some(place) = taken[point] {
+            taken_at.push((point as u32, Taken { channels: channels[point], place }));
+        }
     }
     hard.sides[owner].triangle()
 }

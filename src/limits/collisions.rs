@@ -210,9 +210,8 @@ struct Part<'a> {
     was_cut: OnceLock<bool>,
 }
 
-/// A triangle of a part.
+/// What is known of a triangle of a part, beside its corners.
 struct Laid {
-    corners: Triangle,
     /// Place in the part's elements.
     element: u32,
     /// Whether it is new or has moved.
@@ -263,14 +262,14 @@ impl Part<'_> {
         rounded: Option<&Lay>,
         watch: &dyn Watch,
     ) -> Result<Vec<Element>, Error> {
-        let laid = self.lay_out(placement, open, rounded, watch)?;
-        let triangles = collect(laid.len(), watch, |number| laid[number].corners)?;
+        let (triangles, laid) = self.lay_out(placement, open, rounded, watch)?;
         let open = |number: u32| laid[number as usize].is_open;
         let pair = |a: u32, b: u32| {
             let [a, b] = [a, b].map(|number| &laid[number as usize]);
             (a.is_open | b.is_open) & (a.is_changed | b.is_changed)
         };
-        let (kin, source) = (self.kin(placement, &laid, watch)?, || self.source_triangles(watch));
+        let kin = self.kin(placement, (&triangles, &laid), watch)?;
+        let source = || self.source_triangles(watch);
         let pairs = cutting_pairs(&triangles, &kin, source, &Asked { open, pair }, watch)?;
         // Giving back so much memory takes a while, too.
         drop(triangles);
@@ -313,20 +312,20 @@ impl Part<'_> {
     fn kin(
         &self,
         placement: &Placement,
-        laid: &[Laid],
+        (triangles, laid): (&[Triangle], &[Laid]),
         watch: &dyn Watch,
     ) -> Result<Vec<Kin>, Error> {
         if self.crowds.is_empty() {
             return Ok(Vec::new());
         }
-        let kin = |each: &Laid| {
+        let kin = |(corners, each): (&Triangle, &Laid)| {
             watch.worked(1)?;
             Ok(self.crowds[each.element as usize].map_or(Kin::NONE, |crowd| {
                 let around = crowd.around(self.given, placement);
-                Kin::new(crowd.name(), around.seen(&each.corners))
+                Kin::new(crowd.name(), around.seen(corners))
             }))
         };
-        laid.iter().map(kin).collect()
+        triangles.iter().zip(laid).map(kin).collect()
     }
 
     fn source(&self, corner: Corner) -> [f32; 3] {
@@ -341,8 +340,9 @@ impl Part<'_> {
         open: &[Element],
         rounded: Option<&Lay>,
         watch: &dyn Watch,
-    ) -> Result<Vec<Laid>, Error> {
-        let mut laid = Vec::with_capacity(2 * self.elements.len());
+    ) -> Result<(Vec<Triangle>, Vec<Laid>), Error> {
+        let most = self.most_triangles();
+        let (mut all, mut laid) = (Vec::with_capacity(most), Vec::with_capacity(most));
         let mut open = open.iter().peekable();
         for (place, &element) in (0..).zip(&self.elements) {
             watch.worked(1)?;
@@ -350,14 +350,15 @@ impl Part<'_> {
             let is_open = open.peek() == Some(&&element);
             let is_changed = self.is_changed(placement, element);
             let mut add = |corners: Triangle| {
-                laid.push(Laid { corners, element: place, is_changed, is_open });
+                all.push(corners);
+                laid.push(Laid { element: place, is_changed, is_open });
             };
             match rounded.and_then(|lay| lay(element)) {
                 Some(triangles) => triangles.into_iter().for_each(add),
                 None => self.each_triangle(placement, element, &mut add),
             }
         }
-        Ok(laid)
+        Ok((all, laid))
     }
 
     fn is_changed(&self, placement: &Placement, element: Element) -> bool {
@@ -546,15 +547,14 @@ mod tests {
 
     /// The same by comparing each with each.
     fn each_with_each(part: &Part, placement: &Placement) -> Vec<Element> {
-        let laid = part.lay_out(placement, &part.elements, None, &Unwatched).unwrap();
-        let cuts = |one: &Laid, other: &Laid| {
-            (one.is_changed || other.is_changed) && cut_each_other(&one.corners, &other.corners)
+        let (all, laid) = part.lay_out(placement, &part.elements, None, &Unwatched).unwrap();
+        let cuts = |one: usize, other: usize| {
+            (laid[one].is_changed || laid[other].is_changed)
+                && cut_each_other(&all[one], &all[other])
         };
         let is_cut = |place: u32| {
             let own = || laid.iter().enumerate().filter(move |(_, one)| one.element == place);
-            own().any(|(k, one)| {
-                laid.iter().enumerate().any(|(other, each)| other != k && cuts(one, each))
-            })
+            own().any(|(k, _)| (0..laid.len()).any(|other| other != k && cuts(k, other)))
         };
         let places = (0..).zip(&part.elements).filter(|(place, _)| is_cut(*place));
         places.map(|(_, element)| *element).collect()
