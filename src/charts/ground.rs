@@ -126,7 +126,7 @@ impl<'a> Ground<'a> {
     /// Whether some triangles on the texture, of which each is three places in the points, lie on it.
     pub fn covers(&self, triangles: &[[u32; 3]], points: &[DVec2]) -> bool {
         let corners = |triangle: &[u32; 3]| triangle.map(|place| points[place as usize]);
-        // Most chamfers lie on the triangle that they are cut off from, or on one beside it.
+        // Most chamfers lie on the triangle that they are cut off from, and most of their points right on it.
         let own = self.face(self.corners[0].triangle());
         let near = LazyCell::new(|| {
             let nears = triangles.iter().map(|triangle| nearness(corners(triangle)));
