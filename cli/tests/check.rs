@@ -319,6 +319,14 @@ fn an_obj_and_an_stl_are_checked_too() {
     folder.run("check cube.obj soft.obj --width-percent 1").exits(0);
     folder.run("cube.obj -o soft.glb").exits(0);
     folder.run("check cube.obj soft.glb").exits(0);
+    // OBJ counts the second texture coordinate from below, glTF from above.
+    let faces =
+        cube.replace("f 5 6 7 8", "f 5/1 6/2 7/3 8/1").replace("f 1 2 6 5", "f 1/1 2/2 6/3 5/2");
+    folder.write("painted.obj", format!("vt 0 0\nvt 1 0.25\nvt 1 1\n{faces}"));
+    for to in ["painted_soft.obj", "painted_soft.glb"] {
+        folder.run(&format!("painted.obj -o {to}")).exits(0);
+        folder.run(&format!("check painted.obj {to}")).exits(0);
+    }
     let corners = [[0, 0, 0], [0, 1, 0], [1, 0, 0], [0, 0, 1]];
     let facets = [[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]].map(|facet| {
         let vertices = facet.map(|corner: usize| {

@@ -218,6 +218,12 @@ pub trait Document {
         Vec::new()
     }
 
+    /// Whether the second texture coordinate of its meshes counts from below, as in OBJ, rather than from
+    /// above.
+    fn counts_from_below(&self) -> bool {
+        false
+    }
+
     /// Whether its units are metres; most formats do not say what theirs are.
     fn counts_metres(&self) -> bool {
         false

@@ -169,9 +169,17 @@ impl Side<'_> {
         })
     }
 
-    /// The mesh as it is in the file: with the normals that reading repaired.
+    /// The mesh as it is in the file: with the normals that reading repaired, and with texture coordinates
+    /// that count from above, whichever way those of the file do.
     fn as_stored(&self) -> MeshBuffers {
         let mut mesh = self.document.meshes()[self.mesh].mesh.clone();
+        if self.document.counts_from_below() {
+            for uv in mesh.uvs.iter_mut().filter(|uv| uv.components > 1) {
+                uv.values
+                    .chunks_exact_mut(uv.components as usize)
+                    .for_each(|at| at[1] = 1.0 - at[1]);
+            }
+        }
         for &(vertex, normal) in &self.normals().repaired {
             mesh.normals[vertex as usize] = normal;
         }

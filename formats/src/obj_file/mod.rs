@@ -73,6 +73,10 @@ impl Document for ObjDocument {
         std::slice::from_ref(&self.normals)
     }
 
+    fn counts_from_below(&self) -> bool {
+        true
+    }
+
     fn notes(&self) -> Vec<String> {
         let mut notes = self.obj.slips.notes();
         notes.extend(weld::note(self.welded));
