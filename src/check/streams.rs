@@ -44,6 +44,10 @@ pub(super) struct Stream<'a> {
     normals: [&'a [[f32; 3]]; 2],
 }
 
+/// The cosine past which normals are of different faces, of which one's tangents tell nothing of the
+/// other's: sixty degrees, the largest `hard_angle` that makes sense, and some rounding.
+const ONE_SURFACE: f64 = 0.49;
+
 #[derive(Clone, Copy, PartialEq)]
 enum Kind {
     /// Three components; the length does not matter.
@@ -227,6 +231,7 @@ impl<'a> Stream<'a> {
         let blended: DVec3 =
             (0..3).map(|k| weights[k] * vector(&self.normals[0][corners[k]])).sum();
         let ends = blended.try_normalize().zip(vector(&self.normals[1][vertex]).try_normalize());
+        let ends = ends.filter(|(from, to)| from.dot(*to) > ONE_SURFACE);
         ends.map_or(tangent, |(from, to)| DQuat::from_rotation_arc(from, to) * tangent)
     }
 
