@@ -521,18 +521,20 @@ fn an_edge_that_opens_in_its_middle_is_not_missed() {
     assert_eq!(code, 0, "{report:#}");
 }
 
-/// What is no edge by the angle that the model was chamfered with needs no chamfer; by the usual one the
-/// edges between the sides are missing.
+/// What is no edge by the angle that the model was chamfered with needs no chamfer, and counts for none.
 #[test]
 fn it_goes_by_the_angle_that_made_edges_hard() {
     let folder = Folder::with(&shapes::prism(8), &MeshBuffers::default());
     folder.write("some.toml", "width = 2\nhard_angle = 60\n");
     let made = folder.run("before.glb -o after.glb --options some.toml");
     assert_eq!(made.0.status.code(), Some(0), "{:?}", made.0);
+    let hard_edges = |report: &Value| report["meshes"][0]["before"]["hard_edges"].clone();
     for told in [" --hard-angle 60", " --options some.toml"] {
         let (code, report) = folder.check(told);
-        assert_eq!(code, 0, "{told}: {report}");
+        assert_eq!((code, hard_edges(&report)), (0, json!(16)), "{told}: {report}");
     }
-    assert_eq!(folder.check("").0, 1);
-    assert_eq!(folder.check(" --options some.toml --hard-angle 1").0, 1);
+    // The edges between the sides, too.
+    for told in ["", " --options some.toml --hard-angle 1"] {
+        assert_eq!(hard_edges(&folder.check(told).1), 24, "{told}");
+    }
 }
