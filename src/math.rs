@@ -33,12 +33,12 @@ impl Turn {
     /// The angle (0 to pi) of a direction of some length in the upper half of a plane.
     fn below_half(ahead: f64, aside: f64, length: f64) -> Turn {
         let (cos, sin) = (ahead / length, aside / length);
-        match () {
-            () if length > 0.0 && sin == 0.0 && cos < 0.0 => {
-                Turn { half_turns: 1, cos: -cos, sin: -sin }
-            }
-            () if length > 0.0 => Turn { half_turns: 0, cos, sin },
-            () => Turn::ZERO,
+        if length > 0.0 && sin == 0.0 && cos < 0.0 {
+            Turn { half_turns: 1, cos: -cos, sin: -sin }
+        } else if length > 0.0 {
+            Turn { half_turns: 0, cos, sin }
+        } else {
+            Turn::ZERO
         }
     }
 
