@@ -5,10 +5,15 @@
 //! of looking for the best halves, and finds nearly as few boxes. Equal places on the curve are told
 //! apart by number, so the tree is the same on every run.
 
+mod turned;
+
 use glam::DVec3;
+use smallvec::SmallVec;
 
 use crate::error::Error;
 use crate::watch::{Unwatched, Watch, collect, sort, stretches};
+
+use turned::TurnedBox;
 
 /// How many boxes a leaf holds: testing so few one by one costs less than another node.
 const LEAF_SIZE: usize = 4;
@@ -189,6 +194,8 @@ pub(crate) struct Tree {
     kin: Vec<Kin>,
     /// For each eye.
     views: Vec<View>,
+    /// `#nodes`, or none.
+    turned: Vec<TurnedBox>,
 }
 
 /// Boxes around the directions in which all is seen from some eye.
@@ -221,6 +228,7 @@ impl Tree {
             kin: collect(of_kin, watch, |place| kin[number(place)])?,
             node_kin: Vec::new(),
             views: Vec::new(),
+            turned: Vec::new(),
             order,
         };
         if !boxes.is_empty() {
@@ -245,6 +253,39 @@ impl Tree {
     ) -> Result<Tree, Error> {
         let views: Result<_, Error> = views.iter().map(|boxes| self.view(boxes, watch)).collect();
         self.views = views?;
+        Ok(self)
+    }
+
+    /// The same, where nodes have boxes along axes of their own, too (`triangles: #boxes`).
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`] where the watch stops it.
+    pub fn with_turned(
+        mut self,
+        triangles: &[[[f32; 3]; 3]],
+        watch: &dyn Watch,
+    ) -> Result<Tree, Error> {
+        let around = |node: usize| {
+            let wide = |point: [f32; 3]| DVec3::from(point.map(f64::from));
+            let own = self.places(node).map(|place| triangles[self.order[place] as usize]);
+            let own: SmallVec<[[DVec3; 3]; LEAF_SIZE]> = own.map(|all| all.map(wide)).collect();
+            TurnedBox::around(&own)
+        };
+        let count = self.nodes.len();
+        let mut turned = collect(count, watch, |node| match self.nodes[node].count {
+            0 => TurnedBox::NONE,
+            _ => around(node),
+        })?;
+        for stretch in stretches(count, watch) {
+            // Those below a node come after it.
+            for node in stretch?.map(|back| count - 1 - back) {
+                if self.nodes[node].count == 0 {
+                    let next = self.nodes[node + 1].next as usize;
+                    turned[node] = TurnedBox::around_both(&turned[node + 1], &turned[next]);
+                }
+            }
+        }
+        self.turned = turned;
         Ok(self)
     }
 
@@ -450,6 +491,12 @@ impl Tree {
         !self.nodes[a].bounds.overlaps(&self.nodes[b].bounds)
             || (!self.node_kin.is_empty() && self.node_kin[a].is_apart(&self.node_kin[b]))
             || self.views.iter().any(|view| !view.nodes[a].overlaps(&view.nodes[b]))
+            || (!self.turned.is_empty() && (self.keeps_off(a, b) || self.keeps_off(b, a)))
+    }
+
+    /// Whether the turned box of a node does, whichever box is around the other.
+    fn keeps_off(&self, node: usize, other: usize) -> bool {
+        self.turned[node].keeps_off(&self.turned[other], &self.nodes[other].bounds)
     }
 }
 

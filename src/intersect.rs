@@ -29,7 +29,7 @@ pub(crate) use crowds::{Around, crowds};
 
 pub(crate) type Triangle = [[f32; 3]; 3];
 
-/// With more boxes that overlap for each triangle, directions are asked too. Of a common mesh it is a
+/// With more boxes that overlap for each triangle, directions and turned boxes are asked too. Of a common mesh it is a
 /// dozen.
 const CROWDED: usize = 15;
 
@@ -100,6 +100,7 @@ pub(crate) fn cutting_pairs<Open: Fn(u32) -> bool, Pair: Fn(u32, u32) -> bool>(
                 |number| source.get(number).unwrap_or_else(|| &triangles[number - source.len()]);
             let eyes = Eyes::of(&collect(count, watch, |number| *either(number))?, watch)?;
             let tree = tree.with_views_watched(&eyes.views(triangles, watch)?, watch)?;
+            let tree = tree.with_turned(triangles, watch)?;
             watch.worked(triangles.len())?;
             cutting_within(&tree, triangles, asked, usize::MAX, watch)?.unwrap_or_default()
         }
@@ -491,12 +492,46 @@ mod tests {
             .collect();
         assert!(expected.len() > 20, "{}", expected.len());
         let boxes: Vec<Aabb> = triangles.iter().map(bounds).collect();
-        let tree = Tree::new(&boxes, &[]).with_views(
-            &Eyes::of(&triangles, &Unwatched).unwrap().views(&triangles, &Unwatched).unwrap(),
-        );
-        let mut found = within(&tree, &triangles, usize::MAX).unwrap();
-        found.sort_unstable();
-        assert_eq!(found, expected);
+        let eyes = Eyes::of(&triangles, &Unwatched).unwrap();
+        let views = eyes.views(&triangles, &Unwatched).unwrap();
+        let seen = Tree::new(&boxes, &[]).with_views(&views);
+        let turned = Tree::new(&boxes, &[]).with_turned(&triangles, &Unwatched).unwrap();
+        for tree in [seen, turned] {
+            let mut found = within(&tree, &triangles, usize::MAX).unwrap();
+            found.sort_unstable();
+            assert_eq!(found, expected);
+        }
+    }
+
+    /// The walls between the teeth of a star, upright and radial, two triangles each, whose boxes
+    /// overlap by the hundred from wherever they are seen.
+    fn teeth(count: u32) -> Vec<Triangle> {
+        let wall = |number: u32| {
+            let place = |step: u32, radius: f64, height: f32| {
+                let turns = f64::from(step) / f64::from(2 * count) * std::f64::consts::TAU;
+                [(radius * turns.cos()) as f32, (radius * turns.sin()) as f32, height]
+            };
+            let [inner, outer] = [(number / 2 * 2, 0.5), (number / 2 * 2 + 1, 1.0)];
+            // Each tooth has one wall on either side of its tip.
+            let inner = if number % 2 == 0 { inner } else { (inner.0 + 2, 0.5) };
+            let [a, b] = [0.0, 1.0].map(|height| place(inner.0, inner.1, height));
+            let [c, d] = [1.0, 0.0].map(|height| place(outer.0, outer.1, height));
+            [[a, b, c], [a, c, d]]
+        };
+        (0..2 * count).flat_map(wall).collect()
+    }
+
+    #[test]
+    fn what_neither_boxes_nor_eyes_tell_apart_turned_boxes_do() {
+        let triangles = teeth(4000);
+        let boxes: Vec<Aabb> = triangles.iter().map(bounds).collect();
+        let few = triangles.len() * 4 * CROWDED;
+        let eyes = Eyes::of(&triangles, &Unwatched).unwrap();
+        let views = eyes.views(&triangles, &Unwatched).unwrap();
+        let tree = Tree::new(&boxes, &[]).with_views(&views);
+        assert!(within(&tree, &triangles, few).is_none(), "eyes do not tell");
+        let tree = Tree::new(&boxes, &[]).with_turned(&triangles, &Unwatched).unwrap();
+        assert!(within(&tree, &triangles, few).is_some(), "turned boxes do");
     }
 
     /// Across the middle of a triangle.

@@ -54,8 +54,8 @@ const GROWTH: u64 = 3;
 const BYTES_PER_COPIED_CORNER: u64 = 12;
 
 /// For each triangle in which collisions are looked for: itself, its box, its place in the tree, and
-/// where it lies as seen from its crowd and from up to eight eyes.
-const BYTES_PER_LAID: u64 = 896;
+/// where it lies as seen from its crowd and from up to eight eyes; and the turned box of a node.
+const BYTES_PER_LAID: u64 = 1024;
 
 /// For each corner where the result is looked at: both scenes, what is new in them, and how they lie
 /// on the picture that each thread draws.

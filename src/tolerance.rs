@@ -140,3 +140,7 @@ pub const LEAST_TURN: f64 = 1e-3;
 
 /// Between directions whose sine is less than this, the share of the turn is that of the way.
 pub const LEAST_SLERP_SINE: f64 = 1e-6;
+
+/// How much larger a turned box is than what it holds, in terms of where it lies: a thousand times
+/// what rounding takes in double precision, so that what touches is never told apart.
+pub(crate) const TURNED_BOX_SLACK: f64 = 1e-12;

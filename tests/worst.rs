@@ -52,6 +52,8 @@ fn parts_whose_boxes_all_overlap() {
     check("spikes", &worst::spikes(200));
     check("star cone", &worst::star_cone(60));
     check("gear cone", &worst::gear_cone(40));
+    check("star wheel", &worst::star_wheel(60));
+    check("comb", &worst::comb(60));
     check("wedges", &worst::wedges(40));
     check("turned quads", &worst::turned_quads(60));
 }

@@ -22,6 +22,8 @@ pub const SHAPES: &[(&str, u32, Make)] = &[
     ("spikes", 12_000, worst::spikes),
     ("star cone", 18_000, worst::star_cone),
     ("gear cone", 9_000, worst::gear_cone),
+    ("star wheel", 9_000, worst::star_wheel),
+    ("comb", 9_000, worst::comb),
     ("wedges", 4_000, worst::wedges),
     ("turned quads", 25_000, worst::turned_quads),
     // So many quads each way.

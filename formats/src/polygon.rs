@@ -4,6 +4,8 @@
 //! where another polygon uses them.
 
 use robust::{Coord, orient2d};
+use rstar::primitives::GeomWithData;
+use rstar::{AABB, Envelope, RTree, SelectionFunction};
 
 /// The triangles of a polygon, as places in it: always two fewer than corners, and every corner
 /// in one of them. A polygon that crosses itself is cut as well as it can be.
@@ -52,11 +54,17 @@ struct Ring {
     after: Vec<usize>,
     /// `#corners`: whether it is left and does not turn left. Only such a one can lie in an ear.
     is_suspect: Vec<bool>,
-    /// All corners by `x`, so that those near an ear are found soon.
-    by_x: Vec<usize>,
+    /// The suspects, so that those in an ear are found soon.
+    suspects: RTree<Suspect>,
+    /// `#corners`: a suspect that was found in its ear, if any was since its neighbours are what they
+    /// are: as long as that is left nobody has to look again.
+    found_in: Vec<Option<usize>>,
     /// The lowest corner that is left.
     first: usize,
 }
+
+/// A corner where it stands.
+type Suspect = GeomWithData<[f64; 2], usize>;
 
 impl Ring {
     fn new(points: Vec<Coord<f64>>) -> Ring {
@@ -66,12 +74,19 @@ impl Ring {
             before: (0..count).map(|corner| (corner + count - 1) % count).collect(),
             after: (0..count).map(|corner| (corner + 1) % count).collect(),
             is_suspect: Vec::new(),
-            by_x: (0..count).collect(),
+            suspects: RTree::new(),
+            found_in: vec![None; count],
             first: 0,
         };
         ring.is_suspect = (0..count).map(|corner| ring.turn(corner) <= 0.0).collect();
-        ring.by_x.sort_by(|&one, &other| ring.points[one].x.total_cmp(&ring.points[other].x));
+        let suspects = (0..count).filter(|&corner| ring.is_suspect[corner]);
+        ring.suspects = RTree::bulk_load(suspects.map(|corner| ring.suspect(corner)).collect());
         ring
+    }
+
+    fn suspect(&self, corner: usize) -> Suspect {
+        let Coord { x, y } = self.points[corner];
+        Suspect::new([x, y], corner)
     }
 
     /// A corner between its neighbours.
@@ -96,29 +111,81 @@ impl Ring {
         if corner == self.first {
             self.first = after;
         }
-        self.is_suspect[corner] = false;
+        self.suspect_if(false, corner);
         for neighbour in [before, after] {
-            self.is_suspect[neighbour] = self.turn(neighbour) <= 0.0;
+            self.suspect_if(self.turn(neighbour) <= 0.0, neighbour);
+            self.found_in[neighbour] = None;
+        }
+    }
+
+    fn suspect_if(&mut self, is_suspect: bool, corner: usize) {
+        let was_suspect = std::mem::replace(&mut self.is_suspect[corner], is_suspect);
+        match (was_suspect, is_suspect) {
+            (true, false) => drop(self.suspects.remove(&self.suspect(corner))),
+            (false, true) => self.suspects.insert(self.suspect(corner)),
+            _ => (),
         }
     }
 
     /// The first ear at or after a corner. Where there is none the polygon crosses itself or what
     /// is left of it is a line: then the first corner that is not reflex goes, or any.
-    fn next_ear(&self, start: usize) -> usize {
-        let others = std::iter::successors(Some(self.after[start]), |&last| Some(self.after[last]));
-        let corners = || std::iter::once(start).chain(others.clone().take_while(|&c| c != start));
-        let fallback = || corners().find(|&corner| self.turn(corner) >= 0.0);
-        corners().find(|&corner| self.is_ear(corner)).or_else(fallback).unwrap_or(start)
+    fn next_ear(&mut self, start: usize) -> usize {
+        let mut corner = start;
+        loop {
+            if self.is_ear(corner) {
+                return corner;
+            }
+            corner = self.after[corner];
+            if corner == start {
+                return self.first_not_reflex(start).unwrap_or(start);
+            }
+        }
     }
 
-    fn is_ear(&self, corner: usize) -> bool {
-        let ear = self.around(corner);
-        let x = ear.map(|corner| self.points[corner].x);
-        let (least, most) = (x[0].min(x[1]).min(x[2]), x[0].max(x[1]).max(x[2]));
-        let from = self.by_x.partition_point(|&suspect| self.points[suspect].x < least);
-        let near = self.by_x[from..].iter().take_while(|&&at| self.points[at].x <= most);
-        let mut suspects = near.filter(|&&suspect| self.is_suspect[suspect]);
-        self.turn(corner) > 0.0 && !suspects.any(|&at| is_inside(&self.points, ear, at))
+    fn first_not_reflex(&self, start: usize) -> Option<usize> {
+        let others = std::iter::successors(Some(self.after[start]), |&last| Some(self.after[last]));
+        let mut corners =
+            std::iter::once(start).chain(others.take_while(|&corner| corner != start));
+        corners.find(|&corner| self.turn(corner) >= 0.0)
+    }
+
+    fn is_ear(&mut self, corner: usize) -> bool {
+        if self.is_suspect[corner] || self.found_in[corner].is_some_and(|at| self.is_suspect[at]) {
+            return false;
+        }
+        self.found_in[corner] = self.any_inside(self.around(corner));
+        self.found_in[corner].is_none()
+    }
+
+    fn any_inside(&self, ear: [usize; 3]) -> Option<usize> {
+        let corners = ear.map(|corner| self.points[corner]);
+        let near = self.suspects.locate_with_selection_function(Ear { corners });
+        near.map(|suspect| suspect.data).find(|&at| is_inside(&self.points, ear, at))
+    }
+}
+
+/// What of a tree of suspects may be in an ear.
+struct Ear {
+    /// Turning left.
+    corners: [Coord<f64>; 3],
+}
+
+impl Ear {
+    /// Whether the corner of a box that is farthest to the left of a side is not left of it.
+    fn is_beyond(&self, side: usize, bounds: &AABB<[f64; 2]>) -> bool {
+        let [from, to] = [self.corners[side], self.corners[(side + 1) % 3]];
+        let ([low_x, low_y], [high_x, high_y]) = (bounds.lower(), bounds.upper());
+        let x = if to.y > from.y { low_x } else { high_x };
+        let y = if to.x > from.x { high_y } else { low_y };
+        orient2d(from, to, Coord { x, y }) < 0.0
+    }
+}
+
+impl SelectionFunction<Suspect> for Ear {
+    fn should_unpack_parent(&self, bounds: &AABB<[f64; 2]>) -> bool {
+        let corners = self.corners.map(|Coord { x, y }| [x, y]);
+        bounds.intersects(&AABB::from_points(&corners))
+            && !(0..3).any(|side| self.is_beyond(side, bounds))
     }
 }
 
@@ -202,6 +269,31 @@ mod tests {
             let polygon = flat(&polygon);
             let triangles = triangulate(&polygon);
             assert_eq!(triangles.len(), 19_998);
+            assert!(triangles.iter().all(|&triangle| area(&polygon, triangle) >= -1e-6));
+        }
+    }
+
+    //   |\  |\  |\     of the ears of a comb most reach over many teeth, and of a saw that winds
+    //  _| \_| \_| \_   around there is one at a time
+    #[test]
+    fn what_is_in_an_ear_is_found_soon() {
+        let mut comb = vec![[0.0, 0.0], [10_000.0, 0.0]];
+        for tooth in (0..10_000).rev() {
+            comb.extend([[tooth as f32 + 0.5, 0.05], [tooth as f32, 1.0]]);
+        }
+        let winding = |turns: f32, out: f32| {
+            let angle = turns * std::f32::consts::TAU;
+            let radius = 1.0 + turns + out;
+            [radius * angle.cos(), radius * angle.sin()]
+        };
+        let steps = 0..8_000;
+        let outer = steps.clone().map(|step| winding(step as f32 / 400.0, 0.4));
+        let inner = steps.rev().map(|step| winding(step as f32 / 400.0, 0.0));
+        let spiral: Vec<_> = outer.chain(inner).collect();
+        for polygon in [comb, spiral] {
+            let polygon = flat(&polygon);
+            let triangles = triangulate(&polygon);
+            assert_eq!(triangles.len(), polygon.len() - 2);
             assert!(triangles.iter().all(|&triangle| area(&polygon, triangle) >= -1e-6));
         }
     }

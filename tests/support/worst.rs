@@ -204,6 +204,52 @@ pub fn star_cone(points: u32) -> MeshBuffers {
     cone(2 * points, |step| if step % 2 == 0 { 1.0 } else { 0.4 })
 }
 
+/// A wheel of so many teeth, each half as long as the wheel's radius: a prism over a star.
+pub fn star_wheel(teeth: u32) -> MeshBuffers {
+    let steps = 2 * teeth;
+    let place = |step: u32, height: f32| {
+        let [x, y] = turn(f64::from(step) / f64::from(steps));
+        let radius = if step % 2 == 0 { 1.0 } else { 0.5 };
+        [(x * radius) as f32, (y * radius) as f32, height]
+    };
+    let rims = [0.0, 1.0].map(|height| (0..steps).map(move |step| place(step, height)));
+    let hubs = [[0.0; 3], [0.0, 0.0, 1.0]];
+    let points: Vec<Point> = rims.into_iter().flatten().chain(hubs).collect();
+    let indices = (0..steps).flat_map(|step| {
+        let [a, b] = [step, (step + 1) % steps];
+        let [c, d] = [a, b].map(|low| low + steps);
+        let [low, high] = [2 * steps, 2 * steps + 1];
+        [a, b, d, a, d, c, low, b, a, high, c, d]
+    });
+    shaded(&points, &indices.collect::<Vec<u32>>(), FLAT)
+}
+
+/// A comb of so many slanted teeth, whose back is a fan from one of its ends.
+pub fn comb(teeth: u32) -> MeshBuffers {
+    // Of each tooth its tip and the valley behind it; then both ends of the back.
+    let along = |number: u32| {
+        let tooth = f64::from(number / 2);
+        if number % 2 == 0 { [tooth + 1.0, 1.0] } else { [tooth + 1.5, 0.05] }
+    };
+    let ends = [[0.0, 0.0], [f64::from(teeth) + 1.0, 0.0]];
+    let outline: Vec<[f64; 2]> = (0..2 * teeth).map(along).chain(ends).collect();
+    let (from, to, count) = (2 * teeth, 2 * teeth + 1, 2 * teeth + 2);
+    let at = |height: f32| outline.iter().map(move |&[x, y]| [x as f32, y as f32, height]);
+    let points: Vec<Point> = at(0.0).chain(at(1.0)).collect();
+    let back = (0..teeth).flat_map(|tooth| {
+        let valley = 2 * tooth + 1;
+        let before = if tooth == 0 { 0 } else { valley - 2 };
+        let fan = [from, valley, before];
+        if tooth == 0 { vec![fan] } else { vec![fan, [valley, valley - 1, before]] }
+    });
+    let top: Vec<[u32; 3]> = back.chain([[from, to, from - 1]]).collect();
+    let walls =
+        (1..from).map(|step| [step, step - 1]).chain([[0, from], [from, to], [to, from - 1]]);
+    let wall = |[a, b]: [u32; 2]| [a, b, b + count, a, b + count, a + count];
+    let sides = top.iter().flat_map(|&[a, b, c]| [a + count, b + count, c + count, a, c, b]);
+    shaded(&points, &sides.chain(walls.flat_map(wall)).collect::<Vec<u32>>(), FLAT)
+}
+
 /// A cone over a gear of so many teeth.
 pub fn gear_cone(teeth: u32) -> MeshBuffers {
     cone(4 * teeth, |step| if step % 4 < 2 { 1.0 } else { 0.8 })
