@@ -137,9 +137,11 @@ pub fn offsets(
             large.lock().unwrap_or_else(PoisonError::into_inner).push(sector);
             return Offset::none(fan.first);
         }
-        let course = course(surface, chamfers.edges, fan, spread);
-        let placed = course.and_then(|course| place(surface, spread, &course));
-        told(surface, fan, spread, placed)
+        let is_even = is_even(view, faces, fan, spread);
+        let course = course(surface, chamfers.edges, fan, (spread, is_even));
+        let placed = course.and_then(|course| place(surface, (spread, is_even), &course));
+        let is_plain = is_even || is_plain(surface, fan, spread);
+        Offset { is_plain, ..placed.unwrap_or(Offset::none(fan.first)) }
     })?;
     for sector in large.into_inner().unwrap_or_else(PoisonError::into_inner) {
         offsets[sector] = offset_of_large(surface, chamfers, sector, watch)?;
@@ -223,16 +225,30 @@ fn blades<'a>(
     })
 }
 
-/// Where a fan's vertex was placed, or that it stays, with what is known of the fan.
-fn told(surface: Surface, fan: &Fan, spread: &[Blade], placed: Option<Offset>) -> Offset {
-    let is_plain = !fan.is_broken && is_plain(surface.view, surface.faces, spread);
-    Offset { is_plain, ..placed.unwrap_or(Offset::none(fan.first)) }
+/// Whether a fan is one flat face with one texture, as most are: nothing in it bends, or parts.
+fn is_even(view: &View, faces: &Faces, fan: &Fan, spread: &[Blade]) -> bool {
+    let Some((first, rest)) = spread.split_first() else { return false };
+    let face = first.corner.triangle();
+    let (vertex, normal) = (view.vertex_at(first.corner), faces.normal[face]);
+    let mut before = first.corner;
+    let mut goes_on = |blade: &Blade| {
+        let corner = blade.corner;
+        let far = [corner.next(), std::mem::replace(&mut before, corner).prev()];
+        view.vertex_at(corner) == vertex
+            && view.vertex_at(far[0]) == view.vertex_at(far[1])
+            && faces.normal[corner.triangle()] == normal
+            && !faces.is_line(corner.triangle())
+    };
+    !fan.is_broken
+        && normal != DVec3::ZERO
+        && !faces.is_line(face)
+        && rest.iter().all(&mut goes_on)
 }
 
 /// Whether a fan has one vertex, and a plane on every face.
-fn is_plain(view: &View, faces: &Faces, spread: &[Blade]) -> bool {
+fn is_plain(Surface { view, faces, .. }: Surface, fan: &Fan, spread: &[Blade]) -> bool {
     let vertex = view.vertex_at(spread[0].corner);
-    spread.iter().all(|blade| {
+    !fan.is_broken && spread.iter().all(|blade| {
         let triangle = blade.corner.triangle();
         view.vertex_at(blade.corner) == vertex
             && faces.normal[triangle] != DVec3::ZERO
@@ -268,7 +284,12 @@ fn widths(edges: &Edges, fan: &Fan) -> [f64; 2] {
     [first.unwrap_or(any), last.unwrap_or(any)]
 }
 
-fn course(surface: Surface, edges: &Edges, fan: &Fan, spread: &[Blade]) -> Option<Course> {
+fn course(
+    surface: Surface,
+    edges: &Edges,
+    fan: &Fan,
+    (spread, is_even): (&[Blade], bool),
+) -> Option<Course> {
     let (Surface { view, topology, faces }, widths) = (surface, widths(edges, fan));
     let (first, last) = (spread.first()?, spread.last()?);
     let total = last.end;
@@ -282,11 +303,12 @@ fn course(surface: Surface, edges: &Edges, fan: &Fan, spread: &[Blade]) -> Optio
         // Parts that only touch, as at a T-junction, would gape where one of them moves.
         (true, false) | (false, true) if fan.borders_meet => None,
         // At a border the vertex has to stay on it, which no hard edge inside the fan allows.
-        (true, false) | (false, true) if crease(view, faces, spread).is_hard() => None,
+        (true, false) | (false, true) if !is_even && crease(view, faces, spread).is_hard() => None,
         (true, false) => slide(first.corner, Turn::ZERO, &[(total, widths[1])]),
         (false, true) => slide(last.corner, last.angle, &[(total, widths[0])]),
         // One edge on both sides: it ends here, and its chamfer tapers to a point.
         (false, false) if topology.twin[fan.first] == fan.last.prev() => None,
+        (false, false) if is_even => meet(total, spread, widths),
         (false, false) => match crease(view, faces, spread) {
             Crease::None => {
                 slide_on_seam(view, total, spread, widths).or_else(|| meet(total, spread, widths))

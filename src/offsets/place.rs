@@ -27,7 +27,11 @@ const MOST_BEYOND: usize = 16;
 
 /// The offset in space; none where the corner has no plane. Vector and foot lie in one plane, so
 /// that the foot blends to the very place.
-pub fn place(surface: Surface, spread: &[Blade], course: &Course) -> Option<Offset> {
+pub fn place(
+    surface: Surface,
+    (spread, is_even): (&[Blade], bool),
+    course: &Course,
+) -> Option<Offset> {
     let (Surface { view, faces, .. }, within) = (surface, course.corner);
     let on = |plane: Corner| {
         let vector = way(view, faces, course, plane);
@@ -35,7 +39,7 @@ pub fn place(surface: Surface, spread: &[Blade], course: &Course) -> Option<Offs
         Some((vector, foot))
     };
     let own = on(within)?;
-    if is_flat(view, faces, spread, course) && own.1.reach() <= FARTHEST {
+    if (is_even || is_flat(view, faces, spread, course)) && own.1.reach() <= FARTHEST {
         return sound(faces, course, own);
     }
     let steadiest = steadiest(view, faces, spread, within);
