@@ -239,21 +239,19 @@ fn is_even(view: &View, faces: &Faces, fan: &Fan, spread: &[Blade]) -> bool {
             && faces.normal[corner.triangle()] == normal
             && !faces.is_line(corner.triangle())
     };
-    !fan.is_broken
-        && normal != DVec3::ZERO
-        && !faces.is_line(face)
-        && rest.iter().all(&mut goes_on)
+    !fan.is_broken && normal != DVec3::ZERO && !faces.is_line(face) && rest.iter().all(&mut goes_on)
 }
 
 /// Whether a fan has one vertex, and a plane on every face.
 fn is_plain(Surface { view, faces, .. }: Surface, fan: &Fan, spread: &[Blade]) -> bool {
     let vertex = view.vertex_at(spread[0].corner);
-    !fan.is_broken && spread.iter().all(|blade| {
-        let triangle = blade.corner.triangle();
-        view.vertex_at(blade.corner) == vertex
-            && faces.normal[triangle] != DVec3::ZERO
-            && !faces.is_line(triangle)
-    })
+    !fan.is_broken
+        && spread.iter().all(|blade| {
+            let triangle = blade.corner.triangle();
+            view.vertex_at(blade.corner) == vertex
+                && faces.normal[triangle] != DVec3::ZERO
+                && !faces.is_line(triangle)
+        })
 }
 
 /// From a corner to the next and to the previous corner.

@@ -200,7 +200,7 @@ impl FillMap<'_> {
     fn misfit_on(&self, channel: usize, owner: usize, facing: Facing, uvs: &[DVec2]) -> f64 {
         let corners = [self.first(owner)];
         let ground = Ground::new(self.given.surface, channel, &corners);
-        let lie = Lie { triangles: self.fill.triangles, points: &self.points, uvs };
+        let lie = Lie { triangles: self.fill.triangles, points: &self.points, uvs, unsure: uvs };
         misfit(self.given.surface.view, corners[0], facing, channel, &ground, &lie)
     }
 

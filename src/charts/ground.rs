@@ -26,7 +26,7 @@ const MOST_FACES: usize = 64;
 
 /// A triangle of the chart on the texture.
 #[derive(Clone, Copy)]
-struct Face {
+pub struct Face {
     points: [DVec2; 3],
     /// From each point to the next.
     sides: [DVec2; 3],
@@ -123,17 +123,32 @@ impl<'a> Ground<'a> {
         Ground { surface, channel, corners }
     }
 
-    /// Whether some triangles on the texture, of which each is three places in the points, lie on it.
-    pub fn covers(&self, triangles: &[[u32; 3]], points: &[DVec2]) -> bool {
+    /// The triangle at the first of its corners.
+    pub fn own(&self) -> Face {
+        self.face(self.corners[0].triangle())
+    }
+
+    /// Whether that is this one.
+    pub fn is_at(&self, triangle: Triangle) -> bool {
+        self.corners[0].triangle() == triangle
+    }
+
+    /// Whether some triangles on the texture, of which each is three places in the points, lie on it. Of
+    /// some of the points it is not known whether they lie on its own triangle, which is known.
+    pub fn covers(
+        &self,
+        own: &Face,
+        (triangles, points): (&[[u32; 3]], &[DVec2]),
+        unsure: &[DVec2],
+    ) -> bool {
         let corners = |triangle: &[u32; 3]| triangle.map(|place| points[place as usize]);
         // Most chamfers lie on the triangle that they are cut off from, and most of their points right on it.
-        let own = self.face(self.corners[0].triangle());
         let near = LazyCell::new(|| {
             let nears = triangles.iter().map(|triangle| nearness(corners(triangle)));
             nears.fold(f64::INFINITY, f64::min)
         });
-        points.iter().all(|&point| own.holds(point) || own.is_beside(point, *near))
-            || triangles.iter().all(|triangle| self.covers_one(&own, corners(triangle)))
+        unsure.iter().all(|&point| own.holds(point) || own.is_beside(point, *near))
+            || triangles.iter().all(|triangle| self.covers_one(own, corners(triangle)))
     }
 
     /// The same for one triangle, where the face at the first corner is known.
@@ -269,9 +284,14 @@ pub fn uv_point(uv: &Uv, vertex: u32) -> DVec2 {
 /// none.
 pub fn density(view: &View, triangle: Triangle, channel: usize) -> f64 {
     let uv = &view.mesh.uvs[channel];
-    let area = area_vector(view.triangle(triangle)).length();
     let points = triangle.corners().map(|c| uv_point(uv, view.vertex_at(c).index() as u32));
-    if area > 0.0 && !is_line(points) { texture_area(points) / area } else { 0.0 }
+    density_of(view, triangle, &Face::new(points))
+}
+
+/// The same of a triangle that lies so on the texture.
+pub fn density_of(view: &View, triangle: Triangle, face: &Face) -> f64 {
+    let area = area_vector(view.triangle(triangle)).length();
+    if area > 0.0 && !is_line(face.points) { face.area / area } else { 0.0 }
 }
 
 /// Whether rounding its UVs can make a triangle's area vanish: models that are coloured by single
@@ -328,12 +348,12 @@ mod tests {
             DVec2::from(at.map(f64::from))
         };
         let face = [0, 1, 2].map(uv);
-        assert!(ground.covers(&[[0, 1, 2]], &face));
+        assert!(covers(&face));
         let middle = (face[0] + face[1] + face[2]) / 3.0;
-        assert!(ground.covers(&[[0, 1, 2]], &[face[0], face[1], middle]));
+        assert!(covers(&[face[0], face[1], middle]));
         let away = face[0] * 2.0 - middle;
         assert!(
-            !ground.covers(&[[0, 1, 2]], &[face[0], face[1], away]),
+            !covers(&[face[0], face[1], away]),
             "past the end of the chart"
         );
     }
@@ -352,7 +372,7 @@ mod tests {
             .fold([DVec2::INFINITY, DVec2::NEG_INFINITY], |[low, high], [least, most]| {
                 [low.min(least), high.max(most)]
             });
-        let covers = |triangle: [DVec2; 3]| ground.covers(&[[0, 1, 2]], &triangle);
+        let covers = |triangle: [DVec2; 3]| covers(&triangle);
         assert_eq!(across.len(), 24, "two triangles for each side");
         assert!(covers([low, DVec2::new(high.x, low.y), high]));
         assert!(!covers([low, DVec2::new(high.x * 1.1, low.y), high]));
