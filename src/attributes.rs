@@ -325,9 +325,8 @@ fn first_half_edges(
 /// The end of a list.
 const NONE: u32 = u32::MAX;
 
-/// A cluster has a list for each of its vertices, about: that what stands at one place is looked for
-/// among little else.
-const LONG: u32 = 1;
+/// A cluster with this many vertices for each of its lists gets more lists.
+const LONG: u32 = 16;
 
 /// The output vertices of each cluster.
 #[derive(Default)]

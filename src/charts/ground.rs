@@ -348,14 +348,13 @@ mod tests {
             DVec2::from(at.map(f64::from))
         };
         let face = [0, 1, 2].map(uv);
+        let covers =
+            |points: &[DVec2]| ground.covers(&ground.own(), (&[[0, 1, 2]], points), points);
         assert!(covers(&face));
         let middle = (face[0] + face[1] + face[2]) / 3.0;
         assert!(covers(&[face[0], face[1], middle]));
         let away = face[0] * 2.0 - middle;
-        assert!(
-            !covers(&[face[0], face[1], away]),
-            "past the end of the chart"
-        );
+        assert!(!covers(&[face[0], face[1], away]), "past the end of the chart");
     }
 
     /// The sides of the cylinder lie one beside the other in the atlas.
@@ -372,7 +371,9 @@ mod tests {
             .fold([DVec2::INFINITY, DVec2::NEG_INFINITY], |[low, high], [least, most]| {
                 [low.min(least), high.max(most)]
             });
-        let covers = |triangle: [DVec2; 3]| covers(&triangle);
+        let covers = |triangle: [DVec2; 3]| {
+            ground.covers(&ground.own(), (&[[0, 1, 2]], &triangle), &triangle)
+        };
         assert_eq!(across.len(), 24, "two triangles for each side");
         assert!(covers([low, DVec2::new(high.x, low.y), high]));
         assert!(!covers([low, DVec2::new(high.x * 1.1, low.y), high]));
