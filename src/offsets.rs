@@ -215,13 +215,13 @@ fn blades<'a>(
     sectors: &'a Sectors,
     sector: Sector,
 ) -> impl Iterator<Item = Blade> + 'a {
-    let mut start = Turn::ZERO;
+    let mut before: Option<Turn> = None;
     sectors.corners(topology, sector).map(move |corner| {
         let [to_next, to_prev] = arms(view, corner);
         let angle = Turn::between(to_next, to_prev);
-        let blade = Blade { corner, start, angle, end: start.plus(angle) };
-        start = blade.end;
-        blade
+        let end = before.map_or(angle, |before| before.plus(angle));
+        let start = before.replace(end).unwrap_or(Turn::ZERO);
+        Blade { corner, start, angle, end }
     })
 }
 

@@ -2,8 +2,6 @@
 //!
 //! And density: how much texture a triangle shows for its area.
 
-use std::cell::LazyCell;
-
 use glam::DVec2;
 
 use crate::breaks::seam_between;
@@ -143,11 +141,12 @@ impl<'a> Ground<'a> {
     ) -> bool {
         let corners = |triangle: &[u32; 3]| triangle.map(|place| points[place as usize]);
         // Most chamfers lie on the triangle that they are cut off from, and most of their points right on it.
-        let near = LazyCell::new(|| {
-            let nears = triangles.iter().map(|triangle| nearness(corners(triangle)));
-            nears.fold(f64::INFINITY, f64::min)
-        });
-        unsure.iter().all(|&point| own.holds(point) || own.is_beside(point, *near))
+        if unsure.iter().all(|&point| own.holds(point)) {
+            return true;
+        }
+        let nears = triangles.iter().map(|triangle| nearness(corners(triangle)));
+        let near = nears.fold(f64::INFINITY, f64::min);
+        unsure.iter().all(|&point| own.is_below(point, near))
             || triangles.iter().all(|triangle| self.covers_one(own, corners(triangle)))
     }
 

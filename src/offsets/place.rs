@@ -33,15 +33,34 @@ pub fn place(
     course: &Course,
 ) -> Option<Offset> {
     let (Surface { view, faces, .. }, within) = (surface, course.corner);
-    let on = |plane: Corner| {
-        let vector = way(view, faces, course, plane);
-        let foot = locate(view, carrier(faces, plane), view.position_at(within), vector)?;
-        Some((vector, foot))
-    };
-    let own = on(within)?;
+    let own = on(surface, course, within)?;
     if (is_even || is_flat(view, faces, spread, course)) && own.1.reach() <= FARTHEST {
         return sound(faces, course, own);
     }
+    place_by_others(surface, spread, course, own)
+}
+
+/// A vector, and where it ends.
+type Way = (DVec3, Foot);
+
+/// Where a course leads in the plane of a triangle at the fan's centre.
+#[inline(always)]
+fn on(Surface { view, faces, .. }: Surface, course: &Course, plane: Corner) -> Option<Way> {
+    let vector = way(view, faces, course, plane);
+    let foot = locate(view, carrier(faces, plane), view.position_at(course.corner), vector)?;
+    Some((vector, foot))
+}
+
+/// The same where larger triangles tell more of it, or the own one too little.
+#[inline(never)]
+fn place_by_others(
+    surface: Surface,
+    spread: &[Blade],
+    course: &Course,
+    own: Way,
+) -> Option<Offset> {
+    let (Surface { view, faces, .. }, within) = (surface, course.corner);
+    let on = |plane: Corner| on(surface, course, plane);
     let steadiest = steadiest(view, faces, spread, within);
     let steady = if steadiest == within { own } else { on(steadiest)? };
     let is_level = |one: DVec3, other: DVec3| one.distance(other) <= view.resolution * LEVEL_HEIGHT;
@@ -54,7 +73,8 @@ pub fn place(
     sound(faces, course, beyond.unwrap_or(told))
 }
 
-fn sound(faces: &Faces, course: &Course, (vector, foot): (DVec3, Foot)) -> Option<Offset> {
+#[inline]
+fn sound(faces: &Faces, course: &Course, (vector, foot): Way) -> Option<Offset> {
     let within = course.corner;
     let is_sound = faces.normal[within.triangle()] != DVec3::ZERO && vector.is_finite();
     let Course { is_capped, .. } = *course;
