@@ -155,6 +155,7 @@ impl<'a> Ground<'a> {
         let mut samples = Samples::new(triangle);
         let own_triangle = self.corners[0].triangle();
         samples.lie_on(own)
+            || self.across().is_some_and(|across| samples.lie_on(&self.face(across)))
             || self.any_corner(|corner| {
                 corner.triangle() != own_triangle && samples.lie_on(&self.face(corner.triangle()))
             })
@@ -162,6 +163,13 @@ impl<'a> Ground<'a> {
                 .below(triangle, samples.near)
                 .into_iter()
                 .any(|face| samples.lie_on(&self.face(face)))
+    }
+
+    /// The triangle of the chart beyond the first half-edge: what does not lie on the own one lies mostly
+    /// there, and is soon found so.
+    fn across(&self) -> Option<Triangle> {
+        let side = self.corners[0];
+        self.runs_on(side).then(|| self.surface.topology.twin[side].triangle())
     }
 
     /// The triangles of the chart that reach below one on the texture, as far as they follow on each
