@@ -233,7 +233,7 @@ impl Streams {
         // A fill often takes what a strip beside it has taken.
         let list = self.index.list_at(cluster, self.vertices.positions[of as usize]);
         let copies = self.sources.copies(of as usize, taken.place, taken.channels);
-        if let Some(copy) = self.index.find(list, copies) {
+        if let Some(copy) = self.index.find_since(self.sources.first_continuing(), list, copies) {
             return copy;
         }
         let own = of as usize;

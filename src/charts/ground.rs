@@ -40,9 +40,8 @@ impl Face {
 
     /// Whether a point is on it, with no margin.
     fn holds(&self, point: DVec2) -> bool {
-        let turns = [0, 1, 2].map(|k| self.turn(k, point));
-        let is_inside = |sign: f64| turns.iter().all(|turn| turn * sign >= 0.0);
-        self.area != 0.0 && is_inside(1.0_f64.copysign(self.area))
+        let sign = 1.0_f64.copysign(self.area);
+        self.area != 0.0 && (0..3).all(|side| self.turn(side, point) * sign >= 0.0)
     }
 
     /// On which side of one of its sides a point is.

@@ -281,6 +281,14 @@ pub fn lay_strip(
 ) -> Triangle {
     let Given { surface, placement, attributes, .. } = *given;
     let hard = &given.chamfers.edges.hard[edge];
+    let face = hard.sides[owner].triangle();
+    // Of most meshes that is all.
+    if let (&[channel], Some(band)) = (given.channels, band.filter(|_| hard.seams != 0)) {
+        let feet = places(owner).into_iter().zip(band.far);
+        let feet = feet.filter_map(|([_, point], place)| Some((point as u32, place?)));
+        taken_at.extend(feet.map(|(at, place)| (at, Taken { channels: 1 << channel, place })));
+        return face;
+    }
     let map =
         LazyCell::new(|| StripMap::new(surface, placement, attributes, hard, strip.triangles));
     let (mut taken, mut channels): (Feet, [u8; 4]) = ([None; 4], [0; 4]);
@@ -305,5 +313,5 @@ pub fn lay_strip(
             taken_at.push((point as u32, Taken { channels: channels[point], place }));
         }
     }
-    hard.sides[owner].triangle()
+    face
 }
