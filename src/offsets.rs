@@ -35,7 +35,7 @@ use crate::watch::{Times, Watch};
 use fronts::follow;
 pub use fronts::{narrow, narrow_all, parts};
 use large::{MANY_CORNERS, offset_of_large};
-use place::place;
+use place::{Way, place};
 
 /// No vertex moves farther than this many widths: between edges that meet at less than 39 degrees
 /// the exact distance shoots out, and a tip would lose its point. The corners of ramps and
@@ -130,18 +130,20 @@ pub fn offsets(
         if let Some(offset) = known.and_then(|known| known.of(topology, sectors, sector)) {
             return offset;
         }
-        let (fan, mut blades) = (&sectors.fans[sector], blades(view, topology, sectors, sector));
+        let fan = &sectors.fans[sector];
         spread.clear();
-        spread.extend(blades.by_ref().take(MANY_CORNERS));
-        if blades.next().is_some() {
-            large.lock().unwrap_or_else(PoisonError::into_inner).push(sector);
-            return Offset::none(fan.first);
+        for blade in blades(view, topology, sectors, sector) {
+            if spread.len() == MANY_CORNERS {
+                large.lock().unwrap_or_else(PoisonError::into_inner).push(sector);
+                return Offset::none(fan.first);
+            }
+            spread.push(blade);
         }
         let is_even = is_even(view, faces, fan, spread);
         let course = course(surface, chamfers.edges, fan, (spread, is_even));
-        let placed = course.and_then(|course| place(surface, (spread, is_even), &course));
+        let way = course.as_ref().and_then(|course| place(surface, (spread, is_even), course));
         let is_plain = is_even || is_plain(surface, fan, spread);
-        Offset { is_plain, ..placed.unwrap_or(Offset::none(fan.first)) }
+        Offset { is_plain, ..told(fan, course, way) }
     })?;
     for sector in large.into_inner().unwrap_or_else(PoisonError::into_inner) {
         offsets[sector] = offset_of_large(surface, chamfers, sector, watch)?;
@@ -223,6 +225,17 @@ fn blades<'a>(
         let start = before.replace(end).unwrap_or(Turn::ZERO);
         Blade { corner, start, angle, end }
     })
+}
+
+/// Where the vertex of a fan goes, or that it stays.
+#[inline]
+fn told(fan: &Fan, course: Option<Course>, way: Option<Way>) -> Offset {
+    match (course, way) {
+        (Some(Course { corner, is_capped, .. }), Some((vector, foot))) => {
+            Offset { vector, foot, is_capped, ..Offset::none(corner) }
+        }
+        _ => Offset::none(fan.first),
+    }
 }
 
 /// Whether a fan is one flat face with one texture, as most are: nothing in it bends, or parts.
