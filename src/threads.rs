@@ -420,6 +420,20 @@ mod tests {
     }
 
     #[test]
+    fn what_is_gathered_stands_in_the_order_of_its_ids() {
+        for threads in [1, 3] {
+            let threads = Threads::new(threads, 100_000);
+            let (mut all, count) = (Vec::new(), 3 * STEPS + 1);
+            let add = |vertex: Vertex, some: &mut Vec<Vertex>| {
+                some.extend(std::iter::repeat_n(vertex, vertex.index() % 3));
+            };
+            threads.gather((count, &Unwatched), &mut all, add, Vec::append).unwrap();
+            let expected = (0..count).flat_map(|k| std::iter::repeat_n(Vertex::new(k), k % 3));
+            assert!(all.into_iter().eq(expected));
+        }
+    }
+
+    #[test]
     fn large_counts_are_told_again_and_again() {
         for threads in [1, 2] {
             let threads = &Threads::new(threads, 100_000);

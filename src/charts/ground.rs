@@ -153,8 +153,8 @@ impl<'a> Ground<'a> {
         let near = nears.fold(f64::INFINITY, f64::min);
         let at = self.corners[0];
         unsure.iter().all(|&point| own.is_below(point, near))
-            || [at, at.prev()].into_iter().any(|side| self.lie_on_two(own, side, points))
-            || self.lie_around(points)
+            || [at, at.prev()].into_iter().any(|side| self.lie_on_two(own, side, (unsure, near)))
+            || self.corners.len() == 1 && self.lie_around(points)
             || triangles.iter().all(|triangle| self.covers_one(own, corners(triangle)))
     }
 
@@ -173,9 +173,9 @@ impl<'a> Ground<'a> {
                 .any(|face| samples.lie_on(&self.face(face)))
     }
 
-    /// Whether some points lie on the own triangle and on that beyond one of its sides, and these two are
-    /// convex together: then all between the points does so, too.
-    fn lie_on_two(&self, own: &Face, side: Corner, points: &[DVec2]) -> bool {
+    /// Whether some points lie on the own triangle and on that beyond one of its sides, or as near to them,
+    /// and these two are convex together: then all between the points does so, too.
+    fn lie_on_two(&self, own: &Face, side: Corner, (points, near): (&[DVec2], f64)) -> bool {
         if !self.runs_on(side) {
             return false;
         }
@@ -188,7 +188,7 @@ impl<'a> Ground<'a> {
         is_convex
             && [from, to] == [start, end]
             && own.area * beyond.area > 0.0
-            && points.iter().all(|&point| own.holds(point) || beyond.holds(point))
+            && points.iter().all(|&at| own.is_below(at, near) || beyond.is_below(at, near))
     }
 
     /// Whether the chart goes on all around the first corner, at least as far as some points are from it:
@@ -461,10 +461,10 @@ mod tests {
         let (own, beyond) = (ground.own(), ground.face(stages.topology.twin[inner[0]].triangle()));
         let middle = |face: &Face| (face.points[0] + face.points[1] + face.points[2]) / 3.0;
         let points = [own.points[0], middle(&own), middle(&beyond)];
-        assert!(ground.lie_on_two(&own, inner[0], &points));
+        assert!(ground.lie_on_two(&own, inner[0], (&points, 0.0)));
         let outside = beyond.from(stages.topology.twin[inner[0]])[2] * 2.0 - middle(&own);
-        assert!(!ground.lie_on_two(&own, inner[0], &[points[0], points[1], outside]));
-        assert!(!ground.lie_on_two(&own, inner[0].next(), &points), "past a seam");
+        assert!(!ground.lie_on_two(&own, inner[0], (&[points[0], points[1], outside], 0.0)));
+        assert!(!ground.lie_on_two(&own, inner[0].next(), (&points, 0.0)), "past a seam");
     }
 
     /// The sides of the cylinder lie one beside the other in the atlas.

@@ -183,8 +183,10 @@ mod tests {
 
     use super::*;
     use crate::given::tests::given_of;
+    use crate::ids::IdVec;
     use crate::shapes;
     use crate::stages::stages_of;
+    use crate::watch::Unwatched;
 
     #[test]
     fn a_triangle_may_not_turn_from_its_vertex_normals() {
@@ -224,6 +226,30 @@ mod tests {
         };
         assert!(keeps_side(1.0));
         assert!(!keeps_side(8.0));
+    }
+
+    /// At whatever shares, and of whatever is wide or narrow: where nothing is looked at, nothing would be
+    /// found.
+    #[test]
+    fn what_is_surely_valid_is_valid() {
+        let mut sure = 0;
+        for (_, mesh) in shapes::demo_models() {
+            for width in [0.002, 0.01, 0.05, 0.2] {
+                let stages = stages_of(&mesh, width);
+                let given = Given { offsets: &stages.narrowed, ..given_of(&stages) };
+                for seed in 0..4 {
+                    let share = |sector: u32| f64::from((sector * 37 + seed * 11) % 17) / 16.0;
+                    let shares = (0..stages.sectors.fans.len() as u32).map(share).collect();
+                    let placement = given.placement(IdVec::from_vec(shares), &Unwatched).unwrap();
+                    let all = stages.view.triangles();
+                    for triangle in all.filter(|&t| is_surely_valid(&given, &placement, t)) {
+                        assert!(is_valid(&given, &placement, Element::Surface(triangle)));
+                        sure += 1;
+                    }
+                }
+            }
+        }
+        assert!(sure > 1000, "{sure}");
     }
 
     // .-------.      a cube's edges pulled past their old lines, and one corner of it pulled by unlike
