@@ -423,7 +423,7 @@ mod tests {
     fn what_is_gathered_stands_in_the_order_of_its_ids() {
         for threads in [1, 3] {
             let threads = Threads::new(threads, 100_000);
-            let (mut all, count) = (Vec::new(), 3 * STEPS + 1);
+            let (mut all, count) = (Vec::new(), 3 * STEPS + 2 * BLOCK + 2);
             let add = |vertex: Vertex, some: &mut Vec<Vertex>| {
                 some.extend(std::iter::repeat_n(vertex, vertex.index() % 3));
             };
