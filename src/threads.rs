@@ -163,7 +163,9 @@ impl Threads {
         (count, watch): (usize, &dyn Watch),
         all: &mut T,
         add: impl Fn(I, &mut T) + Sync + Send,
-        append: impl Fn(&mut T, &mut T) + Sync + Send,
+        #[cfg_attr(not(feature = "parallel"), allow(unused_variables))] append: impl Fn(&mut T, &mut T)
+        + Sync
+        + Send,
     ) -> Result<(), Error> {
         #[cfg(feature = "parallel")]
         if let Some(pool) = &self.pool {
