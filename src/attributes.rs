@@ -372,6 +372,17 @@ impl Index {
         (listed != NONE).then_some(listed)
     }
 
+    /// The same, of those that were added since there were so many vertices: they come first.
+    pub fn find_since(
+        &self,
+        first: usize,
+        list: usize,
+        is_such: impl Fn(u32) -> bool,
+    ) -> Option<u32> {
+        let is_over = |listed: u32| (listed as usize) < first;
+        self.find(list, |listed| is_over(listed) || is_such(listed)).filter(|&at| !is_over(at))
+    }
+
     /// Leaves the next new vertex out of all lists, and tells its number.
     pub fn skip(&mut self) -> u32 {
         self.next.push(NONE);

@@ -72,12 +72,12 @@ pub fn ring_fill(placement: &Placement, sectors: &[Sector], resolution: f64) -> 
 /// As [`fill`], for most holes by far, and without the triangles.
 pub fn can_fill(points: [DVec3; 3], normals: [DVec3; 3], resolution: f64) -> bool {
     // Where two stand at one point there is no hole.
-    !are_distinct(&points) || faces_out(points, normals, resolution)
+    !is_open(points) || faces_out(points, normals, resolution)
 }
 
-/// Whether such a hole can be filled and there is one.
-pub fn has_fill(points: [DVec3; 3], normals: [DVec3; 3], resolution: f64) -> bool {
-    are_distinct(&points) && faces_out(points, normals, resolution)
+/// Whether three points have a hole between them.
+pub fn is_open([a, b, c]: [DVec3; 3]) -> bool {
+    a != b && a != c && b != c
 }
 
 /// The mean of some points of a ring: where its middle vertex stands.

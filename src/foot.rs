@@ -47,6 +47,7 @@ impl Foot {
 
 /// The way from a point along a vector, projected onto the plane of a corner's triangle; none
 /// where the triangle has no area.
+#[inline]
 pub fn locate(view: &View, corner: Corner, from: DVec3, vector: DVec3) -> Option<Foot> {
     let at = view.position_at(corner);
     let to_next = view.position_at(corner.next()) - at;

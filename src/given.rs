@@ -26,6 +26,8 @@ pub struct Given<'a> {
     pub rests: &'a Rests,
     /// `#clusters`: see [`deep`].
     pub deep: &'a IdVec<Cluster, bool>,
+    /// `#triangles`: see [`crate::room::Room`]; none of them as long as that is not known.
+    pub plenty: &'a IdVec<Triangle, bool>,
     pub threads: &'a Threads,
 }
 
@@ -71,8 +73,8 @@ pub mod tests {
 
     /// What the limits of some stages are found from.
     pub fn given_of<'a>(stages: &'a Stages) -> Given<'a> {
-        let Stages { offsets, rests, deep, threads, .. } = stages;
+        let Stages { offsets, rests, deep, plenty, threads, .. } = stages;
         let (surface, chamfers) = (stages.surface(), stages.chamfers());
-        Given { surface, chamfers, offsets, apart: None, rests, deep, threads }
+        Given { surface, chamfers, offsets, apart: None, rests, deep, plenty, threads }
     }
 }

@@ -34,7 +34,7 @@ impl Turn {
     fn below_half(ahead: f64, aside: f64, length: f64) -> Turn {
         let (cos, sin) = (ahead / length, aside / length);
         if length > 0.0 && sin == 0.0 && cos < 0.0 {
-            Turn { half_turns: 1, cos: -cos, sin: -sin }
+            Turn { half_turns: 1, cos: -cos, sin: 0.0 }
         } else if length > 0.0 {
             Turn { half_turns: 0, cos, sin }
         } else {

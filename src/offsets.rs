@@ -35,7 +35,7 @@ use crate::watch::{Times, Watch};
 use fronts::follow;
 pub use fronts::{narrow, narrow_all, parts};
 use large::{MANY_CORNERS, offset_of_large};
-use place::place;
+use place::{Way, place};
 
 /// No vertex moves farther than this many widths: between edges that meet at less than 39 degrees
 /// the exact distance shoots out, and a tip would lose its point. The corners of ramps and
@@ -130,16 +130,20 @@ pub fn offsets(
         if let Some(offset) = known.and_then(|known| known.of(topology, sectors, sector)) {
             return offset;
         }
-        let (fan, mut blades) = (&sectors.fans[sector], blades(view, topology, sectors, sector));
+        let fan = &sectors.fans[sector];
         spread.clear();
-        spread.extend(blades.by_ref().take(MANY_CORNERS));
-        if blades.next().is_some() {
-            large.lock().unwrap_or_else(PoisonError::into_inner).push(sector);
-            return Offset::none(fan.first);
+        for blade in blades(view, topology, sectors, sector) {
+            if spread.len() == MANY_CORNERS {
+                large.lock().unwrap_or_else(PoisonError::into_inner).push(sector);
+                return Offset::none(fan.first);
+            }
+            spread.push(blade);
         }
-        let course = course(surface, chamfers.edges, fan, spread);
-        let placed = course.and_then(|course| place(surface, spread, &course));
-        told(surface, fan, spread, placed)
+        let is_even = is_even(view, faces, fan, spread);
+        let course = course(surface, chamfers.edges, fan, (spread, is_even));
+        let way = course.as_ref().and_then(|course| place(surface, (spread, is_even), course));
+        let is_plain = is_even || is_plain(surface, fan, spread);
+        Offset { is_plain, ..told(fan, course, way) }
     })?;
     for sector in large.into_inner().unwrap_or_else(PoisonError::into_inner) {
         offsets[sector] = offset_of_large(surface, chamfers, sector, watch)?;
@@ -213,31 +217,54 @@ fn blades<'a>(
     sectors: &'a Sectors,
     sector: Sector,
 ) -> impl Iterator<Item = Blade> + 'a {
-    let mut start = Turn::ZERO;
+    let mut before: Option<Turn> = None;
     sectors.corners(topology, sector).map(move |corner| {
         let [to_next, to_prev] = arms(view, corner);
         let angle = Turn::between(to_next, to_prev);
-        let blade = Blade { corner, start, angle, end: start.plus(angle) };
-        start = blade.end;
-        blade
+        let end = before.map_or(angle, |before| before.plus(angle));
+        let start = before.replace(end).unwrap_or(Turn::ZERO);
+        Blade { corner, start, angle, end }
     })
 }
 
-/// Where a fan's vertex was placed, or that it stays, with what is known of the fan.
-fn told(surface: Surface, fan: &Fan, spread: &[Blade], placed: Option<Offset>) -> Offset {
-    let is_plain = !fan.is_broken && is_plain(surface.view, surface.faces, spread);
-    Offset { is_plain, ..placed.unwrap_or(Offset::none(fan.first)) }
+/// Where the vertex of a fan goes, or that it stays.
+#[inline]
+fn told(fan: &Fan, course: Option<Course>, way: Option<Way>) -> Offset {
+    match (course, way) {
+        (Some(Course { corner, is_capped, .. }), Some((vector, foot))) => {
+            Offset { vector, foot, is_capped, ..Offset::none(corner) }
+        }
+        _ => Offset::none(fan.first),
+    }
+}
+
+/// Whether a fan is one flat face with one texture, as most are: nothing in it bends, or parts.
+fn is_even(view: &View, faces: &Faces, fan: &Fan, spread: &[Blade]) -> bool {
+    let Some((first, rest)) = spread.split_first() else { return false };
+    let face = first.corner.triangle();
+    let (vertex, normal) = (view.vertex_at(first.corner), faces.normal[face]);
+    let mut before = first.corner;
+    let mut goes_on = |blade: &Blade| {
+        let corner = blade.corner;
+        let far = [corner.next(), std::mem::replace(&mut before, corner).prev()];
+        view.vertex_at(corner) == vertex
+            && view.vertex_at(far[0]) == view.vertex_at(far[1])
+            && faces.normal[corner.triangle()] == normal
+            && !faces.is_line(corner.triangle())
+    };
+    !fan.is_broken && normal != DVec3::ZERO && !faces.is_line(face) && rest.iter().all(&mut goes_on)
 }
 
 /// Whether a fan has one vertex, and a plane on every face.
-fn is_plain(view: &View, faces: &Faces, spread: &[Blade]) -> bool {
+fn is_plain(Surface { view, faces, .. }: Surface, fan: &Fan, spread: &[Blade]) -> bool {
     let vertex = view.vertex_at(spread[0].corner);
-    spread.iter().all(|blade| {
-        let triangle = blade.corner.triangle();
-        view.vertex_at(blade.corner) == vertex
-            && faces.normal[triangle] != DVec3::ZERO
-            && !faces.is_line(triangle)
-    })
+    !fan.is_broken
+        && spread.iter().all(|blade| {
+            let triangle = blade.corner.triangle();
+            view.vertex_at(blade.corner) == vertex
+                && faces.normal[triangle] != DVec3::ZERO
+                && !faces.is_line(triangle)
+        })
 }
 
 /// From a corner to the next and to the previous corner.
@@ -268,7 +295,12 @@ fn widths(edges: &Edges, fan: &Fan) -> [f64; 2] {
     [first.unwrap_or(any), last.unwrap_or(any)]
 }
 
-fn course(surface: Surface, edges: &Edges, fan: &Fan, spread: &[Blade]) -> Option<Course> {
+fn course(
+    surface: Surface,
+    edges: &Edges,
+    fan: &Fan,
+    (spread, is_even): (&[Blade], bool),
+) -> Option<Course> {
     let (Surface { view, topology, faces }, widths) = (surface, widths(edges, fan));
     let (first, last) = (spread.first()?, spread.last()?);
     let total = last.end;
@@ -282,11 +314,12 @@ fn course(surface: Surface, edges: &Edges, fan: &Fan, spread: &[Blade]) -> Optio
         // Parts that only touch, as at a T-junction, would gape where one of them moves.
         (true, false) | (false, true) if fan.borders_meet => None,
         // At a border the vertex has to stay on it, which no hard edge inside the fan allows.
-        (true, false) | (false, true) if crease(view, faces, spread).is_hard() => None,
+        (true, false) | (false, true) if !is_even && crease(view, faces, spread).is_hard() => None,
         (true, false) => slide(first.corner, Turn::ZERO, &[(total, widths[1])]),
         (false, true) => slide(last.corner, last.angle, &[(total, widths[0])]),
         // One edge on both sides: it ends here, and its chamfer tapers to a point.
         (false, false) if topology.twin[fan.first] == fan.last.prev() => None,
+        (false, false) if is_even => meet(total, spread, widths),
         (false, false) => match crease(view, faces, spread) {
             Crease::None => {
                 slide_on_seam(view, total, spread, widths).or_else(|| meet(total, spread, widths))

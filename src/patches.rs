@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use crate::chamfers::Chamfers;
 use crate::error::Error;
-use crate::fills::{has_fill, middle, ring_fill};
+use crate::fills::{is_open, middle, ring_fill};
 use crate::ids::{Corner, Edge, Few, Id, Patch, Ring, Sector, Vertex};
 use crate::math::unit;
 use crate::placement::Placement;
@@ -23,7 +23,8 @@ use crate::watch::Watch;
 /// not open has no triangles.
 #[derive(Default)]
 pub struct Patches {
-    /// `#patches`: where the parts of each end.
+    /// `1 + #patches`: where the parts of each end, after where the first ones begin; without that in
+    /// those that are appended to others.
     ends: Vec<[u32; 3]>,
     joints: Vec<Corner>,
     middles: Vec<Middle>,
@@ -86,8 +87,10 @@ impl Patches {
     /// None yet, and room for so many strips and all fills.
     fn with_room(strips: usize, sectors: &Sectors) -> Patches {
         let (rings, members) = (sectors.rings.len(), sectors.members.len());
+        let mut ends = Vec::with_capacity(1 + strips + rings);
+        ends.push([0; 3]);
         Patches {
-            ends: Vec::with_capacity(strips + rings),
+            ends,
             joints: Vec::with_capacity(4 * strips + members),
             middles: Vec::new(),
             triangles: Vec::with_capacity(2 * strips + members),
@@ -96,11 +99,18 @@ impl Patches {
     }
 
     pub fn len(&self) -> usize {
-        self.ends.len()
+        self.ends.len() - 1
     }
 
     pub fn triangle_count(&self) -> usize {
         self.triangles.len()
+    }
+
+    /// The triangles of a patch, as in its parts.
+    #[inline]
+    pub fn triangles(&self, patch: Patch) -> &[[u32; 3]] {
+        let [[.., from], [.., to]] = [0, 1].map(|k| self.ends[patch.index() + k]);
+        &self.triangles[from as usize..to as usize]
     }
 
     /// What becomes of an edge.
@@ -129,7 +139,7 @@ impl Patches {
     #[inline]
     pub fn parts(&self, patch: Patch) -> Parts<'_> {
         let place = patch.index();
-        let [from, to] = [place.checked_sub(1).map_or([0; 3], |k| self.ends[k]), self.ends[place]];
+        let [from, to] = [self.ends[place], self.ends[place + 1]];
         let range = |k: usize| from[k] as usize..to[k] as usize;
         Parts {
             joints: &self.joints[range(0)],
@@ -145,16 +155,15 @@ impl Patches {
         sectors: &[Sector],
         first: impl Fn(Sector) -> Corner,
     ) {
+        // Limits end with fills that are valid, or with rings that did not move.
         if let [a, b, c] = *sectors {
             let points = [a, b, c].map(|sector| placement.point[sector]);
-            let normals = [a, b, c].map(|sector| placement.normals[sector][0]);
-            if has_fill(points, normals, view.resolution) {
+            if is_open(points) {
                 self.joints.extend([a, b, c].map(first));
                 self.triangles.push([0, 1, 2]);
             }
             return;
         }
-        // Limits end with fills that are valid, or with rings that did not move.
         let Some(fill) = ring_fill(placement, sectors, view.resolution) else { return };
         if fill.triangles.is_empty() {
             return;

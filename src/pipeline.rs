@@ -31,7 +31,7 @@ use crate::refine::{
 };
 use crate::report::{Chamfered, EdgeVerdict, Totals};
 use crate::rests::{Most, Rests, rests};
-use crate::room::room;
+use crate::room::{Room, room};
 use crate::rounding::{Given as Rounds, Lessen, Rounding, Rows, Search, Triangles, rounding};
 use crate::scale::{Scale, Space};
 use crate::scene::{Placed, chamfer_scene};
@@ -496,20 +496,29 @@ fn make(
     let mut ask = || done(None);
     let watch = Caller::new(&mut ask);
     let deep = &deep(topology, chamfers.sectors, &watch)?;
-    let (none, nowhere) = (&Rests::default(), &IdVec::default());
-    let base =
-        Given { surface, chamfers, offsets: nowhere, apart: None, rests: none, deep, threads };
+    let (none, nowhere, plenty) = (&Rests::default(), &IdVec::default(), &IdVec::default());
+    let base = Given {
+        offsets: nowhere,
+        rests: none,
+        surface,
+        chamfers,
+        apart: None,
+        deep,
+        plenty,
+        threads,
+    };
     let asked = &Given { offsets: &offsets, ..base };
-    let room = evenness(asked, room(asked, &watch)?, options.evenness.into(), &watch)?;
-    narrow_all(surface, chamfers.sectors, &mut offsets, &room.fronts, &watch)?;
+    let mut room = evenness(asked, room(asked, &watch)?, options.evenness.into(), &watch)?;
+    let narrowed = (&mut offsets, &mut room.plenty);
+    narrow_all(surface, chamfers.sectors, narrowed, &room.fronts, &watch)?;
     let asked = &Given { offsets: &offsets, ..base };
     let shares = room.shares(asked, &watch)?;
     // The stages to come take far more memory than these, so what they do not read is given back.
-    drop(room);
+    let Room { plenty, .. } = room;
     watch.worked(view.corner_count())?;
     let most = Most { offsets: &offsets, shares: &shares };
     let rests = &rests(surface, chamfers, contacts, most, (threads, &watch))?;
-    let given = &Given { rests, ..*asked };
+    let given = &Given { rests, plenty: &plenty, ..*asked };
     let mut limits = self::limits(given, &shares, options.verify, &watch)?;
     let apart = apart(surface, chamfers.sectors, &limits.placement, options.segments, &watch)?;
     if apart.is_some() {

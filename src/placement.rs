@@ -126,16 +126,14 @@ impl<'a> Placement<'a> {
         if sector.is_none() { self.surface.view.position_at(corner) } else { self.point[sector] }
     }
 
-    /// Where a corner stands now, and its normal there, if it is the first (0) or the last (1) one of its
-    /// sector.
-    #[inline(always)]
-    pub fn stand_at(&self, corner: Corner, end: usize) -> (DVec3, DVec3) {
+    /// The normal at a corner that is the first (0) or the last (1) one of its sector.
+    #[inline]
+    pub fn normal_at_end(&self, corner: Corner, end: usize) -> DVec3 {
         let sector = self.sectors.sector_of[corner];
         if sector.is_none() {
-            let view = self.surface.view;
-            return (view.position_at(corner), view.normal_at(corner));
+            return self.surface.view.normal_at(corner);
         }
-        (self.point[sector], self.normals[sector][end])
+        self.normals[sector][end]
     }
 
     /// The normal at a corner; between the first and the last corner of a sector, the last one's.

@@ -14,11 +14,11 @@ use glam::DVec3;
 
 use crate::error::Error;
 use crate::given::Given;
-use crate::ids::{Corner, Few, Id, IdVec, Sector, Triangle};
+use crate::ids::{Corner, Few, IdVec, Sector, Triangle};
 use crate::math::area_vector;
 use crate::offsets::parts;
 use crate::resample::told_share;
-use crate::watch::{Watch, sort, stretches};
+use crate::watch::{Watch, sort};
 
 /// A triangle may give away all but this share of its area. Somewhat more than what validity asks
 /// for, so that rounding does not undo it.
@@ -33,6 +33,9 @@ pub struct Room {
     /// all triangles of the sector.
     pub fronts: IdVec<Sector, [f64; 2]>,
     pub parts: KnownParts,
+    /// `#triangles`: whether it is so large for how far its corners can go that it keeps its way and most
+    /// of its area and breadth wherever they stand.
+    pub plenty: IdVec<Triangle, bool>,
 }
 
 impl Room {
@@ -96,11 +99,17 @@ pub fn room(given: &Given, watch: &dyn Watch) -> Result<Room, Error> {
     let share = |sector: Sector| [if given.offsets[sector].moves() { GROWING } else { 0.0 }; 2];
     let fronts = given.threads.map(given.offsets.len(), watch, share)?;
     let parts = KnownParts::new(fronts.len());
-    let due = IdVec::filled(GROWING, given.surface.faces.normal.len());
-    let (first, later) = (Vec::new(), BinaryHeap::new());
+    let (first, later, due) = (Vec::new(), BinaryHeap::new(), IdVec::default());
     let mut filling = Filling { given, fronts, parts, first, later, due };
-    filling.first = filling.pressed(watch)?;
-    filling.first.iter().for_each(|event| filling.due[event.triangle] = event.share);
+    let triangles = given.surface.faces.normal.len();
+    let plenty = given.threads.map(triangles, watch, |triangle| filling.has_plenty(triangle))?;
+    filling.due = given.threads.map(triangles, watch, |triangle| {
+        let event = if plenty[triangle] { None } else { filling.event(triangle, 0.0) };
+        event.map_or(GROWING, |event| event.share)
+    })?;
+    let pressed = filling.due.ids().filter(|&triangle| filling.due[triangle] != GROWING);
+    let event = |triangle| Event { share: filling.due[triangle], triangle };
+    filling.first = pressed.map(event).collect();
     sort(&mut filling.first, watch)?;
     while let Some(event) = filling.next_event() {
         watch.worked(1)?;
@@ -108,7 +117,7 @@ pub fn room(given: &Given, watch: &dyn Watch) -> Result<Room, Error> {
     }
     let Filling { mut fronts, parts, .. } = filling;
     fronts.iter_mut().for_each(|fronts| *fronts = fronts.map(|share| share.min(1.0)));
-    Ok(Room { fronts, parts })
+    Ok(Room { fronts, parts, plenty })
 }
 
 /// A triangle that has given away all it can when everything has grown to a share.
@@ -188,16 +197,6 @@ impl Filling<'_> {
         triangle.corners().map(|corner| self.given.chamfers.sectors.sector_of[corner])
     }
 
-    /// The events that are known from the beginning, in the order of their triangles.
-    fn pressed(&self, watch: &dyn Watch) -> Result<Vec<Event>, Error> {
-        let mut events = Vec::new();
-        for stretch in stretches(self.due.len(), watch) {
-            let pressed = stretch?.map(Triangle::new).filter(|&t| !self.has_plenty(t));
-            events.extend(pressed.filter_map(|triangle| self.event(triangle, 0.0)));
-        }
-        Ok(events)
-    }
-
     /// The earliest event that is left.
     fn next_event(&mut self) -> Option<Event> {
         // The greater one comes first.
@@ -232,16 +231,19 @@ impl Filling<'_> {
 
     /// Whether a triangle is so large for how far its corners can go that it cannot run out of
     /// anything. They take at most their way along its sides of twice its area, and what two of them
-    /// span; a breadth is that over the length of a side.
+    /// span; a breadth is that over the length of a side. Half of its area is left then, within thirty
+    /// degrees of its old plane, and no side turns around; and as rounding counts, it is so where the
+    /// corners are stored.
     fn has_plenty(&self, triangle: Triangle) -> bool {
+        let view = self.given.surface.view;
         let way = |sector: Sector| {
             if sector.is_some() { self.given.offsets[sector].vector.length_squared() } else { 0.0 }
         };
         let way = self.sectors(triangle).into_iter().map(way).fold(0.0, f64::max).sqrt();
-        let old = self.given.surface.view.triangle(triangle);
+        let (way, old) = (way + view.resolution, view.triangle(triangle));
         let sides = [0, 1, 2].map(|k| old[k].distance(old[(k + 1) % 3]));
         let taken = way * (sides[0] + sides[1] + sides[2] + 3.0 * way);
-        let stays = (1.0 - PLENTY) / self.given.surface.view.least_breadth.max(LEAST_SHARE);
+        let stays = (1.0 - PLENTY) / view.least_breadth.max(LEAST_SHARE);
         let shortest = sides[0].min(sides[1]).min(sides[2]);
         taken < PLENTY * area_vector(old).length()
             && (1.0 + 2.0 * way / shortest) * SAFETY < stays

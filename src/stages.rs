@@ -8,7 +8,7 @@ use crate::edges::{Edges, edges};
 use crate::evenness::evenness;
 use crate::faces::{Faces, faces};
 use crate::given::{Given, deep};
-use crate::ids::{Cluster, IdVec, Sector};
+use crate::ids::{Cluster, IdVec, Sector, Triangle};
 use crate::limits::{Limits, limits};
 use crate::mesh::{Mesh, MeshBuffers};
 use crate::offsets::{Offset, narrow_all, offsets};
@@ -38,6 +38,8 @@ pub struct Stages<'a> {
     pub offsets: IdVec<Sector, Offset>,
     /// With what each edge of a sector has room for.
     pub narrowed: IdVec<Sector, Offset>,
+    /// `#triangles`: see [`crate::room::Room`].
+    pub plenty: IdVec<Triangle, bool>,
     /// How far each sector may go for the room that there is.
     pub shares: IdVec<Sector, f64>,
     pub rests: Rests,
@@ -71,15 +73,18 @@ pub fn stages_of_mesh<'a>(mesh: Mesh<'a>, options: &Options) -> Stages<'a> {
     let chamfers = Chamfers { edges: &edges, sectors: &sectors };
     let offsets = offsets(surface, chamfers, None, (&threads, &Unwatched)).unwrap();
     let deep = deep(&topology, &sectors, &Unwatched).unwrap();
-    let (narrowed, shares) = {
+    let (narrowed, shares, plenty) = {
         let (offsets, rests, deep, threads) = (&offsets, &Rests::default(), &deep, &threads);
-        let given = &Given { surface, chamfers, offsets, apart: None, rests, deep, threads };
+        let plenty = &IdVec::default();
+        let given =
+            &Given { surface, chamfers, offsets, apart: None, rests, deep, plenty, threads };
         let room = room(given, &Unwatched).unwrap();
-        let room = evenness(given, room, options.evenness.into(), &Unwatched).unwrap();
+        let mut room = evenness(given, room, options.evenness.into(), &Unwatched).unwrap();
         let mut narrowed = offsets.clone();
-        narrow_all(surface, &sectors, &mut narrowed, &room.fronts, &Unwatched).unwrap();
+        let all = (&mut narrowed, &mut room.plenty);
+        narrow_all(surface, &sectors, all, &room.fronts, &Unwatched).unwrap();
         let shares = room.shares(&Given { offsets: &narrowed, ..*given }, &Unwatched).unwrap();
-        (narrowed, shares)
+        (narrowed, shares, room.plenty)
     };
     let most = Most { offsets: &narrowed, shares: &shares };
     let rests = rests(surface, chamfers, &contacts, most, (&threads, &Unwatched)).unwrap();
@@ -95,6 +100,7 @@ pub fn stages_of_mesh<'a>(mesh: Mesh<'a>, options: &Options) -> Stages<'a> {
         shares,
         rests,
         deep,
+        plenty,
         threads,
     }
 }
@@ -123,9 +129,17 @@ impl Stages<'_> {
 
     pub fn limits(&self, verify: Verify) -> Limits<'_> {
         let (surface, chamfers) = (self.surface(), self.chamfers());
-        let Stages { narrowed, shares, rests, deep, threads, .. } = self;
-        let given =
-            &Given { surface, chamfers, offsets: narrowed, apart: None, rests, deep, threads };
+        let Stages { narrowed, shares, rests, deep, plenty, threads, .. } = self;
+        let given = &Given {
+            surface,
+            chamfers,
+            offsets: narrowed,
+            apart: None,
+            rests,
+            deep,
+            plenty,
+            threads,
+        };
         limits(given, shares, verify, &Unwatched).unwrap()
     }
 
@@ -228,9 +242,17 @@ mod tests {
         let found = contacts_of(&Unwatched).unwrap();
         let selection = selection(view, weld, &Options::default());
         let (surface, chamfers) = (stages.surface(), stages.chamfers());
-        let Stages { offsets: vectors, rests: held, deep, threads, .. } = &stages;
-        let given =
-            &Given { surface, chamfers, offsets: vectors, apart: None, rests: held, deep, threads };
+        let Stages { offsets: vectors, rests: held, deep, plenty, threads, .. } = &stages;
+        let given = &Given {
+            surface,
+            chamfers,
+            offsets: vectors,
+            apart: None,
+            rests: held,
+            deep,
+            plenty,
+            threads,
+        };
         let open = &stages.shares;
         let found_edges = |watch: &dyn Watch| {
             super::edges(view, (topology, faces), &found, &selection, (threads, watch))
@@ -279,7 +301,7 @@ mod tests {
             mesh.submesh_index_counts = vec![mesh.indices.len() as u32];
             let stages = stages_of(&mesh, 0.5);
             let Stages { view, topology, faces, weld, offsets: vectors, .. } = &stages;
-            let Stages { rests: held, deep, threads, shares: open, .. } = &stages;
+            let Stages { rests: held, deep, plenty, threads, shares: open, .. } = &stages;
             let (surface, chamfers) = (stages.surface(), stages.chamfers());
             let given = &Given {
                 surface,
@@ -287,6 +309,7 @@ mod tests {
                 offsets: vectors,
                 rests: held,
                 deep,
+                plenty,
                 threads,
                 apart: None,
             };

@@ -60,29 +60,39 @@ impl Cut {
 
 /// The strip of an edge where the sectors stand now.
 pub fn quad(placement: &Placement, edge: &HardEdge) -> Quad {
-    let [b1, a1, a2, b2] = corners(edge);
+    let corners = corners(edge);
     // A side starts at the first corner of a sector, and ends at the last one of another.
-    let (first, last) = (|at| placement.stand_at(at, 0), |at| placement.stand_at(at, 1));
-    let stands = [last(b1), first(a1), last(a2), first(b2)];
-    let [b1, a1, a2, b2] = stands;
-    Quad { points: [b1.0, a1.0, a2.0, b2.0], normals: [b1.1, a1.1, a2.1, b2.1] }
+    let ends = [1, 0, 1, 0];
+    Quad {
+        points: corners.map(|corner| placement.position_at(corner)),
+        normals: [0, 1, 2, 3].map(|k| placement.normal_at_end(corners[k], ends[k])),
+    }
 }
 
 /// Cuts the strip by the diagonal that folds less.
-pub fn cut([b1, a1, a2, b2]: [DVec3; 4]) -> Cut {
+pub fn cut(points: [DVec3; 4]) -> Cut {
+    let [b1, a1, a2, b2] = points;
     match (a1 == a2, b1 == b2) {
         (true, true) => Cut::Closed,
         (true, false) => Cut::OpenAtB,
         (false, true) => Cut::OpenAtA,
         (false, false) => {
-            let from_b1 = fold([b1, a1, a2], [b1, a2, b2]);
-            let from_a1 = fold([b1, a1, b2], [a1, a2, b2]);
-            let is_longer = b1.distance_squared(a2) > a1.distance_squared(b2);
-            let folds_more = from_b1 < from_a1 - EQUAL_FOLD;
-            let folds_alike = (from_b1 - from_a1).abs() <= EQUAL_FOLD;
-            if folds_more || (folds_alike && is_longer) { Cut::FromA1 } else { Cut::FromB1 }
+            // A parallelogram folds nowhere.
+            let more = if b1 - a1 == b2 - a2 { 0.0 } else { folds_more_from_b1(points) };
+            let is_longer = || b1.distance_squared(a2) > a1.distance_squared(b2);
+            let folds_alike = more.abs() <= EQUAL_FOLD;
+            if more > EQUAL_FOLD || (folds_alike && is_longer()) {
+                Cut::FromA1
+            } else {
+                Cut::FromB1
+            }
         }
     }
+}
+
+/// How much more a strip folds along the diagonal from b1, as a difference of cosines.
+fn folds_more_from_b1([b1, a1, a2, b2]: [DVec3; 4]) -> f64 {
+    fold([b1, a1, b2], [a1, a2, b2]) - fold([b1, a1, a2], [b1, a2, b2])
 }
 
 /// Whether all triangles of the cut strip face outwards, and neither pulled edge runs backwards.

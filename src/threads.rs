@@ -24,6 +24,10 @@ const STEPS_OF_PATCH: usize = 4;
 /// So many ids make notes that stay in the nearest caches.
 const BLOCK: usize = 256;
 
+/// So much work at a time is made by all threads, and appended by one of them while they make the next.
+#[cfg(feature = "parallel")]
+const WAVE: usize = 2 * LEAST_WORK;
+
 /// Up to so many threads, one for each core, however many are asked for.
 #[cfg(feature = "parallel")]
 const MOST_THREADS: usize = 64;
@@ -150,7 +154,7 @@ impl Threads {
     }
 
     /// Adds what is made of each id to all, in ascending order: right there, or by several threads to
-    /// what is then appended, block by block.
+    /// what is then appended, block by block, and empty again.
     ///
     /// # Errors
     /// What `watch` gives, which is told again and again.
@@ -159,11 +163,30 @@ impl Threads {
         (count, watch): (usize, &dyn Watch),
         all: &mut T,
         add: impl Fn(I, &mut T) + Sync + Send,
-        append: impl Fn(&mut T, &mut T),
+        #[cfg_attr(not(feature = "parallel"), allow(unused_variables))] append: impl Fn(&mut T, &mut T)
+        + Sync
+        + Send,
     ) -> Result<(), Error> {
-        if self.count() > 1 {
-            let add = |_: &T, id: I, some: &mut T| add(id, some);
-            return self.blocks_then((count, watch), all, add, append);
+        #[cfg(feature = "parallel")]
+        if let Some(pool) = &self.pool {
+            use rayon::prelude::*;
+            let empty = || (0..WAVE / BLOCK).map(|_| T::default()).collect::<Vec<T>>();
+            let (mut made, mut making) = (empty(), empty());
+            for start in (0..count).step_by(WAVE) {
+                let add_block = |(k, some): (usize, &mut T)| {
+                    let block = start + k * BLOCK..count.min(start + (k + 1) * BLOCK);
+                    block.for_each(|index| add(I::new(index), some));
+                };
+                // What was made before is appended beside.
+                pool.join(
+                    || making.par_iter_mut().enumerate().for_each(add_block),
+                    || made.iter_mut().for_each(|some| append(all, some)),
+                );
+                std::mem::swap(&mut made, &mut making);
+                watch.worked(WAVE * STEPS_OF_PATCH)?;
+            }
+            made.iter_mut().for_each(|some| append(all, some));
+            return Ok(());
         }
         for start in (0..count).step_by(BLOCK) {
             (start..count.min(start + BLOCK)).for_each(|index| add(I::new(index), all));
@@ -395,6 +418,20 @@ mod tests {
                     .into_iter()
                     .eq((0..10_000).filter(|k: &u32| !k.is_multiple_of(3)).map(Vertex))
             );
+        }
+    }
+
+    #[test]
+    fn what_is_gathered_stands_in_the_order_of_its_ids() {
+        for threads in [1, 3] {
+            let threads = Threads::new(threads, 100_000);
+            let (mut all, count) = (Vec::new(), 3 * STEPS + 2 * BLOCK + 2);
+            let add = |vertex: Vertex, some: &mut Vec<Vertex>| {
+                some.extend(std::iter::repeat_n(vertex, vertex.index() % 3));
+            };
+            threads.gather((count, &Unwatched), &mut all, add, Vec::append).unwrap();
+            let expected = (0..count).flat_map(|k| std::iter::repeat_n(Vertex::new(k), k % 3));
+            assert!(all.into_iter().eq(expected));
         }
     }
 

@@ -3,7 +3,7 @@
 use crate::chamfers::Chamfers;
 use crate::edges::HardEdge;
 use crate::error::Error;
-use crate::ids::{Edge, Sector};
+use crate::ids::{Edge, Patch, Sector};
 use crate::limits::Limits;
 use crate::math::{area_vector, unit};
 use crate::patches::Patches;
@@ -29,7 +29,7 @@ pub fn verdicts(
     let Chamfers { edges, sectors } = chamfers;
     let told = &mut Told { verdicts: Vec::with_capacity(edges.hard.len()), sum: Sum::default() };
     let note = |_: &Told, edge: Edge, notes: &mut Vec<Judged>| {
-        let is_open = !patches.strip(edge).triangles.is_empty();
+        let is_open = !patches.triangles(Patch(edge.0)).is_empty();
         let segments = if is_open { segments(rounding, edge) } else { 0 };
         let edge = &edges.hard[edge];
         let at = strips::corners(edge).map(|corner| sectors.sector_of[corner]);
@@ -113,7 +113,7 @@ fn worst_reason(limits: &Limits, at: [Sector; 4]) -> Option<Reason> {
         let offset = limits.placement.offset(sector);
         let share = limits.placement.share[sector] * offset.fronts[front];
         let is_least = least.is_none_or(|(least, _)| share < least);
-        if offset.moves() && share < 1.0 && is_least {
+        if share < 1.0 && is_least && offset.moves() {
             least = Some((share, sector));
         }
         is_capped |= offset.is_capped;
@@ -143,8 +143,8 @@ fn counting_ends(limits: &Limits, at: [Sector; 4], verdict: &EdgeVerdict) -> [bo
     if verdict.outcome == Outcome::Skipped {
         return [true; 2];
     }
-    let moves = at.map(|sector| limits.placement.offset(sector).moves());
-    [moves[1] || moves[2], moves[0] || moves[3]]
+    let moves = |k: usize| limits.placement.offset(at[k]).moves();
+    [moves(1) || moves(2), moves(0) || moves(3)]
 }
 
 /// A verdict, and what its edge counts for.

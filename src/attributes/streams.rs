@@ -41,6 +41,17 @@ enum Stream {
     Uv(usize),
 }
 
+impl Stream {
+    /// Whether it goes along with some UV channels that go elsewhere: the tangent does with the first.
+    fn is_taken(self, channels: Channels) -> bool {
+        match self {
+            Stream::Tangent => channels & 1 == 1,
+            Stream::Uv(channel) => channels >> channel & 1 == 1,
+            Stream::Color => false,
+        }
+    }
+}
+
 /// A stream that the mesh has.
 #[derive(Clone, Copy)]
 struct Column {
@@ -79,6 +90,15 @@ impl Column {
                     _ => values.extend_from_slice(row.of(self)),
                 }
             }
+        }
+    }
+
+    /// Appends the value of an earlier vertex.
+    fn push_again(&self, vertices: &mut MeshBuffers, of: u32) {
+        match self.stream {
+            Stream::Tangent => vertices.tangents.push(vertices.tangents[of as usize]),
+            Stream::Color => vertices.colors.push(vertices.colors[of as usize]),
+            Stream::Uv(channel) => vertices.uvs[channel].values.extend_from_within(self.range(of)),
         }
     }
 
@@ -213,15 +233,38 @@ impl Streams {
         // A fill often takes what a strip beside it has taken.
         let list = self.index.list_at(cluster, self.vertices.positions[of as usize]);
         let copies = self.sources.copies(of as usize, taken.place, taken.channels);
-        if let Some(copy) = self.index.find(list, copies) {
+        if let Some(copy) = self.index.find_since(self.sources.first_continuing(), list, copies) {
             return copy;
         }
+        let own = of as usize;
+        let place = (self.vertices.positions[own], self.vertices.normals[own]);
         let mut row = Row::EMPTY;
-        self.read(of, &mut row);
+        row.stand(place.0, place.1);
         self.take(view, &mut row, taken);
-        self.add(list, &row, |sources| {
-            sources.push_copy(of as usize, taken.place, taken.channels);
-        })
+        // All but what it takes is read where the other has it.
+        let value = |column: &Column| match column.stream.is_taken(taken.channels) {
+            true => row.of(column),
+            false => &column.values(&self.vertices)[column.range(of)],
+        };
+        let is_equal = |listed: u32| {
+            let own = |column: &Column| &column.values(&self.vertices)[column.range(listed)];
+            place.0 == self.vertices.positions[listed as usize]
+                && place.1 == self.vertices.normals[listed as usize]
+                && self.columns.iter().all(|column| own(column) == value(column))
+        };
+        if let Some(equal) = self.index.find(list, is_equal) {
+            return equal;
+        }
+        self.vertices.positions.push(place.0);
+        self.vertices.normals.push(place.1);
+        for column in &self.columns {
+            match column.stream.is_taken(taken.channels) {
+                true => column.push(&mut self.vertices, &row),
+                false => column.push_again(&mut self.vertices, of),
+            }
+        }
+        self.sources.push_copy(own, taken.place, taken.channels);
+        self.index.add(list)
     }
 
     /// A vertex of a cluster with a normal of its own, at a place near a blend, with what it takes
@@ -360,12 +403,12 @@ impl Streams {
 
     /// Takes UV channels from another place, and the tangent along with the first of them.
     fn take(&self, view: &View, row: &mut Row, Taken { channels, place }: &Taken) {
-        for column in &self.columns {
+        for column in self.columns.iter().filter(|column| column.stream.is_taken(*channels)) {
             match column.stream {
-                Stream::Tangent if channels & 1 == 1 => {
+                Stream::Tangent => {
                     row.set(column, &tangent(view, place, wide(row.at(NORMAL))));
                 }
-                Stream::Uv(channel) if channels >> channel & 1 == 1 => {
+                Stream::Uv(channel) => {
                     let values = view.mesh.uvs[channel].values;
                     match column.width {
                         2 => row.set(column, &blended::<2>(values, place)),
@@ -373,7 +416,7 @@ impl Streams {
                         _ => row.set(column, &blended::<4>(values, place)),
                     }
                 }
-                _ => {}
+                Stream::Color => {}
             }
         }
     }

@@ -47,8 +47,9 @@ pub fn lay_fill(
     taken: &mut Vec<TakenAt>,
 ) -> (Triangle, usize) {
     let sectors = given.chamfers.sectors.ring(ring);
-    let joints = sectors.iter().map(|&sector| given.placement.point[sector]);
-    let points = joints.chain(fill.middles.iter().map(|middle| middle.position)).collect();
+    let mut points: Few<DVec3> = Few::new();
+    points.extend(sectors.iter().map(|&sector| given.placement.point[sector]));
+    points.extend(fill.middles.iter().map(|middle| middle.position));
     FillMap { given, owners, sectors, fill, points, frame: OnceCell::new() }.lay_into_chart(taken)
 }
 
@@ -200,7 +201,7 @@ impl FillMap<'_> {
     fn misfit_on(&self, channel: usize, owner: usize, facing: Facing, uvs: &[DVec2]) -> f64 {
         let corners = [self.first(owner)];
         let ground = Ground::new(self.given.surface, channel, &corners);
-        let lie = Lie { triangles: self.fill.triangles, points: &self.points, uvs };
+        let lie = Lie { triangles: self.fill.triangles, points: &self.points, uvs, unsure: uvs };
         misfit(self.given.surface.view, corners[0], facing, channel, &ground, &lie)
     }
 

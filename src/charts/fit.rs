@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 
 use super::feet::Room;
 use super::ground::Ground;
-use super::ground::{density, texture_area};
+use super::ground::{density, density_of, texture_area};
 use crate::ids::Corner;
 use crate::math::area_vector;
 use crate::view::View;
@@ -24,6 +24,8 @@ pub struct Lie<'a> {
     pub points: &'a [DVec3],
     /// `#points`.
     pub uvs: &'a [DVec2],
+    /// Those of them of which it is not known that they lie on the ground.
+    pub unsure: &'a [DVec2],
 }
 
 /// How a chamfer may lie on the texture.
@@ -65,9 +67,13 @@ pub fn misfit(
     ground: &Ground,
     lie: &Lie,
 ) -> f64 {
-    let density = density(view, face.triangle(), channel);
+    let own = ground.own();
+    let density = match ground.is_at(face.triangle()) {
+        true => density_of(view, face.triangle(), &own),
+        false => density(view, face.triangle(), channel),
+    };
     let stretch = stretch(density, facing, view.resolution, lie);
-    if stretch.is_finite() && !ground.covers(lie.triangles, lie.uvs) {
+    if stretch.is_finite() && !ground.covers(&own, (lie.triangles, lie.uvs), lie.unsure) {
         return stretch * BEYOND;
     }
     stretch
@@ -91,7 +97,7 @@ mod tests {
     fn thin_and_dense_are_alike_and_mirrored_is_worst() {
         let stretch = |facing: Facing, uvs: [DVec2; 3]| {
             let points = [DVec3::ZERO, DVec3::X, DVec3::Y];
-            let lie = Lie { triangles: &[[0, 1, 2]], points: &points, uvs: &uvs };
+            let lie = Lie { triangles: &[[0, 1, 2]], points: &points, uvs: &uvs, unsure: &uvs };
             stretch(1.0, facing, 1e-6, &lie)
         };
         let of = |uvs| stretch(Facing::AsFace, uvs);

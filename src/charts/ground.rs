@@ -2,8 +2,6 @@
 //!
 //! And density: how much texture a triangle shows for its area.
 
-use std::cell::LazyCell;
-
 use glam::DVec2;
 
 use crate::breaks::seam_between;
@@ -26,7 +24,7 @@ const MOST_FACES: usize = 64;
 
 /// A triangle of the chart on the texture.
 #[derive(Clone, Copy)]
-struct Face {
+pub struct Face {
     points: [DVec2; 3],
     /// From each point to the next.
     sides: [DVec2; 3],
@@ -42,9 +40,14 @@ impl Face {
 
     /// Whether a point is on it, with no margin.
     fn holds(&self, point: DVec2) -> bool {
-        let turns = [0, 1, 2].map(|k| self.turn(k, point));
-        let is_inside = |sign: f64| turns.iter().all(|turn| turn * sign >= 0.0);
-        self.area != 0.0 && is_inside(1.0_f64.copysign(self.area))
+        let sign = 1.0_f64.copysign(self.area);
+        self.area != 0.0 && (0..3).all(|side| self.turn(side, point) * sign >= 0.0)
+    }
+
+    /// Its points, from that of one of its corners on.
+    fn from(&self, corner: Corner) -> [DVec2; 3] {
+        let first = corner.index() % 3;
+        [0, 1, 2].map(|k| self.points[(first + k) % 3])
     }
 
     /// On which side of one of its sides a point is.
@@ -123,17 +126,36 @@ impl<'a> Ground<'a> {
         Ground { surface, channel, corners }
     }
 
-    /// Whether some triangles on the texture, of which each is three places in the points, lie on it.
-    pub fn covers(&self, triangles: &[[u32; 3]], points: &[DVec2]) -> bool {
+    /// The triangle at the first of its corners.
+    pub fn own(&self) -> Face {
+        self.face(self.corners[0].triangle())
+    }
+
+    /// Whether that is this one.
+    pub fn is_at(&self, triangle: Triangle) -> bool {
+        self.corners[0].triangle() == triangle
+    }
+
+    /// Whether some triangles on the texture, of which each is three places in the points, lie on it. Of
+    /// some of the points it is not known whether they lie on its own triangle, which is known.
+    pub fn covers(
+        &self,
+        own: &Face,
+        (triangles, points): (&[[u32; 3]], &[DVec2]),
+        unsure: &[DVec2],
+    ) -> bool {
         let corners = |triangle: &[u32; 3]| triangle.map(|place| points[place as usize]);
         // Most chamfers lie on the triangle that they are cut off from, and most of their points right on it.
-        let own = self.face(self.corners[0].triangle());
-        let near = LazyCell::new(|| {
-            let nears = triangles.iter().map(|triangle| nearness(corners(triangle)));
-            nears.fold(f64::INFINITY, f64::min)
-        });
-        points.iter().all(|&point| own.holds(point) || own.is_beside(point, *near))
-            || triangles.iter().all(|triangle| self.covers_one(&own, corners(triangle)))
+        if unsure.iter().all(|&point| own.holds(point)) {
+            return true;
+        }
+        let nears = triangles.iter().map(|triangle| nearness(corners(triangle)));
+        let near = nears.fold(f64::INFINITY, f64::min);
+        let at = self.corners[0];
+        unsure.iter().all(|&point| own.is_below(point, near))
+            || [at, at.prev()].into_iter().any(|side| self.lie_on_two(own, side, (unsure, near)))
+            || self.corners.len() == 1 && self.lie_around(points)
+            || triangles.iter().all(|triangle| self.covers_one(own, corners(triangle)))
     }
 
     /// The same for one triangle, where the face at the first corner is known.
@@ -141,6 +163,7 @@ impl<'a> Ground<'a> {
         let mut samples = Samples::new(triangle);
         let own_triangle = self.corners[0].triangle();
         samples.lie_on(own)
+            || self.across().is_some_and(|across| samples.lie_on(&self.face(across)))
             || self.any_corner(|corner| {
                 corner.triangle() != own_triangle && samples.lie_on(&self.face(corner.triangle()))
             })
@@ -148,6 +171,59 @@ impl<'a> Ground<'a> {
                 .below(triangle, samples.near)
                 .into_iter()
                 .any(|face| samples.lie_on(&self.face(face)))
+    }
+
+    /// Whether some points lie on the own triangle and on that beyond one of its sides, or as near to them,
+    /// and these two are convex together: then all between the points does so, too.
+    fn lie_on_two(&self, own: &Face, side: Corner, (points, near): (&[DVec2], f64)) -> bool {
+        if !self.runs_on(side) {
+            return false;
+        }
+        let twin = self.surface.topology.twin[side];
+        let beyond = self.face(twin.triangle());
+        let ([from, to, apex], [end, start, far]) = (own.from(side), beyond.from(twin));
+        let sign = 1.0_f64.copysign(own.area);
+        let is_convex = sign * (far - from).perp_dot(apex - from) > 0.0
+            && sign * (apex - to).perp_dot(far - to) > 0.0;
+        is_convex
+            && [from, to] == [start, end]
+            && own.area * beyond.area > 0.0
+            && points.iter().all(|&at| own.is_below(at, near) || beyond.is_below(at, near))
+    }
+
+    /// Whether the chart goes on all around the first corner, at least as far as some points are from it:
+    /// then they lie on it, and all between them.
+    fn lie_around(&self, points: &[DVec2]) -> bool {
+        let at = self.corners[0];
+        let [center, first, _] = self.face(at.triangle()).from(at);
+        let far = points.iter().map(|point| point.distance_squared(center)).fold(0.0, f64::max);
+        let is_flat = self.surface.view.mesh.uvs[self.channel].components == 2;
+        let (mut corner, mut spoke, mut turn) = (at, first, 0.0);
+        for _ in 0..MOST_FACES {
+            let face = self.face(corner.triangle());
+            let [start, from, to] = face.from(corner);
+            // As far as the line of the side across.
+            let reaches = face.area * face.area > far * from.distance_squared(to);
+            if !reaches || [start, from] != [center, spoke] || face.area * turn < 0.0 {
+                return false;
+            }
+            let side = corner.prev();
+            (corner, spoke, turn) = (self.surface.topology.twin[side], to, face.area);
+            if corner.is_none() || !is_flat && !self.runs_on(side) {
+                return false;
+            }
+            if corner == at {
+                return spoke == first;
+            }
+        }
+        false
+    }
+
+    /// The triangle of the chart beyond the first half-edge: what does not lie on the own one lies mostly
+    /// there, and is soon found so.
+    fn across(&self) -> Option<Triangle> {
+        let side = self.corners[0];
+        self.runs_on(side).then(|| self.surface.topology.twin[side].triangle())
     }
 
     /// The triangles of the chart that reach below one on the texture, as far as they follow on each
@@ -269,9 +345,14 @@ pub fn uv_point(uv: &Uv, vertex: u32) -> DVec2 {
 /// none.
 pub fn density(view: &View, triangle: Triangle, channel: usize) -> f64 {
     let uv = &view.mesh.uvs[channel];
-    let area = area_vector(view.triangle(triangle)).length();
     let points = triangle.corners().map(|c| uv_point(uv, view.vertex_at(c).index() as u32));
-    if area > 0.0 && !is_line(points) { texture_area(points) / area } else { 0.0 }
+    density_of(view, triangle, &Face::new(points))
+}
+
+/// The same of a triangle that lies so on the texture.
+pub fn density_of(view: &View, triangle: Triangle, face: &Face) -> f64 {
+    let area = area_vector(view.triangle(triangle)).length();
+    if area > 0.0 && !is_line(face.points) { face.area / area } else { 0.0 }
 }
 
 /// Whether rounding its UVs can make a triangle's area vanish: models that are coloured by single
@@ -300,7 +381,7 @@ pub fn size([a, b, c]: [DVec2; 3]) -> f64 {
 mod tests {
     use super::*;
     use crate::shapes;
-    use crate::stages::stages_of;
+    use crate::stages::{split, stages_of};
 
     #[test]
     fn a_point_is_as_far_from_a_triangle_as_from_its_nearest_side() {
@@ -328,14 +409,62 @@ mod tests {
             DVec2::from(at.map(f64::from))
         };
         let face = [0, 1, 2].map(uv);
-        assert!(ground.covers(&[[0, 1, 2]], &face));
+        let covers =
+            |points: &[DVec2]| ground.covers(&ground.own(), (&[[0, 1, 2]], points), points);
+        assert!(covers(&face));
         let middle = (face[0] + face[1] + face[2]) / 3.0;
-        assert!(ground.covers(&[[0, 1, 2]], &[face[0], face[1], middle]));
+        assert!(covers(&[face[0], face[1], middle]));
         let away = face[0] * 2.0 - middle;
-        assert!(
-            !ground.covers(&[[0, 1, 2]], &[face[0], face[1], away]),
-            "past the end of the chart"
-        );
+        assert!(!covers(&[face[0], face[1], away]), "past the end of the chart");
+    }
+
+    /// A fan of so many triangles around one point of the texture, each a unit long, and whether the ground
+    /// at its first corner covers a triangle of so large a radius around that point.
+    fn covers_around(sides: u32, radius: f64) -> bool {
+        let turn = |k: u32| (f64::from(k) / f64::from(sides) * std::f64::consts::TAU).sin_cos();
+        let rim = (0..sides).map(turn).map(|(sin, cos)| [cos as f32, 0.0, -sin as f32]);
+        let points: Vec<[f32; 3]> = [[0.0; 3]].into_iter().chain(rim).collect();
+        let indices: Vec<u32> = (0..sides).flat_map(|k| [0, k + 1, (k + 1) % sides + 1]).collect();
+        let mut fan = split(&points, &indices);
+        let uvs = fan.positions.iter().flat_map(|[x, _, z]| [*x, -*z]).collect();
+        fan.uvs[0] = crate::mesh::UvBuffer { components: 2, values: uvs };
+        let stages = stages_of(&fan, 0.1);
+        let corners = [Corner(0)];
+        let ground = Ground::new(stages.surface(), 0, &corners);
+        let points = [0, 1, 2].map(|k| {
+            let (sin, cos) = (f64::from(k) / 3.0 * std::f64::consts::TAU).sin_cos();
+            DVec2::new(cos, sin) * radius
+        });
+        ground.lie_around(&points)
+    }
+
+    //  .-'-.     the sides of a hexagon are 0.866 of its radius away from the middle
+    //  | . |
+    //  '-.-'
+    #[test]
+    fn all_around_a_corner_the_ground_reaches_as_far_as_the_nearest_side() {
+        assert!(covers_around(6, 0.86));
+        assert!(!covers_around(6, 0.87));
+    }
+
+    /// The four sides of a cube are a square each on the atlas: two triangles, and nothing beside them.
+    #[test]
+    fn two_triangles_of_a_square_hold_what_is_on_either() {
+        let cube = shapes::cube(1.0);
+        let stages = stages_of(&cube, 0.1);
+        let sides = (0..6).map(Corner);
+        let inner = sides
+            .clone()
+            .find(|&side| stages.topology.twin[side].triangle() == Triangle(1 - side.triangle().0));
+        let inner = [inner.unwrap()];
+        let ground = Ground::new(stages.surface(), 0, &inner);
+        let (own, beyond) = (ground.own(), ground.face(stages.topology.twin[inner[0]].triangle()));
+        let middle = |face: &Face| (face.points[0] + face.points[1] + face.points[2]) / 3.0;
+        let points = [own.points[0], middle(&own), middle(&beyond)];
+        assert!(ground.lie_on_two(&own, inner[0], (&points, 0.0)));
+        let outside = beyond.from(stages.topology.twin[inner[0]])[2] * 2.0 - middle(&own);
+        assert!(!ground.lie_on_two(&own, inner[0], (&[points[0], points[1], outside], 0.0)));
+        assert!(!ground.lie_on_two(&own, inner[0].next(), (&points, 0.0)), "past a seam");
     }
 
     /// The sides of the cylinder lie one beside the other in the atlas.
@@ -352,7 +481,9 @@ mod tests {
             .fold([DVec2::INFINITY, DVec2::NEG_INFINITY], |[low, high], [least, most]| {
                 [low.min(least), high.max(most)]
             });
-        let covers = |triangle: [DVec2; 3]| ground.covers(&[[0, 1, 2]], &triangle);
+        let covers = |triangle: [DVec2; 3]| {
+            ground.covers(&ground.own(), (&[[0, 1, 2]], &triangle), &triangle)
+        };
         assert_eq!(across.len(), 24, "two triangles for each side");
         assert!(covers([low, DVec2::new(high.x, low.y), high]));
         assert!(!covers([low, DVec2::new(high.x * 1.1, low.y), high]));

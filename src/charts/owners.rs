@@ -6,7 +6,7 @@ use super::{Given, Spread, Way};
 use crate::chamfers::Chamfers;
 use crate::edges::Edges;
 use crate::error::Error;
-use crate::ids::{Corner, Edge, IdVec, Triangle};
+use crate::ids::{Corner, Edge, IdVec, Patch, Triangle};
 use crate::patches::Patches;
 use crate::report::Blend;
 use crate::surface::Surface;
@@ -61,7 +61,7 @@ pub fn owners(
         if hard.skipped.is_some() || hard.seams == 0 {
             return Some(Band::ANY);
         }
-        let triangles = patches.strip(edge).triangles;
+        let triangles = patches.triangles(Patch(edge.0));
         StripMap::new(surface, placement, attributes, hard, triangles).band(side.into())
     };
     let region = regions(surface, chamfers.edges, watch)?;

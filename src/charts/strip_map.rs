@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 use super::feet::{End, Frame, Room, feet_at, flat_lay};
 use super::fit::{Facing, Lie, MOST_STRETCH, misfit, roomiest};
 use super::ground::Ground;
-use super::{BANDS, BESIDE_BANDS, Way};
+use super::{BANDS, BESIDE_BANDS, Spread, Way};
 use super::{Given, TakenAt, place_of};
 use crate::attributes::{Attributes, Taken};
 use crate::edges::HardEdge;
@@ -124,10 +124,7 @@ impl<'a> StripMap<'a> {
     fn misfit(&self, channel: usize, lay: Lay, feet: &Feet) -> f64 {
         let uv = |place: usize| match &feet[place] {
             Some(foot) => place_of(self.surface.view, channel, foot),
-            None => {
-                let vertex = self.attributes.vertex_at[self.corners[place]];
-                self.attributes.streams.uv(vertex, channel)
-            }
+            None => self.own_uv(place, channel),
         };
         let uvs = [0, 1, 2, 3].map(uv);
         match lay {
@@ -145,8 +142,17 @@ impl<'a> StripMap<'a> {
     }
 
     fn misfit_on(&self, owner: usize, at: &[Corner], channel: usize, uvs: [DVec2; 4]) -> f64 {
+        self.misfit_unsure((owner, at), channel, (&uvs, &uvs))
+    }
+
+    fn misfit_unsure(
+        &self,
+        (owner, at): (usize, &[Corner]),
+        channel: usize,
+        (uvs, unsure): (&[DVec2; 4], &[DVec2]),
+    ) -> f64 {
         let ground = Ground::new(self.surface, channel, at);
-        let lie = Lie { triangles: self.triangles, points: &self.points, uvs: &uvs };
+        let lie = Lie { triangles: self.triangles, points: &self.points, uvs, unsure };
         misfit(self.surface.view, self.edge.sides[owner], Facing::AsFace, channel, &ground, &lie)
     }
 
@@ -155,12 +161,50 @@ impl<'a> StripMap<'a> {
     pub fn band(&self, owner: usize) -> Option<Band> {
         let channel = first_seam(self.edge);
         BANDS.iter().find_map(|&way| {
-            let lay = Some((way, owner));
-            let feet = self.feet(channel, lay);
-            let [start, stop] = places(owner);
-            (self.misfit(channel, lay, &feet) <= MOST_STRETCH)
-                .then(|| Band { way, far: [feet[start[1]], feet[stop[1]]] })
+            let far = self.far_feet(way, owner);
+            let misfit = self.misfit_of_band(channel, owner, (way, &far));
+            (misfit <= MOST_STRETCH).then_some(Band { way, far })
         })
+    }
+
+    /// Where the far corners at the start and at the end of the owner's half-edge land on its band.
+    fn far_feet(&self, way: Way, owner: usize) -> [Option<Blend>; 2] {
+        let ends = self.strip_ends(owner);
+        let mut feet = [0, 1].map(|k| feet_at(self.surface, &ends[k], way)[1]);
+        if self.triangles.len() < 2 {
+            for (foot, [_, place]) in feet.iter_mut().zip(places(owner)) {
+                *foot = foot.filter(|_| self.is_used(place));
+            }
+        }
+        feet
+    }
+
+    /// As [`StripMap::misfit`]. What lies on the old edge, which is a side of the owner's triangle, is on
+    /// the ground.
+    fn misfit_of_band(
+        &self,
+        channel: usize,
+        owner: usize,
+        (way, far): (Way, &[Option<Blend>; 2]),
+    ) -> f64 {
+        let mut uvs = [DVec2::ZERO; 4];
+        let places = places(owner);
+        for ([near, beyond], foot) in places.into_iter().zip(far) {
+            uvs[near] = self.own_uv(near, channel);
+            uvs[beyond] = match foot {
+                Some(foot) => place_of(self.surface.view, channel, foot),
+                None => self.own_uv(beyond, channel),
+            };
+        }
+        let near = places.map(|[near, _]| uvs[near]);
+        let is_on_edge = way != Way::Band(Spread::Narrow) && far.iter().all(Option::is_some);
+        let unsure = if is_on_edge { &near[..] } else { &uvs };
+        self.misfit_unsure((owner, &self.ends[owner]), channel, (&uvs, unsure))
+    }
+
+    /// Where the output vertex of a corner lies on the texture.
+    fn own_uv(&self, place: usize, channel: usize) -> DVec2 {
+        self.attributes.streams.uv(self.attributes.vertex_at[self.corners[place]], channel)
     }
 
     /// All ways, best first.
@@ -237,16 +281,28 @@ pub fn lay_strip(
 ) -> Triangle {
     let Given { surface, placement, attributes, .. } = *given;
     let hard = &given.chamfers.edges.hard[edge];
+    let face = hard.sides[owner].triangle();
+    // Of most meshes that is all.
+    if let (&[channel], Some(band)) = (given.channels, band.filter(|_| hard.seams != 0)) {
+        let feet = places(owner).into_iter().zip(band.far);
+        let feet = feet.filter_map(|([_, point], place)| Some((point as u32, place?)));
+        taken_at.extend(feet.map(|(at, place)| (at, Taken { channels: 1 << channel, place })));
+        return face;
+    }
     let map =
         LazyCell::new(|| StripMap::new(surface, placement, attributes, hard, strip.triangles));
     let (mut taken, mut channels): (Feet, [u8; 4]) = ([None; 4], [0; 4]);
     for &channel in given.channels {
         // What the owner was chosen by need not be looked for again.
         let known = band.filter(|_| first_seam(hard) == channel && channels == [0; 4]);
-        let feet = match known {
-            Some(band) => in_turn(owner, [None; 2], band.far),
-            None => map.lay(channel, owner, &taken),
-        };
+        if let Some(band) = known {
+            for ([_, place], foot) in places(owner).into_iter().zip(band.far) {
+                taken[place] = foot;
+                channels[place] = u8::from(foot.is_some()) << channel;
+            }
+            continue;
+        }
+        let feet = map.lay(channel, owner, &taken);
         for place in (0..4).filter(|&place| feet[place].is_some()) {
             taken[place] = feet[place];
             channels[place] |= 1 << channel;
@@ -257,5 +313,5 @@ pub fn lay_strip(
             taken_at.push((point as u32, Taken { channels: channels[point], place }));
         }
     }
-    hard.sides[owner].triangle()
+    face
 }

@@ -23,10 +23,14 @@ const NEARLY_NOISE: f64 = 0.99;
 /// Where another edge is sharp or flat, what differs beside it is its end.
 pub fn noise(view: &View, topology: &Topology, hard: &[Corner]) -> Vec<Corner> {
     let half_edges = || hard.iter().flat_map(|&side| [side, topology.twin[side]]);
+    // Most meshes have no such end at all.
+    let may_be_noise = |side: Corner| may_be_noise(view, topology, side);
+    if !hard.iter().any(|&side| may_be_noise(side) || may_be_noise(topology.twin[side])) {
+        return Vec::new();
+    }
     let end = |side: Corner| end_at(view, topology, side);
-    let is_by_chance = |side: &Corner| {
-        may_be_noise(view, topology, *side) && end(*side).is_some_and(|end| end.is_by_chance(view))
-    };
+    let is_by_chance =
+        |side: &Corner| may_be_noise(*side) && end(*side).is_some_and(|end| end.is_by_chance(view));
     let mut noise: Vec<Corner> = half_edges().filter(is_by_chance).collect();
     if noise.is_empty() {
         return noise;

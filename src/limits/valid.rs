@@ -18,6 +18,9 @@ use super::elements::{Element, flap_joints};
 use crate::given::Given;
 use crate::room::breadth;
 
+/// Of the cosine of 45 degrees.
+const LEAST_SURE_SQUARE: f64 = 0.5;
+
 /// Everything that is bad where the sectors stand now.
 ///
 /// # Errors
@@ -31,7 +34,9 @@ pub fn bad_elements(
     let is_bad = |element| !is_valid(given, placement, element);
     let triangles = given.surface.faces.normal.len();
     let triangles = threads.filter_watched(triangles, watch, |triangle| {
-        is_touched(given, triangle) && is_bad(Element::Surface(triangle))
+        is_touched(given, triangle)
+            && !is_surely_valid(given, placement, triangle)
+            && is_bad(Element::Surface(triangle))
     })?;
     let edges = threads.filter_watched(given.chamfers.edges.hard.len(), watch, |edge| {
         given.chamfers.edges.hard[edge].skipped.is_none() && is_bad(Element::Strip(edge))
@@ -63,6 +68,21 @@ pub fn is_valid(given: &Given, placement: &Placement, element: Element) -> bool 
             flaps::is_valid(given.surface, joints, points)
         }
     }
+}
+
+/// Whether a triangle has plenty of room, and is shaded flat before and after: then it cannot be bad. Its
+/// normals are within 45 degrees of its old plane's, and its new plane within thirty.
+fn is_surely_valid(given: &Given, placement: &Placement, triangle: Triangle) -> bool {
+    // What is set apart stands a few steps from where it would.
+    if given.apart.is_some() || !given.plenty[triangle] {
+        return false;
+    }
+    let corners = triangle.corners();
+    let normal = given.surface.view.normal_at(corners[0]);
+    let upright = normal.dot(given.surface.faces.normal[triangle]);
+    upright > 0.0
+        && upright * upright >= LEAST_SURE_SQUARE * normal.length_squared()
+        && corners.iter().all(|&corner| placement.normal_at(corner) == normal)
 }
 
 fn surface_is_valid(given: &Given, placement: &Placement, triangle: Triangle) -> bool {
@@ -126,12 +146,8 @@ fn strip_is_valid(given: &Given, placement: &Placement, edge: Edge) -> bool {
     let quad = strips::quad(placement, edge);
     let [from, to] =
         [edge.sides[0], edge.sides[0].next()].map(|c| given.surface.view.position_at(c));
-    strips::is_valid(
-        &quad,
-        strips::cut(quad.points),
-        unit(to - from),
-        given.surface.view.resolution,
-    )
+    let resolution = given.surface.view.resolution;
+    strips::is_valid(&quad, strips::cut(quad.points), to - from, resolution)
 }
 
 /// Whether a strip leaves everything covered that rests beside its edge.
@@ -167,8 +183,10 @@ mod tests {
 
     use super::*;
     use crate::given::tests::given_of;
+    use crate::ids::IdVec;
     use crate::shapes;
     use crate::stages::stages_of;
+    use crate::watch::Unwatched;
 
     #[test]
     fn a_triangle_may_not_turn_from_its_vertex_normals() {
@@ -208,6 +226,30 @@ mod tests {
         };
         assert!(keeps_side(1.0));
         assert!(!keeps_side(8.0));
+    }
+
+    /// At whatever shares, and of whatever is wide or narrow: where nothing is looked at, nothing would be
+    /// found.
+    #[test]
+    fn what_is_surely_valid_is_valid() {
+        let mut sure = 0;
+        for (_, mesh) in shapes::demo_models() {
+            for width in [0.002, 0.01, 0.05, 0.2] {
+                let stages = stages_of(&mesh, width);
+                let given = Given { offsets: &stages.narrowed, ..given_of(&stages) };
+                for seed in 0..4 {
+                    let share = |sector: u32| f64::from((sector * 37 + seed * 11) % 17) / 16.0;
+                    let shares = (0..stages.sectors.fans.len() as u32).map(share).collect();
+                    let placement = given.placement(IdVec::from_vec(shares), &Unwatched).unwrap();
+                    let all = stages.view.triangles();
+                    for triangle in all.filter(|&t| is_surely_valid(&given, &placement, t)) {
+                        assert!(is_valid(&given, &placement, Element::Surface(triangle)));
+                        sure += 1;
+                    }
+                }
+            }
+        }
+        assert!(sure > 1000, "{sure}");
     }
 
     // .-------.      a cube's edges pulled past their old lines, and one corner of it pulled by unlike

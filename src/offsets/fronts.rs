@@ -10,7 +10,7 @@ use crate::breaks::same_chart;
 use crate::error::Error;
 use crate::faces::Faces;
 use crate::foot::{Foot, locate};
-use crate::ids::{Corner, Few, IdVec, Sector};
+use crate::ids::{Corner, Few, IdVec, Sector, Triangle};
 use crate::math::{area_vector, unit};
 use crate::sectors::{Follower, Sectors};
 use crate::surface::Surface;
@@ -62,14 +62,15 @@ pub fn parts(
 }
 
 /// Of offsets that have unlike shares for their two edges (`fronts: #sectors by 2`), the one that has
-/// less goes less far.
+/// less goes less far. The vertex may go farther along the other, so the triangles around it are not
+/// known to have plenty any more (`plenty: #triangles`).
 ///
 /// # Errors
 /// [`Error::Cancelled`] where the watch stops it.
 pub fn narrow_all(
     surface: Surface,
     sectors: &Sectors,
-    offsets: &mut IdVec<Sector, Offset>,
+    (offsets, plenty): (&mut IdVec<Sector, Offset>, &mut IdVec<Triangle, bool>),
     fronts: &IdVec<Sector, [f64; 2]>,
     watch: &dyn Watch,
 ) -> Result<(), Error> {
@@ -81,6 +82,8 @@ pub fn narrow_all(
         let shares = fronts.map(|share| share / fronts[0].max(fronts[1]));
         if let Some(narrowed) = narrow(surface, sectors, sector, &offsets[sector], shares) {
             offsets[sector] = narrowed;
+            let corners = sectors.corners(surface.topology, sector);
+            corners.for_each(|corner| plenty[corner.triangle()] = false);
         }
     })
 }

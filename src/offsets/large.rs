@@ -1,7 +1,7 @@
 //! Large sectors: what takes long by itself is told of corner by corner.
 
 use super::place::place;
-use super::{Offset, blades, course, told};
+use super::{Offset, blades, course, is_plain, told};
 use crate::chamfers::Chamfers;
 use crate::error::Error;
 use crate::ids::Sector;
@@ -26,9 +26,10 @@ pub fn offset_of_large(
             watch.worked(MANY_CORNERS)?;
         }
     }
-    let course = course(surface, chamfers.edges, fan, &spread);
+    let course = course(surface, chamfers.edges, fan, (&spread, false));
     watch.worked(spread.len())?;
-    let placed = course.and_then(|course| place(surface, &spread, &course));
+    let way = course.as_ref().and_then(|course| place(surface, (&spread, false), course));
     watch.worked(spread.len())?;
-    Ok(told(surface, fan, &spread, placed))
+    let is_plain = is_plain(surface, fan, &spread);
+    Ok(Offset { is_plain, ..told(fan, course, way) })
 }

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{Blade, Course, Offset, arms};
+use super::{Blade, Course, arms};
 use crate::breaks::{is_hard, same_chart, seam_between, uv_at};
 use crate::faces::Faces;
 use crate::foot::{Foot, locate};
@@ -25,36 +25,52 @@ const ONE_MAP: f64 = 1e-4;
 /// So many triangles beyond a fan are looked at for a larger one.
 const MOST_BEYOND: usize = 16;
 
-/// The offset in space; none where the corner has no plane. Vector and foot lie in one plane, so
-/// that the foot blends to the very place.
-pub fn place(surface: Surface, spread: &[Blade], course: &Course) -> Option<Offset> {
-    let (Surface { view, faces, .. }, within) = (surface, course.corner);
-    let on = |plane: Corner| {
-        let vector = way(view, faces, course, plane);
-        let foot = locate(view, carrier(faces, plane), view.position_at(within), vector)?;
-        Some((vector, foot))
-    };
-    let own = on(within)?;
-    if is_flat(view, faces, spread, course) && own.1.reach() <= FARTHEST {
-        return sound(faces, course, own);
+/// A vector, and where it ends.
+pub type Way = (DVec3, Foot);
+
+/// The way in space; none where the corner has no plane. Vector and foot lie in one plane, so that the
+/// foot blends to the very place.
+pub fn place(
+    surface: Surface,
+    (spread, is_even): (&[Blade], bool),
+    course: &Course,
+) -> Option<Way> {
+    let Surface { view, faces, .. } = surface;
+    let own = on(surface, course, course.corner)?;
+    if (is_even || is_flat(view, faces, spread, course)) && own.1.reach() <= FARTHEST {
+        return Some(own).filter(|own| is_sound(faces, course, own));
     }
+    let way = by_others(surface, spread, course, own)?;
+    Some(way).filter(|way| is_sound(faces, course, way))
+}
+
+/// Where a course leads in the plane of a triangle at the fan's centre.
+#[inline(always)]
+fn on(Surface { view, faces, .. }: Surface, course: &Course, plane: Corner) -> Option<Way> {
+    let vector = way(view, faces, course, plane);
+    let foot = locate(view, carrier(faces, plane), view.position_at(course.corner), vector)?;
+    Some((vector, foot))
+}
+
+/// The same where larger triangles tell more of it, or the own one too little.
+#[inline(never)]
+fn by_others(surface: Surface, spread: &[Blade], course: &Course, own: Way) -> Option<Way> {
+    let (Surface { view, faces, .. }, within) = (surface, course.corner);
+    let on = |plane: Corner| on(surface, course, plane);
     let steadiest = steadiest(view, faces, spread, within);
     let steady = if steadiest == within { own } else { on(steadiest)? };
     let is_level = |one: DVec3, other: DVec3| one.distance(other) <= view.resolution * LEVEL_HEIGHT;
     let is_near = own.1.reach() <= steady.1.reach().max(FARTHEST);
     let told = if is_level(own.0, steady.0) && is_near { own } else { steady };
     if told.1.reach() <= FARTHEST {
-        return sound(faces, course, told);
+        return Some(told);
     }
     let beyond = on(largest_beyond(surface, steadiest)).filter(|far| is_level(far.0, told.0));
-    sound(faces, course, beyond.unwrap_or(told))
+    Some(beyond.unwrap_or(told))
 }
 
-fn sound(faces: &Faces, course: &Course, (vector, foot): (DVec3, Foot)) -> Option<Offset> {
-    let within = course.corner;
-    let is_sound = faces.normal[within.triangle()] != DVec3::ZERO && vector.is_finite();
-    let Course { is_capped, .. } = *course;
-    is_sound.then(|| Offset { vector, foot, is_capped, ..Offset::none(within) })
+fn is_sound(faces: &Faces, course: &Course, (vector, _): &Way) -> bool {
+    faces.normal[course.corner.triangle()] != DVec3::ZERO && vector.is_finite()
 }
 
 /// Whether all planes in a fan that could be the corner's own lead to the same place.
@@ -201,6 +217,7 @@ mod tests {
     use crate::check::assert_sound;
     use crate::ids::Vertex;
     use crate::mesh::MeshBuffers;
+    use crate::offsets::Offset;
     use crate::options::{Options, Width};
     use crate::pipeline::chamfer;
     use crate::shapes::Builder;
