@@ -55,6 +55,25 @@ pub fn surface_foot(
 /// Whether the surface breaks between two half-edges that are twins.
 type Breaks = fn(&View, Corner, Corner) -> bool;
 
+/// The corners of a sector, each with the number of its part: between two of them light breaks. A vertex
+/// that is of both has two normals once it moves, if it goes along an edge whose sides are shaded alike at
+/// that end alone.
+pub fn parts<'a>(
+    surface: Surface<'a>,
+    sectors: &'a Sectors,
+    sector: Sector,
+) -> impl Iterator<Item = (Corner, u32)> + 'a {
+    let breaks: Breaks = if surface.view.has_soft_breaks() { is_broken } else { is_hard };
+    let is_broken = sectors.fans[sector].is_broken;
+    let (mut before, mut part) = (None, 0);
+    sectors.corners(surface.topology, sector).map(move |corner| {
+        let before = before.replace(corner).filter(|_| is_broken);
+        let begins = before.is_some_and(|other: Corner| breaks(surface.view, corner, other.prev()));
+        part += u32::from(begins);
+        (corner, part)
+    })
+}
+
 /// Whether a way from a corner stays in the plane of its triangle, and that is shaded flat: past a curved
 /// one nobody knows.
 fn stays_on(surface: Surface, corner: Corner, way: DVec3) -> bool {
@@ -177,14 +196,8 @@ fn own_foot(
     (corner, breaks): (Corner, Breaks),
 ) -> Option<Foot> {
     let fan: Few<Corner> = sectors.corners(surface.topology, sectors.sector_of[corner]).collect();
-    let parts = || fan.chunk_by(|&one, &other| !breaks(surface.view, other, one.prev()));
-    let vertex = surface.view.vertex_at(corner);
-    let has_vertex = |part: &&[Corner]| part.iter().any(|at| surface.view.vertex_at(*at) == vertex);
-    // Where both sides of a hard edge share the vertex, the one that would show it comes first.
-    let is_first = |part: &&[Corner]| {
-        has_vertex(part) && !part.contains(&offset.within) && is_even(surface, part, corner)
-    };
-    let part = parts().find(is_first).or_else(|| parts().find(|part| part.contains(&corner)))?;
+    let mut parts = fan.chunk_by(|&one, &other| !breaks(surface.view, other, one.prev()));
+    let part = parts.find(|part| part.contains(&corner))?;
     let own = if !part.contains(&offset.within) {
         nearest(surface, &fan, offset, |own| part.contains(&own))
             .or_else(|| likest(surface, &fan, corner))

@@ -3,7 +3,7 @@
 use crate::chamfers::Chamfers;
 use crate::edges::HardEdge;
 use crate::error::Error;
-use crate::ids::{Edge, Sector};
+use crate::ids::{Corner, Edge, Id, Sector};
 use crate::limits::Limits;
 use crate::math::{area_vector, unit};
 use crate::patches::Patches;
@@ -12,7 +12,7 @@ use crate::rounding::Rounding;
 use crate::sectors::Sectors;
 use crate::strips;
 use crate::threads::Threads;
-use crate::view::View;
+use crate::view::{View, wide};
 use crate::watch::Watch;
 
 /// `#hard edges`, and their sum.
@@ -127,9 +127,19 @@ fn worst_reason(limits: &Limits, at: [Sector; 4]) -> Option<Reason> {
 
 /// At each end, the mean distance of the two pulled vertices from the line of the old edge.
 fn widths(view: &View, limits: &Limits, (edge, at): (&HardEdge, [Sector; 4])) -> [f32; 2] {
-    let [from, to] = [edge.sides[0], edge.sides[0].next()].map(|c| view.position_at(c));
-    let along = unit(to - from);
-    let [b1, a1, a2, b2] = at.map(|sector| limits.placement.point[sector]);
+    let ends = [edge.sides[0], edge.sides[0].next()];
+    let (from, to, points);
+    if let Some(stored) = &view.stored {
+        // Rounded where it is measured, a short edge would be turned, and what is far off it with it.
+        let standing = |at: [f32; 3]| stored.to * wide(at);
+        let source = |at: Corner| standing(stored.positions[view.vertex_at(at).index()]);
+        [from, to] = ends.map(source);
+        points = strips::corners(edge).map(|corner| standing(limits.placement.stored_at(corner)));
+    } else {
+        [from, to] = ends.map(|end| view.position_at(end));
+        points = at.map(|sector| limits.placement.point[sector]);
+    }
+    let (along, [b1, a1, a2, b2]) = (unit(to - from), points);
     let distance = |point: glam::DVec3| (point - from).cross(along).length();
     [(a1, a2), (b1, b2)].map(|(one, two)| ((distance(one) + distance(two)) / 2.0) as f32)
 }

@@ -1,5 +1,7 @@
 //! What is flat between hard edges stays in its plane and keeps its normal.
 
+use std::cell::OnceCell;
+
 use glam::DVec3;
 
 use super::junctions::{Borders, reach};
@@ -63,6 +65,7 @@ pub(super) fn check_flatness(
     let extent = before.extent();
     let tolerance = (PLANE_TOLERANCE * extent).max(before.rounding());
     let least_height = LEAST_HEIGHT * before.rounding();
+    let beside = Beside::default();
     for (triangle, source) in (0u32..).zip(&origins.triangles) {
         let Some(source) = source else { continue };
         // A line or a point has no plane and shows no normal.
@@ -97,8 +100,12 @@ pub(super) fn check_flatness(
             };
             face.filter(stays).is_some_and(|face| face.bends(after.normal(corner)))
         };
+        let bends = |fan: &Fan, normal: DVec3| {
+            fan.bends(normal)
+                && (fan.plane.is_some() || !beside.goes_on_with(before, source[0] / 3, normal))
+        };
         if corners().any(|(fan, corner, _)| {
-            shows(&fan) && (fan.bends(after.normal(corner)) || is_bent(corner))
+            shows(&fan) && (bends(&fan, after.normal(corner)) || is_bent(corner))
         }) {
             findings.note(Rule::FlatNormal, Element::Triangle(triangle));
         }
@@ -112,6 +119,47 @@ pub(super) fn is_low(corners: [DVec3; 3], least_height: f64) -> bool {
     area < least_height * sides.into_iter().fold(0.0, f64::max)
 }
 
+/// The triangles on whose soft edges there is one that is but a line, once they are asked for: nobody has
+/// seen the normals of that. Where it opens, it lies in the face beside it, and may be shaded as that.
+#[derive(Default)]
+struct Beside {
+    /// Sorted: a line, and a triangle beside it.
+    pairs: OnceCell<Vec<[u32; 2]>>,
+}
+
+impl Beside {
+    /// Whether a normal is one of a triangle beside a line, or between its own.
+    fn goes_on_with(&self, surface: &Surface, line: u32, normal: DVec3) -> bool {
+        let pairs = self.pairs.get_or_init(|| Beside::pairs(surface));
+        let first = pairs.partition_point(|pair| pair[0] < line);
+        let beside = pairs[first..].iter().take_while(|pair| pair[0] == line);
+        beside.into_iter().any(|&[_, other]| {
+            let own = [0, 1, 2].map(|side| surface.normal(3 * other + side).normalize_or_zero());
+            let spread = (0..3).map(|k| own[k].distance(own[(k + 1) % 3])).fold(0.0, f64::max);
+            let is_near =
+                |own: &DVec3| own.distance(normal.normalize()) <= spread + NORMAL_TOLERANCE;
+            own.iter().all(is_near)
+        })
+    }
+
+    fn pairs(surface: &Surface) -> Vec<[u32; 2]> {
+        let is_line =
+            |triangle: u32| is_low(surface.triangle(triangle), LEAST_HEIGHT * surface.rounding());
+        let mut pairs = Vec::new();
+        for (forward, backward) in surface.edges() {
+            let both =
+                forward.iter().flat_map(|one| backward.iter().map(move |other| [one, other]));
+            for [one, other] in both.filter(|[one, other]| surface.is_soft(one, other)) {
+                let pair = [one, other].map(|side| side.corners[0] / 3);
+                let both_ways = [pair, [pair[1], pair[0]]];
+                pairs.extend(both_ways.into_iter().filter(|[line, _]| is_line(*line)));
+            }
+        }
+        pairs.sort_unstable();
+        pairs
+    }
+}
+
 /// The fans of a mesh.
 struct Fans {
     /// `#corners`: the first corner of the fan that each is in.
@@ -123,8 +171,10 @@ struct Fans {
 impl Fans {
     /// Those between the edges at which two half-edges do not go on.
     fn new(surface: &Surface, goes_on: impl Fn(&HalfEdge, &HalfEdge) -> bool) -> Fans {
-        let fan_of = first_corners(surface, goes_on);
-        Fans { fans: measure(surface, &fan_of), fan_of }
+        let borders = Borders::new(surface);
+        let fan_of = first_corners(surface, &borders, goes_on);
+        let across = across_junctions(surface, &borders);
+        Fans { fans: measure(surface, &fan_of, &across), fan_of }
     }
 
     fn at(&self, corner: u32) -> &Fan {
@@ -134,7 +184,11 @@ impl Fans {
 
 /// `#corners`: the first corner of the fan that each is in. Faces that only rounding has set apart are
 /// of one fan, as the result may have put them together.
-fn first_corners(surface: &Surface, goes_on: impl Fn(&HalfEdge, &HalfEdge) -> bool) -> Vec<u32> {
+fn first_corners(
+    surface: &Surface,
+    borders: &Borders,
+    goes_on: impl Fn(&HalfEdge, &HalfEdge) -> bool,
+) -> Vec<u32> {
     let mut fans = Groups::singles(surface.mesh.indices.len());
     for (forward, backward) in surface.edges() {
         for (a, b) in forward.iter().flat_map(|a| backward.iter().map(move |b| (a, b))) {
@@ -144,7 +198,7 @@ fn first_corners(surface: &Surface, goes_on: impl Fn(&HalfEdge, &HalfEdge) -> bo
             }
         }
     }
-    for [one, other] in Borders::new(surface).pairs() {
+    for [one, other] in borders.pairs() {
         for ends in [0, 1].map(|end| [one.corners[end], other.corners[1 - end]]) {
             let [from, to] = ends.map(|corner| surface.position(corner));
             if from.distance(to) <= surface.rounding() && surface.share_normal(ends) {
@@ -155,20 +209,39 @@ fn first_corners(surface: &Surface, goes_on: impl Fn(&HalfEdge, &HalfEdge) -> bo
     fans.labels()
 }
 
-/// `#corners`, by the first corner of each fan.
-fn measure(surface: &Surface, fan_of: &[u32]) -> Vec<Fan> {
+/// Corners that stand in the middle of the side of another triangle which goes on from there, at a
+/// T-junction, each with that triangle: the fan leads over it, though it has no corner there.
+fn across_junctions(surface: &Surface, borders: &Borders) -> Vec<[u32; 2]> {
+    let mut across = Vec::new();
+    for [one, other] in borders.pairs() {
+        for corner in one.corners {
+            let [from, to] =
+                other.corners.map(|end| surface.position(end) - surface.position(corner));
+            let is_between = from.dot(to) < 0.0 && from.length().min(to.length()) > reach(surface);
+            if is_between && other.corners.iter().all(|&end| surface.share_normal([corner, end])) {
+                across.push([corner, other.corners[0] / 3]);
+            }
+        }
+    }
+    across
+}
+
+/// `#corners`, by the first corner of each fan. `across`: more triangles that some corners' fans have.
+fn measure(surface: &Surface, fan_of: &[u32], across: &[[u32; 2]]) -> Vec<Fan> {
     let mut fans = vec![Fan::default(); fan_of.len()];
     let least_height = LEAST_HEIGHT * surface.rounding();
-    for (corner, &fan) in (0u32..).zip(fan_of) {
-        let triangle = corner / 3;
+    let own = (0u32..).zip(fan_of).map(|(corner, &fan)| (corner / 3, fan));
+    let across = across.iter().map(|&[corner, triangle]| (triangle, fan_of[corner as usize]));
+    let members: Vec<(u32, u32)> = own.chain(across).collect();
+    for &(triangle, fan) in &members {
         fans[fan as usize].add_plane(surface.triangle(triangle), least_height);
         for side in 0..3 {
             fans[fan as usize].add_normal(surface.normal(3 * triangle + side));
         }
     }
-    for (corner, &fan) in (0u32..).zip(fan_of) {
-        fans[fan as usize].add_lean(surface.triangle(corner / 3));
-        for point in surface.triangle(corner / 3) {
+    for (triangle, fan) in members {
+        fans[fan as usize].add_lean(surface.triangle(triangle));
+        for point in surface.triangle(triangle) {
             let distance = fans[fan as usize].distance(point);
             let off_plane = &mut fans[fan as usize].off_plane;
             *off_plane = off_plane.max(distance);

@@ -1,10 +1,9 @@
 //! A mesh welded by position: its edges, borders and connected parts.
 
 use super::noise::Step;
-use super::stored::{axes, normal_with_area, normals_to, vector};
+use super::stored::{axes, farthest, normal_with_area, normals_to, vector};
 use crate::groups::Groups;
 use crate::mesh::Mesh;
-use crate::scale::longest_axis;
 use glam::{DMat3, DVec3};
 
 /// The angle in degrees by which normals may differ across an edge that is not hard, where nothing
@@ -89,7 +88,7 @@ impl<'a> Surface<'a> {
     pub fn standing(self, scale: Option<[[f32; 3]; 3]>) -> Surface<'a> {
         let Some(to) = scale.map(axes) else { return self };
         let stands = Some(Standing { to, normals_to: normals_to(to) });
-        let rounding = self.rounding * longest_axis(to);
+        let rounding = self.rounding * farthest(to);
         Surface { stands, rounding, ..self }.with_noise()
     }
 
