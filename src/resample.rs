@@ -14,7 +14,7 @@ use crate::offsets::Offset;
 use crate::report::Blend;
 use crate::sectors::Sectors;
 use crate::surface::Surface;
-use crate::tolerance::{CREASE_COSINE, TOUCHING_STEPS};
+use crate::tolerance::{CREASE_COSINE, TOUCHING, TOUCHING_STEPS};
 use crate::view::{Stored, View, wide};
 
 /// So much nearer than the farthest place that can be told, for the sake of rounding.
@@ -43,14 +43,43 @@ pub fn surface_foot(
         return usual;
     }
     let own = |breaks: Breaks| own_foot(surface, sectors, offset, (corner, breaks));
-    own(is_hard).unwrap_or_else(|| match surface.view.has_soft_breaks() {
+    let way = offset.vector * share;
+    let own_part = own(is_hard);
+    if own_part.is_none() && surface.view.has_soft_breaks() {
         // What is no hard edge may be left over its other side: then that is the surface there.
-        true => own(is_broken)
-            .filter(|own| stays_on(surface, own.corner, offset.vector * share))
-            .unwrap_or(offset.foot),
-        false => usual,
-    })
+        return own(is_broken)
+            .filter(|own| stays_on(surface, own.corner, way))
+            .unwrap_or(offset.foot);
+    }
+    let told = own_part.unwrap_or(usual);
+    if told.is_within(share) {
+        return told;
+    }
+    below(surface, sectors, (offset, share), corner).unwrap_or(told)
 }
+
+/// The way over the face of a corner's part that its end lies on. Past a face that is shaded as a curved one
+/// nobody knows, and along an edge that stays hard the two sides are to agree as they did.
+fn below(
+    surface: Surface,
+    sectors: &Sectors,
+    (offset, share): (&Offset, f64),
+    corner: Corner,
+) -> Option<Foot> {
+    let fan: Few<Corner> = sectors.corners(surface.topology, sectors.sector_of[corner]).collect();
+    let mut parts = fan.chunk_by(|&one, &other| !is_hard(surface.view, other, one.prev()));
+    let part = parts.find(|part| part.contains(&corner))?;
+    let on = |&own: &Corner| {
+        let foot = locate(surface.view, own, surface.view.position_at(own), offset.vector)?;
+        let lies_on = lies_on(surface, own, offset.vector * share);
+        (lies_on && has_plane(surface, own.triangle()) && foot.is_within(share)).then_some(foot)
+    };
+    part.iter().find_map(on)
+}
+
+/// What is no farther off a face than this share of the extent is taken for the face itself: with so little
+/// to gain, none but the normals beside could turn.
+const BESIDE: f64 = 0.5 * TOUCHING;
 
 /// Whether the surface breaks between two half-edges that are twins.
 type Breaks = fn(&View, Corner, Corner) -> bool;
@@ -77,11 +106,16 @@ pub fn parts<'a>(
 /// Whether a way from a corner stays in the plane of its triangle, and that is shaded flat: past a curved
 /// one nobody knows.
 fn stays_on(surface: Surface, corner: Corner, way: DVec3) -> bool {
+    let view = surface.view;
+    let bends = |other: Corner| view.normals_break([corner, other].map(|at| view.normal_at(at)));
+    lies_on(surface, corner, way) && ![corner.next(), corner.prev()].into_iter().any(bends)
+}
+
+/// Whether a way from a corner stays in the plane of its triangle.
+fn lies_on(surface: Surface, corner: Corner, way: DVec3) -> bool {
     let Surface { view, faces, .. } = surface;
     let off_plane = faces.normal[corner.triangle()].dot(way).abs();
-    let bends = |other: Corner| view.normals_break([corner, other].map(|at| view.normal_at(at)));
-    off_plane <= TOUCHING_STEPS * view.resolution
-        && ![corner.next(), corner.prev()].into_iter().any(bends)
+    off_plane <= (TOUCHING_STEPS * view.resolution).max(BESIDE * view.extent)
 }
 
 /// As [`surface_foot`], within the corner's own texture chart; where that has no plane, the corner

@@ -36,6 +36,9 @@ const NORMAL_TOLERANCE: f64 = 1e-6;
 /// off may be seen as part of the face beside.
 const STAYS: f64 = 0.25;
 
+/// More lines in a row are no edge that meets several others.
+const MOST_BESIDE: usize = 64;
+
 /// The triangles that meet at one cluster between two hard edges.
 #[derive(Clone, Copy, Default)]
 struct Fan {
@@ -119,8 +122,8 @@ pub(super) fn is_low(corners: [DVec3; 3], least_height: f64) -> bool {
     area < least_height * sides.into_iter().fold(0.0, f64::max)
 }
 
-/// The triangles on whose soft edges there is one that is but a line, once they are asked for: nobody has
-/// seen the normals of that. Where it opens, it lies in the face beside it, and may be shaded as that.
+/// The triangles beside those that are but lines, once they are asked for: nobody has seen the normals of
+/// a line. Where it opens, it lies in a face beside it, and may be shaded as that.
 #[derive(Default)]
 struct Beside {
     /// Sorted: a line, and a triangle beside it.
@@ -128,29 +131,33 @@ struct Beside {
 }
 
 impl Beside {
-    /// Whether a normal is one of a triangle beside a line, or between its own.
+    /// Whether a normal is one of a triangle beside a line, or beside those in a row with it, or between
+    /// such a triangle's own.
     fn goes_on_with(&self, surface: &Surface, line: u32, normal: DVec3) -> bool {
         let pairs = self.pairs.get_or_init(|| Beside::pairs(surface));
-        let first = pairs.partition_point(|pair| pair[0] < line);
-        let beside = pairs[first..].iter().take_while(|pair| pair[0] == line);
-        beside.into_iter().any(|&[_, other]| {
-            let own = [0, 1, 2].map(|side| surface.normal(3 * other + side).normalize_or_zero());
-            let spread = (0..3).map(|k| own[k].distance(own[(k + 1) % 3])).fold(0.0, f64::max);
-            let is_near =
-                |own: &DVec3| own.distance(normal.normalize()) <= spread + NORMAL_TOLERANCE;
-            own.iter().all(is_near)
-        })
+        let (mut row, mut next) = (vec![line], 0);
+        while let Some(&line) = row.get(next).filter(|_| row.len() <= MOST_BESIDE) {
+            let first = pairs.partition_point(|pair| pair[0] < line);
+            for &[_, other] in pairs[first..].iter().take_while(|pair| pair[0] == line) {
+                if is_between(surface, other, normal) {
+                    return true;
+                }
+                let is_line = pairs.binary_search_by_key(&other, |pair| pair[0]).is_ok();
+                row.extend((is_line && !row.contains(&other)).then_some(other));
+            }
+            next += 1;
+        }
+        false
     }
 
     fn pairs(surface: &Surface) -> Vec<[u32; 2]> {
-        let is_line =
-            |triangle: u32| is_low(surface.triangle(triangle), LEAST_HEIGHT * surface.rounding());
+        let least_height = LEAST_HEIGHT * surface.rounding();
+        let is_line = |triangle: u32| is_low(surface.triangle(triangle), least_height);
         let mut pairs = Vec::new();
         for (forward, backward) in surface.edges() {
             let both =
                 forward.iter().flat_map(|one| backward.iter().map(move |other| [one, other]));
-            for [one, other] in both.filter(|[one, other]| surface.is_soft(one, other)) {
-                let pair = [one, other].map(|side| side.corners[0] / 3);
+            for pair in both.map(|both| both.map(|side| side.corners[0] / 3)) {
                 let both_ways = [pair, [pair[1], pair[0]]];
                 pairs.extend(both_ways.into_iter().filter(|[line, _]| is_line(*line)));
             }
@@ -158,6 +165,13 @@ impl Beside {
         pairs.sort_unstable();
         pairs
     }
+}
+
+/// Whether a normal is no farther from those of a triangle than they are from each other.
+fn is_between(surface: &Surface, triangle: u32, normal: DVec3) -> bool {
+    let own = [0, 1, 2].map(|side| surface.normal(3 * triangle + side).normalize_or_zero());
+    let spread = (0..3).map(|k| own[k].distance(own[(k + 1) % 3])).fold(0.0, f64::max);
+    own.iter().all(|own| own.distance(normal.normalize()) <= spread + NORMAL_TOLERANCE)
 }
 
 /// The fans of a mesh.
