@@ -363,4 +363,35 @@ mod tests {
             }
         }
     }
+
+    //  .---.
+    //  |\  |     of the two triangles of a face that is shaded as a curved one, the one that the place is on
+    //  | \ |     tells its normal, whichever the way was measured on
+    //  '---v
+    #[test]
+    fn beside_an_edge_that_stays_hard_the_face_below_tells_the_normal() {
+        let mut cube = shapes::plain_cube(1.0);
+        for (normal, turn) in cube.normals.iter_mut().zip(1..) {
+            let turned = wide(*normal) + DVec3::splat(0.002 * f64::from(turn));
+            *normal = unit(turned).as_vec3().to_array();
+        }
+        let mut stages = stages_of(&cube, 0.1);
+        let mut looked_at = 0;
+        for sector in stages.sectors.fans.ids() {
+            stages.sectors.fans[sector].is_broken = true;
+            let fan: Vec<Corner> = stages.sectors.corners(&stages.topology, sector).collect();
+            let [one, other] = fan[..] else { continue };
+            for (on, told_on) in [(one, other), (other, one)] {
+                let at = |corner: Corner| stages.view.position_at(corner);
+                let vector = ((at(on.next()) - at(on)) + (at(on.prev()) - at(on))) * 0.2;
+                let foot = locate(&stages.view, told_on, at(on), vector).unwrap();
+                let usual = stages.offsets[sector];
+                let offset = Offset { vector, foot, within: told_on, is_plain: false, ..usual };
+                let foot = surface_foot(stages.surface(), &stages.sectors, (&offset, 1.0), one);
+                assert_eq!(foot.corner, on);
+                looked_at += 1;
+            }
+        }
+        assert!(looked_at > 0);
+    }
 }

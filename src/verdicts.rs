@@ -208,7 +208,9 @@ mod tests {
     use crate::options::Verify;
     use crate::shapes;
     use crate::stages::stages_of;
+    use crate::view::Stored;
     use crate::watch::Unwatched;
+    use glam::DMat3;
 
     fn judge(mesh: &MeshBuffers, width: f32) -> (Vec<EdgeVerdict>, Totals) {
         let stages = stages_of(mesh, width);
@@ -260,5 +262,36 @@ mod tests {
     #[test]
     fn no_hard_edges_no_verdicts() {
         assert_eq!(judge(&shapes::sphere(4, 6), 0.1), (vec![], Totals::default()));
+    }
+
+    /// What a mesh is measured as is rounded, and so its short edges are turned: here by far more than that.
+    #[test]
+    fn widths_are_those_of_the_mesh_as_it_is_stored() {
+        let cube = shapes::plain_cube(1.0);
+        let mut stored = cube.positions.clone();
+        let bent = |at: &[f32; 3]| at.map(|along| if along > 0.0 { along } else { 0.9 * along });
+        stored.iter_mut().for_each(|at| *at = bent(at));
+        let mut stages = stages_of(&cube, 0.1);
+        stages.view.stored = Some(Stored {
+            positions: &stored,
+            normals: &cube.normals,
+            to: DMat3::IDENTITY,
+            back: DMat3::IDENTITY,
+            normal_to: DMat3::IDENTITY,
+        });
+        let limits = stages.limits(Verify::Fast);
+        let edges = &stages.chamfers().edges.hard;
+        for edge in edges.iter() {
+            let at = strips::corners(edge).map(|corner| stages.sectors.sector_of[corner]);
+            let told = widths(&stages.view, &limits, (edge, at));
+            let side = edge.sides[0];
+            let [from, to] =
+                [side, side.next()].map(|c| wide(stored[stages.view.vertex_at(c).index()]));
+            let pulled = [edge.sides[0], edge.sides[1].next()].map(|corner| {
+                (wide(limits.placement.stored_at(corner)) - from).cross(unit(to - from)).length()
+            });
+            let expected = (pulled[0] + pulled[1]) / 2.0;
+            assert!((f64::from(told[0]) - expected).abs() < 1e-6, "{told:?} instead of {expected}");
+        }
     }
 }

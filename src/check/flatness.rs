@@ -308,3 +308,58 @@ impl Fan {
         kept.is_some_and(|kept| kept.normalize().distance(normal.normalize()) > NORMAL_TOLERANCE)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::check::compare;
+    use crate::mesh::{Mesh, MeshBuffers};
+    use crate::options::Verify;
+
+    fn triangles(positions: &[[f32; 3]], normals: &[[f32; 3]], indices: &[u32]) -> MeshBuffers {
+        MeshBuffers {
+            positions: positions.to_vec(),
+            normals: normals.to_vec(),
+            indices: indices.to_vec(),
+            submesh_index_counts: vec![indices.len() as u32],
+            ..MeshBuffers::default()
+        }
+    }
+
+    //  A-----------B     the faces below have one normal, those above another one, a hair off it: at M, in
+    //  A--M--------B     the middle of the long side, it is one surface, and may have either
+    #[test]
+    fn a_fan_goes_on_over_a_long_side_that_its_corner_stands_on() {
+        let places = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [2.0, 3.0, 0.0]];
+        let below = [[0.0, 0.0, 0.0], [0.0, -3.0, 0.0], [1.0, 0.0, 0.0], [4.0, 0.0, 0.0]];
+        let (up, leaning) = ([0.0, 0.0, 1.0], [3e-6, 0.0, 1.0]);
+        let normals = [[up; 3].to_vec(), [leaning; 4].to_vec()].concat();
+        let indices = [0, 1, 2, 3, 4, 5, 5, 4, 6];
+        let before = triangles(&[&places[..], &below].concat(), &normals, &indices);
+        let with = |vertex: usize| {
+            let mut after = before.clone();
+            after.normals[vertex] = up;
+            compare(&before.as_mesh(), &after.as_mesh(), Verify::Fast).count(Rule::FlatNormal)
+        };
+        let [middle, away] = [5, 4];
+        assert_eq!((with(middle), with(away)), (0, 2));
+    }
+
+    //  .---.      under the face lies a line: it may be shaded as that face, but not as nothing there is
+    //  |  /
+    //  | /
+    //  '=======
+    #[test]
+    fn a_line_goes_on_with_the_faces_beside_it() {
+        let face = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        let line = [[1.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.5, -1e-7, 0.0]];
+        let (up, aside) = ([0.0, 0.0, 1.0], [1.0, 0.0, 0.0]);
+        let normals = [[up; 3], [aside; 3]].concat();
+        let mesh = triangles(&[face, line].concat(), &normals, &[0, 1, 2, 3, 4, 5]);
+        let mesh: Mesh = mesh.as_mesh();
+        let (surface, beside) = (Surface::new(&mesh), Beside::default());
+        assert!(beside.goes_on_with(&surface, 1, DVec3::Z));
+        assert!(!beside.goes_on_with(&surface, 1, DVec3::Y));
+        assert!(!beside.goes_on_with(&surface, 0, DVec3::X), "the face is no line");
+    }
+}

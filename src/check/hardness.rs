@@ -149,3 +149,52 @@ fn old_normals(after: &Surface, origins: &Origins) -> Vec<NormalAt> {
     normals.dedup();
     normals
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::Mesh;
+
+    //  A-----------B     the face above is shaded alike at A, B and M, and below light breaks at M alone
+    //  A--M--------B
+    #[test]
+    fn light_may_break_in_the_middle_of_a_long_side() {
+        let above = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [2.0, 3.0, 0.0]];
+        let below = [[0.0, 0.0, 0.0], [0.0, -3.0, 0.0], [1.0, 0.0, 0.0], [4.0, 0.0, 0.0]];
+        let positions = [&above[..], &below].concat();
+        for (lean, is_parted) in [(0.0, false), (0.05, true)] {
+            let mut normals = [[0.0, 0.0, 1.0]; 7];
+            normals[5] = [lean, 0.0, 1.0];
+            let mesh = Mesh {
+                positions: &positions,
+                normals: &normals,
+                indices: &[0, 1, 2, 3, 4, 5, 5, 4, 6],
+                submesh_index_counts: &[9],
+                ..Mesh::default()
+            };
+            let [long, short] = [0, 5];
+            let surface = Surface::new(&mesh);
+            assert_eq!(parted_before(&surface, long, short), is_parted, "{lean}");
+            assert_eq!(parted_before(&surface, short, long), is_parted, "{lean}");
+        }
+    }
+
+    //  A-----------B     a line closes a hard edge between two faces: both of its sides may be that
+    //  A-----M-----B
+    #[test]
+    fn a_line_along_a_hard_edge_closes_it() {
+        let positions = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 0.0, 1.0]];
+        let mesh = Mesh {
+            positions: &positions,
+            normals: &[[0.0, 1.0, 0.0]; 4],
+            indices: &[0, 1, 2, 0, 3, 1],
+            submesh_index_counts: &[6],
+            ..Mesh::default()
+        };
+        let surface = Surface::new(&mesh);
+        let hard = [true, false, false, false, false, true];
+        assert!(closes_hard(&surface, &hard, 0));
+        assert!(!closes_hard(&surface, &[false; 6], 0));
+        assert!(!closes_hard(&surface, &hard, 1), "a face is no line");
+    }
+}

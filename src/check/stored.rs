@@ -51,3 +51,14 @@ pub(super) fn normal_with_area([a, b, c]: [DVec3; 3]) -> Option<DVec3> {
         [b - a, c - b, a - c].iter().map(|side| side.length_squared()).fold(0.0, f64::max);
     (normal.length() > NO_AREA * longest).then_some(normal)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sheared_a_place_is_off_by_what_all_axes_are() {
+        assert_eq!(farthest(axes([[1.0, 0.0, 0.0], [0.0, 4.0, 0.0], [0.0, 0.0, 0.5]])), 4.0);
+        assert_eq!(farthest(axes([[1.0, 0.0, 0.0], [-2.0, 1.0, 0.0], [0.5, 0.0, 1.0]])), 3.5);
+    }
+}
