@@ -41,7 +41,7 @@ fn rows_between_faces_that_hardly_bend_are_no_pieces() {
     let places = [-2.0, -1.0, 0.0, 1.0].into_iter().flat_map(|x| [0.0, 1.0, 2.0].map(|z| (x, z)));
     let quad = |(x, z)| [at(x, z), at(x, z + 1.0), at(x + 1.0, z + 1.0), at(x + 1.0, z)];
     let sheet = quads(places.map(quad));
-    let options = Options::default().with_width(Width::Units(0.1)).with_segments(4);
+    let options = Options::default().with_width(Width::Units(0.02)).with_segments(4);
     let result = chamfer(&sheet.as_mesh(), &options).unwrap();
     assert_eq!(result.totals.chamfered, 3);
     let told = check(&sheet.as_mesh(), &result, Verify::Fast).edges;

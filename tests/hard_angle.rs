@@ -38,10 +38,13 @@ fn edges_at_the_very_angle_may_be_chamfered() {
         let (sin, cos) = (f64::from(k) * std::f64::consts::FRAC_PI_3).sin_cos();
         [cos as f32, sin as f32, z]
     };
-    let tube = quads((0..6).map(|k| [at(k, 0.0), at(k + 1, 0.0), at(k + 1, 1.0), at(k, 1.0)]));
-    let options = Options::default().with_width(Width::Units(0.1)).with_hard_angle(59.9);
+    let places = (0..6).flat_map(|k| [0.0, 1.0].map(|z| (k, z)));
+    let quad = |(k, z)| [at(k, z), at(k + 1, z), at(k + 1, z + 1.0), at(k, z + 1.0)];
+    let tube = quads(places.map(quad));
+    let options =
+        Options::default().with_width(Width::Units(0.1)).with_hard_angle(59.9).with_segments(2);
     let result = chamfer(&tube.as_mesh(), &options).unwrap();
-    assert_eq!(result.totals.chamfered, 6);
+    assert_eq!(result.totals.chamfered, 12);
     assert_sound("a tube", &tube.as_mesh(), &result);
 }
 

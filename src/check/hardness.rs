@@ -155,16 +155,18 @@ mod tests {
     use super::*;
     use crate::mesh::Mesh;
 
-    //  A-----------B     the face above is shaded alike at A, B and M, and below light breaks at M alone
-    //  A--M--------B
+    //  A-----------B     the face above is shaded at A as those below are at M, and at B alike: at M it is
+    //  A--M--------B     shaded otherwise, as its normals turn on the way
     #[test]
     fn light_may_break_in_the_middle_of_a_long_side() {
         let above = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [2.0, 3.0, 0.0]];
         let below = [[0.0, 0.0, 0.0], [0.0, -3.0, 0.0], [1.0, 0.0, 0.0], [4.0, 0.0, 0.0]];
         let positions = [&above[..], &below].concat();
-        for (lean, is_parted) in [(0.0, false), (0.05, true)] {
+        for (lean, is_parted) in [(0.0, false), (0.2, true)] {
             let mut normals = [[0.0, 0.0, 1.0]; 7];
-            normals[5] = [lean, 0.0, 1.0];
+            for vertex in [0, 3, 5] {
+                normals[vertex] = [lean, 0.0, 1.0];
+            }
             let mesh = Mesh {
                 positions: &positions,
                 normals: &normals,
@@ -172,7 +174,7 @@ mod tests {
                 submesh_index_counts: &[9],
                 ..Mesh::default()
             };
-            let [long, short] = [0, 5];
+            let [long, short] = [0, 8];
             let surface = Surface::new(&mesh);
             assert_eq!(parted_before(&surface, long, short), is_parted, "{lean}");
             assert_eq!(parted_before(&surface, short, long), is_parted, "{lean}");
