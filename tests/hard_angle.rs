@@ -35,7 +35,7 @@ fn compared(before: &MeshBuffers, after: &MeshBuffers, hard_angle: Option<f32>) 
 #[test]
 fn edges_at_the_very_angle_may_be_chamfered() {
     let at = |k: u32, z: f32| {
-        let (sin, cos) = (f64::from(k) * std::f64::consts::FRAC_PI_3).sin_cos();
+        let (sin, cos) = (f64::from(k % 6) * std::f64::consts::FRAC_PI_3).sin_cos();
         [cos as f32, sin as f32, z]
     };
     let places = (0..6).flat_map(|k| [0.0, 1.0].map(|z| (k, z)));

@@ -103,9 +103,12 @@ pub(super) fn check_flatness(
             };
             face.filter(stays).is_some_and(|face| face.bends(after.normal(corner)))
         };
+        // All of it, or nothing: what is shaded as two faces is none of them.
+        let goes_on = |side: u32| {
+            beside.goes_on_with(before, source[0] / 3, after.normal(3 * triangle + side))
+        };
         let bends = |fan: &Fan, normal: DVec3| {
-            fan.bends(normal)
-                && (fan.plane.is_some() || !beside.goes_on_with(before, source[0] / 3, normal))
+            fan.bends(normal) && (fan.plane.is_some() || !(0..3).all(goes_on))
         };
         if corners().any(|(fan, corner, _)| {
             shows(&fan) && (bends(&fan, after.normal(corner)) || is_bent(corner))
