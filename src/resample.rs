@@ -14,7 +14,7 @@ use crate::offsets::Offset;
 use crate::report::Blend;
 use crate::sectors::Sectors;
 use crate::surface::Surface;
-use crate::tolerance::{CREASE_COSINE, TOUCHING, TOUCHING_STEPS};
+use crate::tolerance::{CREASE_COSINE, TOUCHING_STEPS};
 use crate::view::{Stored, View, wide};
 
 /// So much nearer than the farthest place that can be told, for the sake of rounding.
@@ -77,10 +77,6 @@ fn below(
     part.iter().find_map(on)
 }
 
-/// What is no farther off a face than this share of the extent is taken for the face itself: with so little
-/// to gain, none but the normals beside could turn.
-const BESIDE: f64 = 0.5 * TOUCHING;
-
 /// Whether the surface breaks between two half-edges that are twins.
 type Breaks = fn(&View, Corner, Corner) -> bool;
 
@@ -115,7 +111,7 @@ fn stays_on(surface: Surface, corner: Corner, way: DVec3) -> bool {
 fn lies_on(surface: Surface, corner: Corner, way: DVec3) -> bool {
     let Surface { view, faces, .. } = surface;
     let off_plane = faces.normal[corner.triangle()].dot(way).abs();
-    off_plane <= (TOUCHING_STEPS * view.resolution).max(BESIDE * view.extent)
+    off_plane <= TOUCHING_STEPS * view.resolution
 }
 
 /// As [`surface_foot`], within the corner's own texture chart; where that has no plane, the corner
