@@ -25,7 +25,7 @@ use crate::error::Error;
 use crate::ids::{Cluster, Corner, Id, IdVec, Sector, Triangle, Vertex};
 use crate::placement::Placement;
 use crate::report::Blend;
-use crate::resample::blended_normal;
+use crate::resample::{blended_normal, parts};
 use crate::scale::Space;
 use crate::sectors::Sectors;
 use crate::surface::Surface;
@@ -163,6 +163,8 @@ struct Moved {
     /// The first of the sector that has the vertex.
     corner: Corner,
     vertex: Vertex,
+    /// Which of the [`parts`] of the sector it is of.
+    part: u32,
     blends: [Blend; 2],
     /// The place of one that it has become equal to, or none.
     twin: u32,
@@ -179,9 +181,10 @@ impl Notes {
         (streams, sector): (&Streams, Sector),
     ) {
         let first = self.moved.len();
-        for corner in sectors.corners(surface.topology, sector) {
+        for (corner, part) in parts(surface, sectors, sector) {
             let vertex = surface.view.vertex_at(corner);
-            let known = self.moved[first..].iter().position(|moved| moved.vertex == vertex);
+            let is_own = |moved: &Moved| moved.vertex == vertex && moved.part == part;
+            let known = self.moved[first..].iter().position(is_own);
             let place = known.map_or(self.moved.len(), |known| first + known);
             self.corners.push((corner, place as u32));
             if known.is_some() {
@@ -193,18 +196,21 @@ impl Notes {
             }
             fill(space, placement, streams, (sector, blends), &mut self.rows[place]);
             let twin = self.twin_of(space.source, streams, (first, vertex));
-            self.moved.push(Moved { sector, corner, vertex, blends, twin, output: NONE });
+            self.moved.push(Moved { sector, corner, vertex, part, blends, twin, output: NONE });
         }
     }
 
     /// The place of a vertex of the sector, noted from the first place on, that the next one has become
-    /// equal to, though they differed before: their normals were less than a degree apart. Or else none.
+    /// equal to, though they differed before: their normals were less than a degree apart. Or of one that is
+    /// that very vertex, in another part. Or else none.
     fn twin_of(&self, view: &View, streams: &Streams, (first, own): (usize, Vertex)) -> u32 {
         let row = &self.rows[self.moved.len()];
         let is_twin = |place: &usize| {
             let other = self.moved[*place].vertex;
             streams.are_equal(&self.rows[*place], row)
-                && !(view.normal(other) == view.normal(own) && same_chart(view, other, own))
+                && (other == own
+                    || view.normal(other) != view.normal(own)
+                    || !same_chart(view, other, own))
         };
         (first..self.moved.len()).find(is_twin).map_or(NONE, |twin| twin as u32)
     }

@@ -22,6 +22,9 @@ pub struct Foot {
 /// the weights up to 1 any more.
 pub const MOST_WEIGHT: f64 = 1024.0;
 
+/// What is past a triangle by no more than this share of it is as good as within.
+const HARDLY: f64 = 1e-3;
+
 impl Foot {
     /// No way at all.
     pub fn at(corner: Corner) -> Foot {
@@ -31,6 +34,12 @@ impl Foot {
     /// How many times as far as along the triangle's sides the way goes.
     pub fn reach(&self) -> f64 {
         self.along[0].abs().max(self.along[1].abs())
+    }
+
+    /// Whether a share of the way ends within the triangle, or hardly past it.
+    pub fn is_within(&self, share: f64) -> bool {
+        let [to_next, to_prev] = [0, 1].map(|k| self.start[k] + self.along[k] * share);
+        to_next.min(to_prev).min(1.0 - to_next - to_prev) > -HARDLY
     }
 
     /// The blend of the triangle's vertices at a share of the way.

@@ -183,7 +183,7 @@ impl<'a> Placement<'a> {
         }
         let at = |corner: Corner| self.normal_on(&self.surface_foot(sector, corner), sector);
         let first = at(fan.first);
-        let is_one = view.vertex_at(fan.first) == view.vertex_at(fan.last);
+        let is_one = !fan.is_broken && view.vertex_at(fan.first) == view.vertex_at(fan.last);
         [first, if is_one { first } else { at(fan.last) }]
     }
 

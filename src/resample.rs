@@ -43,26 +43,75 @@ pub fn surface_foot(
         return usual;
     }
     let own = |breaks: Breaks| own_foot(surface, sectors, offset, (corner, breaks));
-    own(is_hard).unwrap_or_else(|| match surface.view.has_soft_breaks() {
+    let way = offset.vector * share;
+    let own_part = own(is_hard);
+    if own_part.is_none() && surface.view.has_soft_breaks() {
         // What is no hard edge may be left over its other side: then that is the surface there.
-        true => own(is_broken)
-            .filter(|own| stays_on(surface, own.corner, offset.vector * share))
-            .unwrap_or(offset.foot),
-        false => usual,
-    })
+        return own(is_broken)
+            .filter(|own| stays_on(surface, own.corner, way))
+            .unwrap_or(offset.foot);
+    }
+    let told = own_part.unwrap_or(usual);
+    if told.is_within(share) {
+        return told;
+    }
+    below(surface, sectors, (offset, share), corner).unwrap_or(told)
+}
+
+/// The way over the face of a corner's part that its end lies on. Past a face that is shaded as a curved one
+/// nobody knows, and along an edge that stays hard the two sides are to agree as they did.
+fn below(
+    surface: Surface,
+    sectors: &Sectors,
+    (offset, share): (&Offset, f64),
+    corner: Corner,
+) -> Option<Foot> {
+    let fan: Few<Corner> = sectors.corners(surface.topology, sectors.sector_of[corner]).collect();
+    let mut parts = fan.chunk_by(|&one, &other| !is_hard(surface.view, other, one.prev()));
+    let part = parts.find(|part| part.contains(&corner))?;
+    let on = |&own: &Corner| {
+        let foot = locate(surface.view, own, surface.view.position_at(own), offset.vector)?;
+        let lies_on = lies_on(surface, own, offset.vector * share);
+        (lies_on && has_plane(surface, own.triangle()) && foot.is_within(share)).then_some(foot)
+    };
+    part.iter().find_map(on)
 }
 
 /// Whether the surface breaks between two half-edges that are twins.
 type Breaks = fn(&View, Corner, Corner) -> bool;
 
+/// The corners of a sector, each with the number of its part: between two of them light breaks. A vertex
+/// that is of both has two normals once it moves, if it goes along an edge whose sides are shaded alike at
+/// that end alone.
+pub fn parts<'a>(
+    surface: Surface<'a>,
+    sectors: &'a Sectors,
+    sector: Sector,
+) -> impl Iterator<Item = (Corner, u32)> + 'a {
+    let breaks: Breaks = if surface.view.has_soft_breaks() { is_broken } else { is_hard };
+    let is_broken = sectors.fans[sector].is_broken;
+    let (mut before, mut part) = (None, 0);
+    sectors.corners(surface.topology, sector).map(move |corner| {
+        let before = before.replace(corner).filter(|_| is_broken);
+        let begins = before.is_some_and(|other: Corner| breaks(surface.view, corner, other.prev()));
+        part += u32::from(begins);
+        (corner, part)
+    })
+}
+
 /// Whether a way from a corner stays in the plane of its triangle, and that is shaded flat: past a curved
 /// one nobody knows.
 fn stays_on(surface: Surface, corner: Corner, way: DVec3) -> bool {
+    let view = surface.view;
+    let bends = |other: Corner| view.normals_break([corner, other].map(|at| view.normal_at(at)));
+    lies_on(surface, corner, way) && ![corner.next(), corner.prev()].into_iter().any(bends)
+}
+
+/// Whether a way from a corner stays in the plane of its triangle.
+fn lies_on(surface: Surface, corner: Corner, way: DVec3) -> bool {
     let Surface { view, faces, .. } = surface;
     let off_plane = faces.normal[corner.triangle()].dot(way).abs();
-    let bends = |other: Corner| view.normals_break([corner, other].map(|at| view.normal_at(at)));
     off_plane <= TOUCHING_STEPS * view.resolution
-        && ![corner.next(), corner.prev()].into_iter().any(bends)
 }
 
 /// As [`surface_foot`], within the corner's own texture chart; where that has no plane, the corner
@@ -177,14 +226,8 @@ fn own_foot(
     (corner, breaks): (Corner, Breaks),
 ) -> Option<Foot> {
     let fan: Few<Corner> = sectors.corners(surface.topology, sectors.sector_of[corner]).collect();
-    let parts = || fan.chunk_by(|&one, &other| !breaks(surface.view, other, one.prev()));
-    let vertex = surface.view.vertex_at(corner);
-    let has_vertex = |part: &&[Corner]| part.iter().any(|at| surface.view.vertex_at(*at) == vertex);
-    // Where both sides of a hard edge share the vertex, the one that would show it comes first.
-    let is_first = |part: &&[Corner]| {
-        has_vertex(part) && !part.contains(&offset.within) && is_even(surface, part, corner)
-    };
-    let part = parts().find(is_first).or_else(|| parts().find(|part| part.contains(&corner)))?;
+    let mut parts = fan.chunk_by(|&one, &other| !breaks(surface.view, other, one.prev()));
+    let part = parts.find(|part| part.contains(&corner))?;
     let own = if !part.contains(&offset.within) {
         nearest(surface, &fan, offset, |own| part.contains(&own))
             .or_else(|| likest(surface, &fan, corner))
@@ -315,5 +358,36 @@ mod tests {
                 }
             }
         }
+    }
+
+    //  .---.
+    //  |\  |     of the two triangles of a face that is shaded as a curved one, the one that the place is on
+    //  | \ |     tells its normal, whichever the way was measured on
+    //  '---v
+    #[test]
+    fn beside_an_edge_that_stays_hard_the_face_below_tells_the_normal() {
+        let mut cube = shapes::plain_cube(1.0);
+        for (normal, turn) in cube.normals.iter_mut().zip(1..) {
+            let turned = wide(*normal) + DVec3::splat(0.002 * f64::from(turn));
+            *normal = unit(turned).as_vec3().to_array();
+        }
+        let mut stages = stages_of(&cube, 0.1);
+        let mut looked_at = 0;
+        for sector in stages.sectors.fans.ids() {
+            stages.sectors.fans[sector].is_broken = true;
+            let fan: Vec<Corner> = stages.sectors.corners(&stages.topology, sector).collect();
+            let [one, other] = fan[..] else { continue };
+            for (on, told_on) in [(one, other), (other, one)] {
+                let at = |corner: Corner| stages.view.position_at(corner);
+                let vector = ((at(on.next()) - at(on)) + (at(on.prev()) - at(on))) * 0.2;
+                let foot = locate(&stages.view, told_on, at(on), vector).unwrap();
+                let usual = stages.offsets[sector];
+                let offset = Offset { vector, foot, within: told_on, is_plain: false, ..usual };
+                let foot = surface_foot(stages.surface(), &stages.sectors, (&offset, 1.0), one);
+                assert_eq!(foot.corner, on);
+                looked_at += 1;
+            }
+        }
+        assert!(looked_at > 0);
     }
 }

@@ -86,8 +86,8 @@ impl Scale {
 
     /// How what is measured is stored in the mesh that came.
     pub fn stored<'a>(&self, mesh: &Mesh<'a>) -> Stored<'a> {
-        let Scale { back, normal_to, .. } = *self;
-        Stored { positions: mesh.positions, normals: mesh.normals, back, normal_to }
+        let Scale { to, back, normal_to, .. } = *self;
+        Stored { positions: mesh.positions, normals: mesh.normals, to, back, normal_to }
     }
 
     pub fn measured(&self, mesh: &Mesh) -> Measured {

@@ -3,7 +3,7 @@
 use crate::chamfers::Chamfers;
 use crate::edges::HardEdge;
 use crate::error::Error;
-use crate::ids::{Edge, Patch, Sector};
+use crate::ids::{Corner, Edge, Id, Patch, Sector};
 use crate::limits::Limits;
 use crate::math::{area_vector, unit};
 use crate::patches::Patches;
@@ -12,7 +12,7 @@ use crate::rounding::Rounding;
 use crate::sectors::Sectors;
 use crate::strips;
 use crate::threads::Threads;
-use crate::view::View;
+use crate::view::{View, wide};
 use crate::watch::Watch;
 
 /// `#hard edges`, and their sum.
@@ -127,9 +127,19 @@ fn worst_reason(limits: &Limits, at: [Sector; 4]) -> Option<Reason> {
 
 /// At each end, the mean distance of the two pulled vertices from the line of the old edge.
 fn widths(view: &View, limits: &Limits, (edge, at): (&HardEdge, [Sector; 4])) -> [f32; 2] {
-    let [from, to] = [edge.sides[0], edge.sides[0].next()].map(|c| view.position_at(c));
-    let along = unit(to - from);
-    let [b1, a1, a2, b2] = at.map(|sector| limits.placement.point[sector]);
+    let ends = [edge.sides[0], edge.sides[0].next()];
+    let (from, to, points);
+    if let Some(stored) = &view.stored {
+        // Rounded where it is measured, a short edge would be turned, and what is far off it with it.
+        let standing = |at: [f32; 3]| stored.to * wide(at);
+        let source = |at: Corner| standing(stored.positions[view.vertex_at(at).index()]);
+        [from, to] = ends.map(source);
+        points = strips::corners(edge).map(|corner| standing(limits.placement.stored_at(corner)));
+    } else {
+        [from, to] = ends.map(|end| view.position_at(end));
+        points = at.map(|sector| limits.placement.point[sector]);
+    }
+    let (along, [b1, a1, a2, b2]) = (unit(to - from), points);
     let distance = |point: glam::DVec3| (point - from).cross(along).length();
     [(a1, a2), (b1, b2)].map(|(one, two)| ((distance(one) + distance(two)) / 2.0) as f32)
 }
@@ -198,7 +208,9 @@ mod tests {
     use crate::options::Verify;
     use crate::shapes;
     use crate::stages::stages_of;
+    use crate::view::Stored;
     use crate::watch::Unwatched;
+    use glam::DMat3;
 
     fn judge(mesh: &MeshBuffers, width: f32) -> (Vec<EdgeVerdict>, Totals) {
         let stages = stages_of(mesh, width);
@@ -250,5 +262,35 @@ mod tests {
     #[test]
     fn no_hard_edges_no_verdicts() {
         assert_eq!(judge(&shapes::sphere(4, 6), 0.1), (vec![], Totals::default()));
+    }
+
+    /// What a mesh is measured as is rounded, and so its short edges are turned: here by far more than that.
+    #[test]
+    fn widths_are_those_of_the_mesh_as_it_is_stored() {
+        let cube = shapes::plain_cube(1.0);
+        let mut stored = cube.positions.clone();
+        stored.iter_mut().for_each(|at| at[0] += 0.05 * at[1]);
+        let mut stages = stages_of(&cube, 0.1);
+        stages.view.stored = Some(Stored {
+            positions: &stored,
+            normals: &cube.normals,
+            to: DMat3::IDENTITY,
+            back: DMat3::IDENTITY,
+            normal_to: DMat3::IDENTITY,
+        });
+        let limits = stages.limits(Verify::Fast);
+        let edges = &stages.chamfers().edges.hard;
+        for edge in edges.iter() {
+            let at = strips::corners(edge).map(|corner| stages.sectors.sector_of[corner]);
+            let told = widths(&stages.view, &limits, (edge, at));
+            let side = edge.sides[0];
+            let [from, to] =
+                [side, side.next()].map(|c| wide(stored[stages.view.vertex_at(c).index()]));
+            let pulled = [edge.sides[0], edge.sides[1].next()].map(|corner| {
+                (wide(limits.placement.stored_at(corner)) - from).cross(unit(to - from)).length()
+            });
+            let expected = (pulled[0] + pulled[1]) / 2.0;
+            assert!((f64::from(told[0]) - expected).abs() < 1e-6, "{told:?} instead of {expected}");
+        }
     }
 }

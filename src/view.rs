@@ -49,7 +49,9 @@ pub struct View<'a> {
 pub struct Stored<'a> {
     pub positions: &'a [[f32; 3]],
     pub normals: &'a [[f32; 3]],
-    /// From where it is measured.
+    /// To where it is measured.
+    pub to: DMat3,
+    /// From there.
     pub back: DMat3,
     /// How normals go to where it is measured.
     pub normal_to: DMat3,

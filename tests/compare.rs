@@ -1,12 +1,17 @@
 //! What the checker says of the pipeline's own results, as they are and after other tools had
 //! their way with them.
 
+#[path = "support/quads.rs"]
+mod quads;
+
 use chamfer::check::{Findings, Matching, MeasuredEdge, Rule, check, compare};
 use chamfer::shapes;
 use chamfer::{
     Chamfered, Held, Mesh, MeshBuffers, Options, Outcome, Piece, Reason, TriangleKind,
     TriangleSource, Verify, Width, chamfer,
 };
+
+use quads::quads;
 
 const WIDTH: f32 = 0.05;
 
@@ -26,6 +31,22 @@ fn shapes() -> Vec<(&'static str, MeshBuffers)> {
         ("cube_field", shapes::cube_field(20)),
     ]);
     all
+}
+
+//    .---.---.---.---.     a sheet that folds by two degrees: the rows of a rounded chamfer nearly lie in
+//   /   /   | \   \   \    its faces, and are no pieces of them
+#[test]
+fn rows_between_faces_that_hardly_bend_are_no_pieces() {
+    let at = |x: f32, z: f32| [x, -0.018 * x.abs(), z];
+    let places = [-2.0, -1.0, 0.0, 1.0].into_iter().flat_map(|x| [0.0, 1.0, 2.0].map(|z| (x, z)));
+    let quad = |(x, z)| [at(x, z), at(x, z + 1.0), at(x + 1.0, z + 1.0), at(x + 1.0, z)];
+    let sheet = quads(places.map(quad));
+    let options = Options::default().with_width(Width::Units(0.02)).with_segments(4);
+    let result = chamfer(&sheet.as_mesh(), &options).unwrap();
+    assert_eq!(result.totals.chamfered, 3);
+    let told = check(&sheet.as_mesh(), &result, Verify::Fast).edges;
+    let found = compare(&sheet.as_mesh(), &result.mesh.as_mesh(), Verify::Fast);
+    assert_eq!((found.matching, &found.edges), (Matching::Order, &told));
 }
 
 /// A permutation of the numbers below `count`.

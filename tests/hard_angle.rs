@@ -1,8 +1,13 @@
 //! Where another angle makes an edge hard: what differs by less is no edge, and the checker goes by the
 //! same angle.
 
-use chamfer::check::{Extras, Findings, Rule, check, compare_with};
+#[path = "support/quads.rs"]
+mod quads;
+
+use chamfer::check::{Extras, Findings, Rule, assert_sound, check, compare_with};
 use chamfer::{Chamfered, MeshBuffers, Options, TriangleKind, Verify, Width, chamfer, shapes};
+
+use quads::quads;
 
 /// Of a prism with eight sides, which turn by 45 degrees, only the edges of its lids.
 const LIDS_ALONE: f32 = 60.0;
@@ -23,6 +28,49 @@ fn found(findings: &Findings, rule: Rule) -> bool {
 fn compared(before: &MeshBuffers, after: &MeshBuffers, hard_angle: Option<f32>) -> Findings {
     let extras = Extras::default().with_hard_angle(hard_angle);
     compare_with(&before.as_mesh(), &after.as_mesh(), &extras, Verify::Fast)
+}
+
+/// A tube whose sides turn by 60 degrees: where edges are hard from a little less on, they are chamfered,
+/// and no checker can tell whether they had to be.
+#[test]
+fn edges_at_the_very_angle_may_be_chamfered() {
+    let at = |k: u32, z: f32| {
+        let (sin, cos) = (f64::from(k % 6) * std::f64::consts::FRAC_PI_3).sin_cos();
+        [cos as f32, sin as f32, z]
+    };
+    let places = (0..6).flat_map(|k| [0.0, 1.0].map(|z| (k, z)));
+    let quad = |(k, z)| [at(k, z), at(k + 1, z), at(k + 1, z + 1.0), at(k, z + 1.0)];
+    let tube = quads(places.map(quad));
+    let options =
+        Options::default().with_width(Width::Units(0.1)).with_hard_angle(59.9).with_segments(2);
+    let result = chamfer(&tube.as_mesh(), &options).unwrap();
+    assert_eq!(result.totals.chamfered, 12);
+    assert_sound("a tube", &tube.as_mesh(), &result);
+}
+
+/// A roof that is shaded as a round one, but for a tenth of a degree along its ridge.
+#[test]
+fn where_little_makes_an_edge_hard_little_moves_faces() {
+    let ridge = [[0.0, 1.0, 0.0], [0.0, 1.0, 2.0]];
+    let (mut positions, mut normals) = (vec![], vec![]);
+    for side in [-1.0_f32, 1.0] {
+        let [a, b] = if side > 0.0 { [ridge[1], ridge[0]] } else { ridge };
+        positions.extend([a, b, [side, 0.0, b[2]], [side, 0.0, a[2]]]);
+        let at_ridge = [side * 0.001_05, 1.0, 0.0];
+        normals.extend([at_ridge, at_ridge, [side, 0.0, 0.0], [side, 0.0, 0.0]]);
+    }
+    let indices = vec![0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7];
+    let roof = MeshBuffers {
+        positions,
+        normals,
+        submesh_index_counts: vec![indices.len() as u32],
+        indices,
+        ..MeshBuffers::default()
+    };
+    let options = Options::default().with_width(Width::Units(1.0)).with_hard_angle(0.1);
+    let result = chamfer(&roof.as_mesh(), &options).unwrap();
+    assert!(result.verdicts[0].widths[0] > 0.6, "{:?}", result.verdicts);
+    assert_sound("a roof", &roof.as_mesh(), &result);
 }
 
 #[test]

@@ -456,6 +456,30 @@ fn a_face_beside_an_edge_that_stays_hard_stays_flat() {
     }
 }
 
+// B has a vertex of its own at O, while A and C share theirs: C goes along with B, as light breaks at O-R
+// alone.
+#[test]
+fn a_vertex_of_both_sides_of_an_edge_that_stays_hard_becomes_two_with_it() {
+    let (mut block, kept) = block([0.0, 1.0, 0.0]);
+    let (own, up) = (block.positions.len() as u32, block.normals[0]);
+    block.positions.push(kept[0]);
+    block.normals.push(up);
+    block.indices[3] = own;
+    let edges = listed(&block, |_, ends| !kept.iter().all(|end| ends.contains(end)));
+    let result = with_edges(&block, &edges, 0.1);
+    let normal = |corner: usize| {
+        let normal = result.mesh.normals[result.mesh.indices[corner] as usize];
+        DVec3::from(normal.map(f64::from))
+    };
+    assert_eq!(normal(0), DVec3::Y);
+    assert_eq!(normal(3), normal(6));
+    let [from, to] = kept.map(|end| DVec3::from(end.map(f64::from)));
+    let at = DVec3::from(result.mesh.positions[result.mesh.indices[3] as usize].map(f64::from));
+    let share = from.distance(at) / from.distance(to);
+    let there = DVec3::Y.lerp(DVec3::new(0.3, 1.0, 0.0).normalize(), share).normalize();
+    assert!(normal(3).distance(there) < 1e-5, "{} instead of {there}", normal(3));
+}
+
 // There C leans by less than a tenth of a degree, so that nothing holds O to O-R: it goes over C, a hair
 // out of the plane of A, which is shaded flat all the same.
 #[test]

@@ -22,7 +22,7 @@ use super::widths::{Ruler, distance_from_line};
 const FLAT_COSINE: f64 = 0.999_99;
 
 /// Unit normals that differ by less than this (half a degree) are certainly not those of an edge to
-/// be chamfered.
+/// be chamfered, unless a smaller angle makes edges hard.
 const SMOOTH: f64 = 0.009;
 
 /// Where a surface is curved, a triangle whose corners moved may be off it by this share of how far
@@ -116,8 +116,9 @@ fn largest_pull(surfaces: [&Surface; 2], origins: &Origins, ruler: &Ruler) -> f6
 /// Of each side, whichever other one it is chamfered with: at an edge of many, who can tell? And of those
 /// that lie on each other though they share no edge.
 fn pull_of_sides(before: &Surface, ruler: &Ruler) -> f64 {
-    let may_open =
-        |edge: &(&[HalfEdge], &[HalfEdge])| edge.0.len() + edge.1.len() > 2 || before.is_hard(edge);
+    let may_open = |edge: &(&[HalfEdge], &[HalfEdge])| {
+        edge.0.len() + edge.1.len() > 2 || before.is_hard(edge) || before.may_be_hard(edge)
+    };
     let sides = before.edges().filter(may_open).flat_map(|(a, b)| a.iter().chain(b));
     let borders = Borders::new(before);
     sides.chain(borders.pairs().flatten()).map(|side| ruler.pull(side)).fold(0.0, f64::max)
@@ -383,7 +384,7 @@ fn may_move(surface: &Surface) -> Vec<bool> {
         let is_smooth = match edge {
             ([one], [other]) => (0..2).all(|end| {
                 let [a, b] = [one.corners[end], other.corners[1 - end]].map(|c| surface.shading(c));
-                a.distance(b) < SMOOTH
+                a.distance(b) < SMOOTH && !surface.may_be_hard(&edge)
             }),
             _ => false,
         };

@@ -1,5 +1,7 @@
 //! What is flat between hard edges stays in its plane and keeps its normal.
 
+use std::cell::OnceCell;
+
 use glam::DVec3;
 
 use super::junctions::{Borders, reach};
@@ -34,6 +36,9 @@ const NORMAL_TOLERANCE: f64 = 1e-6;
 /// off may be seen as part of the face beside.
 const STAYS: f64 = 0.25;
 
+/// More lines in a row are no edge that meets several others.
+const MOST_BESIDE: usize = 64;
+
 /// The triangles that meet at one cluster between two hard edges.
 #[derive(Clone, Copy, Default)]
 struct Fan {
@@ -63,6 +68,7 @@ pub(super) fn check_flatness(
     let extent = before.extent();
     let tolerance = (PLANE_TOLERANCE * extent).max(before.rounding());
     let least_height = LEAST_HEIGHT * before.rounding();
+    let beside = Beside::default();
     for (triangle, source) in (0u32..).zip(&origins.triangles) {
         let Some(source) = source else { continue };
         // A line or a point has no plane and shows no normal.
@@ -97,8 +103,15 @@ pub(super) fn check_flatness(
             };
             face.filter(stays).is_some_and(|face| face.bends(after.normal(corner)))
         };
+        // All of it, or nothing: what is shaded as two faces is none of them.
+        let goes_on = |side: u32| {
+            beside.goes_on_with(before, source[0] / 3, after.normal(3 * triangle + side))
+        };
+        let bends = |fan: &Fan, normal: DVec3| {
+            fan.bends(normal) && (fan.plane.is_some() || !(0..3).all(goes_on))
+        };
         if corners().any(|(fan, corner, _)| {
-            shows(&fan) && (fan.bends(after.normal(corner)) || is_bent(corner))
+            shows(&fan) && (bends(&fan, after.normal(corner)) || is_bent(corner))
         }) {
             findings.note(Rule::FlatNormal, Element::Triangle(triangle));
         }
@@ -112,6 +125,58 @@ pub(super) fn is_low(corners: [DVec3; 3], least_height: f64) -> bool {
     area < least_height * sides.into_iter().fold(0.0, f64::max)
 }
 
+/// The triangles beside those that are but lines, once they are asked for: nobody has seen the normals of
+/// a line. Where it opens, it lies in a face beside it, and may be shaded as that.
+#[derive(Default)]
+struct Beside {
+    /// Sorted: a line, and a triangle beside it.
+    pairs: OnceCell<Vec<[u32; 2]>>,
+}
+
+impl Beside {
+    /// Whether a normal is one of a triangle beside a line, or beside those in a row with it, or between
+    /// such a triangle's own.
+    fn goes_on_with(&self, surface: &Surface, line: u32, normal: DVec3) -> bool {
+        let pairs = self.pairs.get_or_init(|| Beside::pairs(surface));
+        let (mut row, mut next) = (vec![line], 0);
+        while let Some(&line) = row.get(next).filter(|_| row.len() <= MOST_BESIDE) {
+            let first = pairs.partition_point(|pair| pair[0] < line);
+            for &[_, other] in pairs[first..].iter().take_while(|pair| pair[0] == line) {
+                if is_between(surface, other, normal) {
+                    return true;
+                }
+                let is_line = pairs.binary_search_by_key(&other, |pair| pair[0]).is_ok();
+                row.extend((is_line && !row.contains(&other)).then_some(other));
+            }
+            next += 1;
+        }
+        false
+    }
+
+    fn pairs(surface: &Surface) -> Vec<[u32; 2]> {
+        let least_height = LEAST_HEIGHT * surface.rounding();
+        let is_line = |triangle: u32| is_low(surface.triangle(triangle), least_height);
+        let mut pairs = Vec::new();
+        for (forward, backward) in surface.edges() {
+            let both =
+                forward.iter().flat_map(|one| backward.iter().map(move |other| [one, other]));
+            for pair in both.map(|both| both.map(|side| side.corners[0] / 3)) {
+                let both_ways = [pair, [pair[1], pair[0]]];
+                pairs.extend(both_ways.into_iter().filter(|[line, _]| is_line(*line)));
+            }
+        }
+        pairs.sort_unstable();
+        pairs
+    }
+}
+
+/// Whether a normal is no farther from those of a triangle than they are from each other.
+fn is_between(surface: &Surface, triangle: u32, normal: DVec3) -> bool {
+    let own = [0, 1, 2].map(|side| surface.normal(3 * triangle + side).normalize_or_zero());
+    let spread = (0..3).map(|k| own[k].distance(own[(k + 1) % 3])).fold(0.0, f64::max);
+    own.iter().all(|own| own.distance(normal.normalize()) <= spread + NORMAL_TOLERANCE)
+}
+
 /// The fans of a mesh.
 struct Fans {
     /// `#corners`: the first corner of the fan that each is in.
@@ -123,8 +188,10 @@ struct Fans {
 impl Fans {
     /// Those between the edges at which two half-edges do not go on.
     fn new(surface: &Surface, goes_on: impl Fn(&HalfEdge, &HalfEdge) -> bool) -> Fans {
-        let fan_of = first_corners(surface, goes_on);
-        Fans { fans: measure(surface, &fan_of), fan_of }
+        let borders = Borders::new(surface);
+        let fan_of = first_corners(surface, &borders, goes_on);
+        let across = across_junctions(surface, &borders);
+        Fans { fans: measure(surface, &fan_of, &across), fan_of }
     }
 
     fn at(&self, corner: u32) -> &Fan {
@@ -134,7 +201,11 @@ impl Fans {
 
 /// `#corners`: the first corner of the fan that each is in. Faces that only rounding has set apart are
 /// of one fan, as the result may have put them together.
-fn first_corners(surface: &Surface, goes_on: impl Fn(&HalfEdge, &HalfEdge) -> bool) -> Vec<u32> {
+fn first_corners(
+    surface: &Surface,
+    borders: &Borders,
+    goes_on: impl Fn(&HalfEdge, &HalfEdge) -> bool,
+) -> Vec<u32> {
     let mut fans = Groups::singles(surface.mesh.indices.len());
     for (forward, backward) in surface.edges() {
         for (a, b) in forward.iter().flat_map(|a| backward.iter().map(move |b| (a, b))) {
@@ -144,7 +215,7 @@ fn first_corners(surface: &Surface, goes_on: impl Fn(&HalfEdge, &HalfEdge) -> bo
             }
         }
     }
-    for [one, other] in Borders::new(surface).pairs() {
+    for [one, other] in borders.pairs() {
         for ends in [0, 1].map(|end| [one.corners[end], other.corners[1 - end]]) {
             let [from, to] = ends.map(|corner| surface.position(corner));
             if from.distance(to) <= surface.rounding() && surface.share_normal(ends) {
@@ -155,20 +226,39 @@ fn first_corners(surface: &Surface, goes_on: impl Fn(&HalfEdge, &HalfEdge) -> bo
     fans.labels()
 }
 
-/// `#corners`, by the first corner of each fan.
-fn measure(surface: &Surface, fan_of: &[u32]) -> Vec<Fan> {
+/// Corners that stand in the middle of the side of another triangle which goes on from there, at a
+/// T-junction, each with that triangle: the fan leads over it, though it has no corner there.
+fn across_junctions(surface: &Surface, borders: &Borders) -> Vec<[u32; 2]> {
+    let mut across = Vec::new();
+    for [one, other] in borders.pairs() {
+        for corner in one.corners {
+            let [from, to] =
+                other.corners.map(|end| surface.position(end) - surface.position(corner));
+            let is_between = from.dot(to) < 0.0 && from.length().min(to.length()) > reach(surface);
+            if is_between && other.corners.iter().all(|&end| surface.share_normal([corner, end])) {
+                across.push([corner, other.corners[0] / 3]);
+            }
+        }
+    }
+    across
+}
+
+/// `#corners`, by the first corner of each fan. `across`: more triangles that some corners' fans have.
+fn measure(surface: &Surface, fan_of: &[u32], across: &[[u32; 2]]) -> Vec<Fan> {
     let mut fans = vec![Fan::default(); fan_of.len()];
     let least_height = LEAST_HEIGHT * surface.rounding();
-    for (corner, &fan) in (0u32..).zip(fan_of) {
-        let triangle = corner / 3;
+    let own = (0u32..).zip(fan_of).map(|(corner, &fan)| (corner / 3, fan));
+    let across = across.iter().map(|&[corner, triangle]| (triangle, fan_of[corner as usize]));
+    let members: Vec<(u32, u32)> = own.chain(across).collect();
+    for &(triangle, fan) in &members {
         fans[fan as usize].add_plane(surface.triangle(triangle), least_height);
         for side in 0..3 {
             fans[fan as usize].add_normal(surface.normal(3 * triangle + side));
         }
     }
-    for (corner, &fan) in (0u32..).zip(fan_of) {
-        fans[fan as usize].add_lean(surface.triangle(corner / 3));
-        for point in surface.triangle(corner / 3) {
+    for (triangle, fan) in members {
+        fans[fan as usize].add_lean(surface.triangle(triangle));
+        for point in surface.triangle(triangle) {
             let distance = fans[fan as usize].distance(point);
             let off_plane = &mut fans[fan as usize].off_plane;
             *off_plane = off_plane.max(distance);
@@ -219,5 +309,60 @@ impl Fan {
     fn bends(&self, normal: DVec3) -> bool {
         let kept = self.normal.filter(|&kept| !self.has_uneven_normals && is_unit(kept));
         kept.is_some_and(|kept| kept.normalize().distance(normal.normalize()) > NORMAL_TOLERANCE)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::check::compare;
+    use crate::mesh::{Mesh, MeshBuffers};
+    use crate::options::Verify;
+
+    fn triangles(positions: &[[f32; 3]], normals: &[[f32; 3]], indices: &[u32]) -> MeshBuffers {
+        MeshBuffers {
+            positions: positions.to_vec(),
+            normals: normals.to_vec(),
+            indices: indices.to_vec(),
+            submesh_index_counts: vec![indices.len() as u32],
+            ..MeshBuffers::default()
+        }
+    }
+
+    //  A-----------B     the faces below have one normal, those above another one, a hair off it: at M, in
+    //  A--M--------B     the middle of the long side, it is one surface, and may have either
+    #[test]
+    fn a_fan_goes_on_over_a_long_side_that_its_corner_stands_on() {
+        let places = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [2.0, 3.0, 0.0]];
+        let below = [[0.0, 0.0, 0.0], [0.0, -3.0, 0.0], [1.0, 0.0, 0.0], [4.0, 0.0, 0.0]];
+        let (up, leaning) = ([0.0, 0.0, 1.0], [3e-6, 0.0, 1.0]);
+        let normals = [[up; 3].to_vec(), [leaning; 4].to_vec()].concat();
+        let indices = [0, 1, 2, 3, 4, 5, 5, 4, 6];
+        let before = triangles(&[&places[..], &below].concat(), &normals, &indices);
+        let with = |vertex: usize| {
+            let mut after = before.clone();
+            after.normals[vertex] = up;
+            compare(&before.as_mesh(), &after.as_mesh(), Verify::Fast).count(Rule::FlatNormal)
+        };
+        let [middle, away] = [5, 4];
+        assert_eq!((with(middle), with(away)), (0, 2));
+    }
+
+    //  .---.      under the face lies a line: it may be shaded as that face, but not as nothing there is
+    //  |  /
+    //  | /
+    //  '=======
+    #[test]
+    fn a_line_goes_on_with_the_faces_beside_it() {
+        let face = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        let line = [[1.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.5, -1e-7, 0.0]];
+        let (up, aside) = ([0.0, 0.0, 1.0], [1.0, 0.0, 0.0]);
+        let normals = [[up; 3], [aside; 3]].concat();
+        let mesh = triangles(&[face, line].concat(), &normals, &[0, 1, 2, 3, 4, 5]);
+        let mesh: Mesh = mesh.as_mesh();
+        let (surface, beside) = (Surface::new(&mesh), Beside::default());
+        assert!(beside.goes_on_with(&surface, 1, DVec3::Z));
+        assert!(!beside.goes_on_with(&surface, 1, DVec3::Y));
+        assert!(!beside.goes_on_with(&surface, 0, DVec3::X), "the face is no line");
     }
 }

@@ -34,6 +34,7 @@ pub(super) fn check_hard_edges(
             [Some(one), Some(other)] => {
                 hard_before[one as usize] && hard_before[other as usize]
                     || parted_before(before, one, other)
+                    || [one, other].iter().any(|&side| closes_hard(before, &hard_before, side / 3))
             }
             _ if findings.lost > 0 => true,
             _ => [0, 1].iter().all(|&end| {
@@ -66,6 +67,13 @@ fn source_side(half_edge: &HalfEdge, origins: &Origins) -> Option<u32> {
     Some(if next == to { from } else { to })
 }
 
+/// Whether a triangle of the source is but a line that lies along a hard edge: on which of its sides light
+/// breaks, nobody can see until it opens.
+fn closes_hard(before: &Surface, hard_before: &[bool], triangle: u32) -> bool {
+    is_low(before.triangle(triangle), LEAST_HEIGHT * before.rounding())
+        && (3 * triangle..3 * triangle + 3).any(|corner| hard_before[corner as usize])
+}
+
 /// Whether two half-edges of the source lay on each other with different normals, be it among
 /// others or in part.
 fn parted_before(before: &Surface, one: u32, other: u32) -> bool {
@@ -77,9 +85,26 @@ fn parted_before(before: &Surface, one: u32, other: u32) -> bool {
         reversed: false,
         corners: [first, next(first)],
     };
-    is_parted && run_along(before, &half_edge(one), &half_edge(other))
+    let sides = [half_edge(one), half_edge(other)];
+    run_along(before, &sides[0], &sides[1])
+        && (is_parted
+            || parted_between(before, &sides)
+            || parted_between(before, &[sides[1], sides[0]]))
         || ends.iter().all(|[a, b]| before.cluster(*a) == before.cluster(*b))
             && ends.iter().any(|&pair| !before.share_normal(pair))
+}
+
+/// Whether the normal at an end of the first half-edge is another one than the second has there, at that
+/// share of its length: a long side that is shaded alike at both ends may not be so where others end on it.
+fn parted_between(before: &Surface, [one, other]: &[HalfEdge; 2]) -> bool {
+    let [from, to] = other.corners.map(|corner| before.position(corner));
+    let normals = other.corners.map(|corner| before.shading(corner).normalize_or_zero());
+    one.corners.into_iter().any(|corner| {
+        let along = to - from;
+        let share = (before.position(corner) - from).dot(along) / along.length_squared();
+        let between = normals[0].lerp(normals[1], share);
+        (0.0..=1.0).contains(&share) && !before.shares_with(corner, between)
+    })
 }
 
 /// `#corners`: whether the half-edge that starts there is a side of a hard edge.
@@ -123,4 +148,55 @@ fn old_normals(after: &Surface, origins: &Origins) -> Vec<NormalAt> {
     normals.sort_unstable();
     normals.dedup();
     normals
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::Mesh;
+
+    //  A-----------B     the face above is shaded at A as those below are at M, and at B alike: at M it is
+    //  A--M--------B     shaded otherwise, as its normals turn on the way
+    #[test]
+    fn light_may_break_in_the_middle_of_a_long_side() {
+        let above = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [2.0, 3.0, 0.0]];
+        let below = [[0.0, 0.0, 0.0], [0.0, -3.0, 0.0], [1.0, 0.0, 0.0], [4.0, 0.0, 0.0]];
+        let positions = [&above[..], &below].concat();
+        for (lean, is_parted) in [(0.0, false), (0.2, true)] {
+            let mut normals = [[0.0, 0.0, 1.0]; 7];
+            for vertex in [0, 3, 5] {
+                normals[vertex] = [lean, 0.0, 1.0];
+            }
+            let mesh = Mesh {
+                positions: &positions,
+                normals: &normals,
+                indices: &[0, 1, 2, 3, 4, 5, 5, 4, 6],
+                submesh_index_counts: &[9],
+                ..Mesh::default()
+            };
+            let [long, short] = [0, 8];
+            let surface = Surface::new(&mesh);
+            assert_eq!(parted_before(&surface, long, short), is_parted, "{lean}");
+            assert_eq!(parted_before(&surface, short, long), is_parted, "{lean}");
+        }
+    }
+
+    //  A-----------B     a line closes a hard edge between two faces: both of its sides may be that
+    //  A-----M-----B
+    #[test]
+    fn a_line_along_a_hard_edge_closes_it() {
+        let positions = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 0.0, 1.0]];
+        let mesh = Mesh {
+            positions: &positions,
+            normals: &[[0.0, 1.0, 0.0]; 4],
+            indices: &[0, 1, 2, 0, 3, 1],
+            submesh_index_counts: &[6],
+            ..Mesh::default()
+        };
+        let surface = Surface::new(&mesh);
+        let hard = [true, false, false, false, false, true];
+        assert!(closes_hard(&surface, &hard, 0));
+        assert!(!closes_hard(&surface, &[false; 6], 0));
+        assert!(!closes_hard(&surface, &hard, 1), "a face is no line");
+    }
 }

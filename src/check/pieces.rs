@@ -99,6 +99,9 @@ pub(super) fn pieces_in_order(surfaces: [&Surface; 2], triangles: &mut [Option<[
         }
         (first, start) = (first + sources, start + indices / 3);
     }
+    for stray in patches.trim(triangles) {
+        triangles[stray as usize] = None;
+    }
     patches.cuts()
 }
 
@@ -150,6 +153,19 @@ impl Patches<'_> {
         self.of.entry(source).or_insert_with(|| vec![first_piece(source)]).push(piece);
     }
 
+    /// Takes back all pieces of triangles that are whole. The rows of a rounded chamfer between faces that
+    /// hardly bend lie on the surface, too, and are shaded like it.
+    fn trim(&mut self, triangles: &[Option<[u32; 3]>]) -> Vec<u32> {
+        let whole = Whole::new(self.surfaces, triangles, &self.of);
+        let mut strays = Vec::new();
+        self.of.retain(|&source, patch| {
+            let is_whole = whole.is_whole(source, patch[0]);
+            strays.extend(patch[1..].iter().filter(|_| is_whole));
+            !is_whole
+        });
+        strays
+    }
+
     fn cuts(&self) -> Cuts {
         let mut cuts = Cuts::new();
         for patch in self.of.values() {
@@ -157,6 +173,41 @@ impl Patches<'_> {
             cuts.extend(patch.iter().map(|&piece| (piece, own.cut(piece))));
         }
         cuts
+    }
+}
+
+/// Where the corners of source triangles without pieces are.
+struct Whole<'a> {
+    surfaces: [&'a Surface<'a>; 2],
+    /// The clusters of each corner in the source and in the result.
+    places: BTreeSet<[u32; 2]>,
+}
+
+impl<'a> Whole<'a> {
+    fn new(
+        surfaces: [&'a Surface<'a>; 2],
+        triangles: &[Option<[u32; 3]>],
+        patches: &BTreeMap<u32, Vec<u32>>,
+    ) -> Whole<'a> {
+        let mut places = BTreeSet::new();
+        for (triangle, corners) in (0u32..).zip(triangles).filter(|_| !patches.is_empty()) {
+            let corners = corners.filter(|[first, ..]| !patches.contains_key(&(first / 3)));
+            for (side, source) in (0..3).zip(corners.into_iter().flatten()) {
+                places.insert(Whole::place(surfaces, source, 3 * triangle + side));
+            }
+        }
+        Whole { surfaces, places }
+    }
+
+    fn place([before, after]: [&Surface; 2], source: u32, corner: u32) -> [u32; 2] {
+        [before.cluster(source), after.cluster(corner)]
+    }
+
+    /// Whether all corners of a source triangle's first piece are where those of others went that are not
+    /// cut: what a cut has added is where no corner goes.
+    fn is_whole(&self, source: u32, first_piece: u32) -> bool {
+        let place = |side| Whole::place(self.surfaces, 3 * source + side, 3 * first_piece + side);
+        (0..3).all(|side| self.places.contains(&place(side)))
     }
 }
 

@@ -24,6 +24,15 @@ pub(super) fn axes(scale: [[f32; 3]; 3]) -> DMat3 {
     if axes.determinant() < 0.0 { -axes } else { axes }
 }
 
+/// How many times as far off a coordinate may be there: sheared, it has something of each axis.
+pub(super) fn farthest(to: DMat3) -> f64 {
+    let rows = to.transpose();
+    [rows.x_axis, rows.y_axis, rows.z_axis]
+        .map(|row| row.abs().element_sum())
+        .into_iter()
+        .fold(0.0, f64::max)
+}
+
 /// How normals go along with a mesh that is stretched so: by the cofactors.
 pub(super) fn normals_to(to: DMat3) -> DMat3 {
     let [x, y, z] = [to.x_axis, to.y_axis, to.z_axis];
@@ -41,4 +50,15 @@ pub(super) fn normal_with_area([a, b, c]: [DVec3; 3]) -> Option<DVec3> {
     let longest =
         [b - a, c - b, a - c].iter().map(|side| side.length_squared()).fold(0.0, f64::max);
     (normal.length() > NO_AREA * longest).then_some(normal)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sheared_a_place_is_off_by_what_all_axes_are() {
+        assert_eq!(farthest(axes([[1.0, 0.0, 0.0], [0.0, 4.0, 0.0], [0.0, 0.0, 0.5]])), 4.0);
+        assert_eq!(farthest(axes([[1.0, 0.0, 0.0], [-2.0, 1.0, 0.0], [0.5, 0.0, 1.0]])), 3.5);
+    }
 }

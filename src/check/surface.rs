@@ -1,10 +1,9 @@
 //! A mesh welded by position: its edges, borders and connected parts.
 
 use super::noise::Step;
-use super::stored::{axes, normal_with_area, normals_to, vector};
+use super::stored::{axes, farthest, normal_with_area, normals_to, vector};
 use crate::groups::Groups;
 use crate::mesh::Mesh;
-use crate::scale::longest_axis;
 use glam::{DMat3, DVec3};
 
 /// The angle in degrees by which normals may differ across an edge that is not hard, where nothing
@@ -15,6 +14,9 @@ const HARD_ANGLE: f32 = 1.0;
 /// any larger one.
 const CLEAR_SHARE: f64 = 0.5;
 const MOST_CLEAR: f64 = 0.5;
+
+/// Normals as far off each other as this share of the angle may be that far in single precision.
+const BARE_SHARE: f64 = 0.999;
 
 /// How far a position may be off by rounding alone, relative to the largest coordinate: a few of
 /// the smallest steps of single precision.
@@ -56,6 +58,8 @@ pub(super) struct Surface<'a> {
     stands: Option<Standing>,
     /// The cosine of the angle by which normals may differ across an edge that is not hard.
     soft_cosine: f64,
+    /// Of that from which on somebody may take it for hard.
+    bare_cosine: f64,
     /// Of that by which they may where light does not break: that angle or the usual one, if that is less.
     even_cosine: f64,
     /// Sorted: the clusters of a round surface around which normals may differ by chance.
@@ -79,9 +83,19 @@ impl<'a> Surface<'a> {
         half_edges.sort_unstable();
         let (rounding, round) = (rounding(mesh), Vec::new());
         let [soft_cosine, even_cosine] = [soft_cosine(HARD_ANGLE); 2];
-        let stands = None;
-        Surface { mesh, cluster_of, half_edges, rounding, stands, soft_cosine, even_cosine, round }
-            .with_noise()
+        let (bare_cosine, stands) = (bare_cosine(HARD_ANGLE), None);
+        Surface {
+            mesh,
+            cluster_of,
+            half_edges,
+            rounding,
+            stands,
+            soft_cosine,
+            bare_cosine,
+            even_cosine,
+            round,
+        }
+        .with_noise()
     }
 
     /// The same of a mesh that stands scaled so, column by column. Normals that are one there need not
@@ -89,15 +103,16 @@ impl<'a> Surface<'a> {
     pub fn standing(self, scale: Option<[[f32; 3]; 3]>) -> Surface<'a> {
         let Some(to) = scale.map(axes) else { return self };
         let stands = Some(Standing { to, normals_to: normals_to(to) });
-        let rounding = self.rounding * longest_axis(to);
+        let rounding = self.rounding * farthest(to);
         Surface { stands, rounding, ..self }.with_noise()
     }
 
     /// The same where normals are one that differ by less than so many degrees.
     pub fn hard_from(self, degrees: Option<f32>) -> Surface<'a> {
         let Some(degrees) = degrees else { return self };
-        let soft_cosine = soft_cosine(degrees);
-        Surface { soft_cosine, even_cosine: soft_cosine.max(self.even_cosine), ..self }.with_noise()
+        let (soft_cosine, bare_cosine) = (soft_cosine(degrees), bare_cosine(degrees));
+        let even_cosine = soft_cosine.max(self.even_cosine);
+        Surface { soft_cosine, bare_cosine, even_cosine, ..self }.with_noise()
     }
 
     fn with_noise(self) -> Surface<'a> {
@@ -255,9 +270,14 @@ impl<'a> Surface<'a> {
         self.share(self.soft_cosine, corners)
     }
 
+    /// The same of a corner's normal and any other.
+    pub fn shares_with(&self, corner: u32, normal: DVec3) -> bool {
+        is_within(self.soft_cosine, self.shading(corner), normal)
+    }
+
     fn share(&self, cosine: f64, corners: [u32; 2]) -> bool {
         let [a, b] = corners.map(|corner| self.shading(corner));
-        a.dot(b) >= cosine * a.length() * b.length()
+        is_within(cosine, a, b)
     }
 
     /// `#triangles`: the first triangle of the part that each is connected to across edges.
@@ -277,6 +297,16 @@ impl<'a> Surface<'a> {
         !backward.is_empty() && !forward.iter().all(has_soft_partner)
     }
 
+    /// Whether somebody may take an edge for hard: not all normals across are within the angle itself, be
+    /// they so near to it that none has to.
+    pub fn may_be_hard(&self, (forward, backward): &(&[HalfEdge], &[HalfEdge])) -> bool {
+        let is_bare = |a: &HalfEdge, b: &HalfEdge| {
+            let ends = [0, 1].map(|end| [a.corners[end], b.corners[1 - end]]);
+            ends.into_iter().any(|corners| !self.share(self.bare_cosine, corners))
+        };
+        forward.iter().any(|a| backward.iter().any(|b| is_bare(a, b)))
+    }
+
     /// How many sides there are on edges past the second of each.
     pub fn sides_past_two(&self) -> usize {
         self.edges().map(|(a, b)| (a.len() + b.len()).saturating_sub(2)).sum()
@@ -294,6 +324,14 @@ impl<'a> Surface<'a> {
             |half_edge: &HalfEdge| half_edge.clusters.iter().any(|&c| on_border[c as usize]);
         !self.edges().filter(is_non_manifold).any(|(a, b)| a.iter().chain(b).any(touches))
     }
+}
+
+fn is_within(cosine: f64, a: DVec3, b: DVec3) -> bool {
+    a.dot(b) >= cosine * a.length() * b.length()
+}
+
+fn bare_cosine(hard_angle: f32) -> f64 {
+    libm::cos((f64::from(hard_angle) * BARE_SHARE).to_radians())
 }
 
 fn soft_cosine(hard_angle: f32) -> f64 {

@@ -216,6 +216,7 @@ mod tests {
             stages.view.stored = Some(Stored {
                 positions: &cube.positions,
                 normals: &cube.normals,
+                to: DMat3::from_diagonal(DVec3::new(1.0 / along_x, 1.0, 1.0)),
                 back: DMat3::from_diagonal(DVec3::new(along_x, 1.0, 1.0)),
                 normal_to: DMat3::IDENTITY,
             });
