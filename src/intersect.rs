@@ -513,7 +513,7 @@ mod tests {
             };
             let [inner, outer] = [(number / 2 * 2, 0.5), (number / 2 * 2 + 1, 1.0)];
             // Each tooth has one wall on either side of its tip.
-            let inner = if number % 2 == 0 { inner } else { (inner.0 + 2, 0.5) };
+            let inner = if number.is_multiple_of(2) { inner } else { (inner.0 + 2, 0.5) };
             let [a, b] = [0.0, 1.0].map(|height| place(inner.0, inner.1, height));
             let [c, d] = [1.0, 0.0].map(|height| place(outer.0, outer.1, height));
             [[a, b, c], [a, c, d]]

@@ -209,7 +209,7 @@ pub fn star_wheel(teeth: u32) -> MeshBuffers {
     let steps = 2 * teeth;
     let place = |step: u32, height: f32| {
         let [x, y] = turn(f64::from(step) / f64::from(steps));
-        let radius = if step % 2 == 0 { 1.0 } else { 0.5 };
+        let radius = if step.is_multiple_of(2) { 1.0 } else { 0.5 };
         [(x * radius) as f32, (y * radius) as f32, height]
     };
     let rims = [0.0, 1.0].map(|height| (0..steps).map(move |step| place(step, height)));
@@ -229,7 +229,7 @@ pub fn comb(teeth: u32) -> MeshBuffers {
     // Of each tooth its tip and the valley behind it; then both ends of the back.
     let along = |number: u32| {
         let tooth = f64::from(number / 2);
-        if number % 2 == 0 { [tooth + 1.0, 1.0] } else { [tooth + 1.5, 0.05] }
+        if number.is_multiple_of(2) { [tooth + 1.0, 1.0] } else { [tooth + 1.5, 0.05] }
     };
     let ends = [[0.0, 0.0], [f64::from(teeth) + 1.0, 0.0]];
     let outline: Vec<[f64; 2]> = (0..2 * teeth).map(along).chain(ends).collect();
