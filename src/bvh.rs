@@ -5,115 +5,22 @@
 //! of looking for the best halves, and finds nearly as few boxes. Equal places on the curve are told
 //! apart by number, so the tree is the same on every run.
 
+mod boxes;
+mod curve;
 mod turned;
 
 use glam::DVec3;
 use smallvec::SmallVec;
 
 use crate::error::Error;
-use crate::watch::{Unwatched, Watch, collect, sort, stretches};
+use crate::watch::{Unwatched, Watch, collect, stretches};
 
+pub(crate) use boxes::{Aabb, Rod};
+use curve::in_order;
 use turned::TurnedBox;
 
 /// How many boxes a leaf holds: testing so few one by one costs less than another node.
 const LEAF_SIZE: usize = 4;
-
-/// A box along the axes: its low and its high corner.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Aabb {
-    low: [f32; 3],
-    high: [f32; 3],
-}
-
-impl Aabb {
-    /// Overlaps nothing.
-    pub const EMPTY: Aabb = Aabb { low: [f32::INFINITY; 3], high: [f32::NEG_INFINITY; 3] };
-
-    /// Overlaps all but what is empty.
-    pub const ALL: Aabb = Aabb { low: [f32::NEG_INFINITY; 3], high: [f32::INFINITY; 3] };
-
-    /// The box around some points.
-    #[inline]
-    pub fn around(points: &[[f32; 3]]) -> Aabb {
-        points.iter().fold(Aabb::EMPTY, |sum, &point| sum.union(Aabb { low: point, high: point }))
-    }
-
-    #[inline]
-    pub fn union(self, other: Aabb) -> Aabb {
-        // All numbers are finite: a plain comparison is one instruction, `min` is several.
-        let least = |a: f32, b: f32| if a < b { a } else { b };
-        let most = |a: f32, b: f32| if a > b { a } else { b };
-        Aabb {
-            low: [0, 1, 2].map(|axis| least(self.low[axis], other.low[axis])),
-            high: [0, 1, 2].map(|axis| most(self.high[axis], other.high[axis])),
-        }
-    }
-
-    /// So much larger on all sides.
-    pub fn grown(self, by: f32) -> Aabb {
-        Aabb { low: self.low.map(|low| low - by), high: self.high.map(|high| high + by) }
-    }
-
-    #[inline]
-    pub fn overlaps(&self, other: &Aabb) -> bool {
-        let along = |k: usize| (self.low[k] <= other.high[k]) & (other.low[k] <= self.high[k]);
-        along(0) & along(1) & along(2)
-    }
-
-    #[inline]
-    fn holds(&self, point: &[f32; 3]) -> bool {
-        let along = |k: usize| (self.low[k] <= point[k]) & (point[k] <= self.high[k]);
-        along(0) & along(1) & along(2)
-    }
-
-    fn middle_and_half(&self) -> (DVec3, DVec3) {
-        let [low, high] = [self.low, self.high].map(|corner| DVec3::from(corner.map(f64::from)));
-        ((low + high) / 2.0, (high - low) / 2.0)
-    }
-
-    /// Whether all of it is farther than this from the plane through the origin with a unit normal.
-    pub fn is_beside(&self, normal: DVec3, far: f64) -> bool {
-        let (middle, half) = self.middle_and_half();
-        middle.dot(normal).abs() - half.dot(normal.abs()) > far
-    }
-
-    /// Halved first, so that it cannot overflow.
-    fn middle(&self, axis: usize) -> f32 {
-        self.low[axis] / 2.0 + self.high[axis] / 2.0
-    }
-}
-
-/// What comes within a distance of a line.
-#[derive(Clone, Copy)]
-pub(crate) struct Rod {
-    /// On the line, as near as single precision tells.
-    place: [f32; 3],
-    /// Across the line and one of the axes each (the separating axes of a line and a box), and how far
-    /// the line lies along them.
-    across: [(DVec3, f64); 3],
-    far: f64,
-}
-
-impl Rod {
-    /// Around a line through a point, of a unit direction.
-    pub fn new(from: DVec3, along: DVec3, far: f64) -> Rod {
-        let across = DVec3::AXES.map(|axis| along.cross(axis));
-        let place = from.as_vec3().to_array();
-        Rod { place, across: across.map(|across| (across, from.dot(across))), far }
-    }
-
-    /// Whether it has nothing to do with a box. For certain: some that it passes by are not told.
-    fn misses(&self, bounds: &Aabb) -> bool {
-        // Of the large boxes most hold what is looked for.
-        if bounds.holds(&self.place) {
-            return false;
-        }
-        let (middle, half) = bounds.middle_and_half();
-        self.across.iter().any(|&(across, place)| {
-            (middle.dot(across) - place).abs() - half.dot(across.abs()) > self.far
-        })
-    }
-}
 
 /// Where something lies as seen from what it has in common with others (see `intersect::crowds`).
 #[derive(Clone, Copy, Debug)]
@@ -153,9 +60,6 @@ impl Kin {
         }
     }
 }
-
-/// Steps of the curve along each axis, as a power of two.
-const CURVE_BITS: u32 = 16;
 
 struct Node {
     bounds: Aabb,
@@ -500,57 +404,6 @@ impl Tree {
     }
 }
 
-/// The numbers of some boxes, crowd by crowd along the curve.
-fn in_order(boxes: &[Aabb], kin: &[Kin], watch: &dyn Watch) -> Result<Vec<u32>, Error> {
-    let curve = Curve::through(boxes, watch)?;
-    let crowd = |number: usize| kin.get(number).map_or(0, Kin::crowd);
-    let place = |number: usize| (crowd(number), curve.place(&boxes[number]), number as u32);
-    let mut places = collect(boxes.len(), watch, place)?;
-    sort(&mut places, watch)?;
-    collect(places.len(), watch, |place| places[place].2)
-}
-
-/// A curve through a box that visits each half of it, along one axis after the other, before the
-/// other half.
-struct Curve {
-    low: [f32; 3],
-    /// Steps for each unit along the axes.
-    scale: [f32; 3],
-}
-
-impl Curve {
-    fn through(boxes: &[Aabb], watch: &dyn Watch) -> Result<Curve, Error> {
-        let mut all = Aabb::EMPTY;
-        for stretch in stretches(boxes.len(), watch) {
-            let filled = boxes[stretch?].iter().filter(|each| **each != Aabb::EMPTY);
-            all = filled.fold(all, |all, &each| all.union(each));
-        }
-        // Halved, so that the length cannot overflow.
-        let steps = (1 << (CURVE_BITS - 1)) as f32;
-        let scale = [0, 1, 2].map(|axis| steps / (all.high[axis] / 2.0 - all.low[axis] / 2.0));
-        Ok(Curve { low: all.low, scale })
-    }
-
-    /// How far along it the middle of a box lies.
-    fn place(&self, each: &Aabb) -> u64 {
-        let step = |axis: usize| {
-            let half = each.middle(axis) / 2.0 - self.low[axis] / 2.0;
-            // Not a number where the boxes lie in a plane, and that is 0.
-            let step = (half * 2.0 * self.scale[axis]) as u64;
-            spread(step.min((1 << CURVE_BITS) - 1)) << axis
-        };
-        step(0) | step(1) | step(2)
-    }
-}
-
-/// With two free bits after each of the lowest [`CURVE_BITS`].
-fn spread(bits: u64) -> u64 {
-    let bits = (bits | bits << 16) & 0xff00_00ff;
-    let bits = (bits | bits << 8) & 0x100f_00f0_0f00_f00f;
-    let bits = (bits | bits << 4) & 0x10c3_0c30_c30c_30c3;
-    (bits | bits << 2) & 0x1249_2492_4924_9249
-}
-
 #[cfg(test)]
 mod tests {
     use std::cell::Cell;
@@ -732,12 +585,5 @@ mod tests {
         expected.retain(|&(a, b)| is_open(a) || is_open(b));
         assert_eq!(found, expected);
         assert!(expected.len() > 10);
-    }
-
-    #[test]
-    fn bits_are_spread() {
-        assert_eq!(spread(0b1011), 0b1_000_001_001);
-        assert_eq!(spread(0xffff).count_ones(), 16);
-        assert_eq!(spread(0x8000), 1 << 45);
     }
 }

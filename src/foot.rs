@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::ids::Corner;
 use crate::report::Blend;
-use crate::tolerance::LEAST_WEIGHT;
+use crate::tolerance::{HARDLY_PAST, LEAST_WEIGHT};
 use crate::view::View;
 
 /// A way in the plane of a source triangle, in terms of the edges from one of its corners to the
@@ -22,9 +22,6 @@ pub struct Foot {
 /// the weights up to 1 any more.
 pub const MOST_WEIGHT: f64 = 1024.0;
 
-/// What is past a triangle by no more than this share of it is as good as within.
-const HARDLY: f64 = 1e-3;
-
 impl Foot {
     /// No way at all.
     pub fn at(corner: Corner) -> Foot {
@@ -39,7 +36,7 @@ impl Foot {
     /// Whether a share of the way ends within the triangle, or hardly past it.
     pub fn is_within(&self, share: f64) -> bool {
         let [to_next, to_prev] = [0, 1].map(|k| self.start[k] + self.along[k] * share);
-        to_next.min(to_prev).min(1.0 - to_next - to_prev) > -HARDLY
+        to_next.min(to_prev).min(1.0 - to_next - to_prev) > -HARDLY_PAST
     }
 
     /// The blend of the triangle's vertices at a share of the way.

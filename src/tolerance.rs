@@ -143,4 +143,8 @@ pub const LEAST_SLERP_SINE: f64 = 1e-6;
 
 /// How much larger a turned box is than what it holds, in terms of where it lies: a thousand times
 /// what rounding takes in double precision, so that what touches is never told apart.
-pub(crate) const TURNED_BOX_SLACK: f64 = 1e-12;
+pub const TURNED_BOX_SLACK: f64 = 1e-12;
+
+/// A place past a side of a triangle by no more than this share of its height is as good as within: so
+/// little farther on its normals turn by less than anybody sees.
+pub const HARDLY_PAST: f64 = 1e-3;
