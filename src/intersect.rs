@@ -29,8 +29,8 @@ pub(crate) use crowds::{Around, crowds};
 
 pub(crate) type Triangle = [[f32; 3]; 3];
 
-/// With more boxes that overlap for each triangle, directions and turned boxes are asked too. Of a common mesh it is a
-/// dozen.
+/// With more boxes that overlap for each triangle, directions and turned boxes are asked too. Of a
+/// common mesh it is a dozen.
 const CROWDED: usize = 15;
 
 /// So many are told at a time.
