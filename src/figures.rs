@@ -23,7 +23,7 @@ use drawing::Drawing;
 type Draw = fn() -> Drawing;
 
 /// The stages, in the order of the pipeline.
-const FIGURES: [(&str, Draw); 22] = [
+const FIGURES: [(&str, Draw); 23] = [
     ("view", source::view),
     ("weld", source::weld),
     ("topology", source::topology),
@@ -35,6 +35,7 @@ const FIGURES: [(&str, Draw); 22] = [
     ("offsets", moves::offsets),
     ("refine", contacts::refine),
     ("room", moves::room),
+    ("vanishing", moves::vanishing),
     ("evenness", moves::evenness),
     ("limits", moves::limits),
     ("patches", result::patches),

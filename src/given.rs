@@ -11,6 +11,7 @@ use crate::sectors::Sectors;
 use crate::surface::Surface;
 use crate::threads::Threads;
 use crate::topology::Topology;
+use crate::vanishing::Vanishing;
 use crate::watch::{Watch, each};
 
 /// The arguments of the stages that tell how far sectors may go.
@@ -20,6 +21,8 @@ pub struct Given<'a> {
     pub chamfers: Chamfers<'a>,
     /// `#sectors`: the move at full width.
     pub offsets: &'a IdVec<Sector, Offset>,
+    /// Which of them are others than those that keep every pulled edge as far as asked.
+    pub vanishing: &'a Vanishing,
     /// What is not to come together.
     pub apart: Option<&'a Ranks>,
     /// What must not lose what it rests on.
@@ -73,8 +76,8 @@ pub mod tests {
 
     /// What the limits of some stages are found from.
     pub fn given_of<'a>(stages: &'a Stages) -> Given<'a> {
-        let Stages { offsets, rests, deep, plenty, threads, .. } = stages;
+        let Stages { offsets, vanishing, rests, deep, plenty, threads, .. } = stages;
         let (surface, chamfers) = (stages.surface(), stages.chamfers());
-        Given { surface, chamfers, offsets, apart: None, rests, deep, plenty, threads }
+        Given { surface, chamfers, offsets, vanishing, apart: None, rests, deep, plenty, threads }
     }
 }

@@ -109,6 +109,7 @@ mod tolerance;
 mod topology;
 mod unpaired;
 mod validity;
+mod vanishing;
 mod verdicts;
 mod view;
 mod watch;

@@ -10,6 +10,7 @@ mod crowds;
 mod elements;
 mod valid;
 
+use std::borrow::Cow;
 use std::cmp::{Ordering, Reverse};
 
 use crate::error::Error;
@@ -72,6 +73,8 @@ pub fn limits<'a>(
     for _ in 0..GROW_PASSES {
         grow(given, room, &mut limits, &shrunk, watch)?;
     }
+    let room = &mut Cow::Borrowed(room);
+    take_back(given, room, &mut limits, watch)?;
     give_way(given, room, &mut limits, &shrunk, watch)?;
     if verify != Verify::Fast {
         collisions::resolve(given, &mut limits, watch)?;
@@ -265,7 +268,7 @@ fn grow(
 /// elsewhere. Then all around is settled once more.
 fn give_way(
     given: &Given,
-    room: &IdVec<Sector, f64>,
+    room: &mut Cow<IdVec<Sector, f64>>,
     limits: &mut Limits,
     shrunk: &[Sector],
     watch: &dyn Watch,
@@ -277,13 +280,54 @@ fn give_way(
     each_of(&folding, watch, |&sector| {
         away.extend(turned_away(given, room, &limits.placement, sector));
     })?;
-    if away.is_empty() {
-        return Ok(());
+    let turned = settle(given, room, limits, &away, watch)?;
+    turned.into_iter().for_each(|sector| limits.reason[sector] = Reason::Folds);
+    Ok(())
+}
+
+/// Where a run of sectors that gathers for the sake of [vanishing](crate::vanishing) edges would
+/// fold, it goes straight on instead, as far as these leave it.
+fn take_back(
+    given: &Given,
+    room: &mut Cow<IdVec<Sector, f64>>,
+    limits: &mut Limits,
+    watch: &dyn Watch,
+) -> Result<(), Error> {
+    let mut back = Vec::new();
+    each_of(&given.vanishing.runs, watch, |run| {
+        let share = |sector: Sector| run.share.min(room[sector]);
+        let folds = |&(sector, _): &(Sector, Offset)| {
+            limits.reason[sector] == Reason::Folds && limits.placement.share[sector] < share(sector)
+        };
+        if run.members.iter().any(folds) {
+            back.extend(
+                run.members.iter().map(|&(sector, offset)| (sector, offset, share(sector))),
+            );
+        }
+    })?;
+    settle(given, room, limits, &back, watch)?;
+    Ok(())
+}
+
+/// Gives sectors other offsets, of which each gets a share at most, and settles all around once more.
+fn settle(
+    given: &Given,
+    room: &mut Cow<IdVec<Sector, f64>>,
+    limits: &mut Limits,
+    turned: &[(Sector, Offset, f64)],
+    watch: &dyn Watch,
+) -> Result<Vec<Sector>, Error> {
+    if turned.is_empty() {
+        return Ok(Vec::new());
     }
-    limits.placement.turn(&away, watch)?;
-    let room = &mut IdVec::from_vec(collect(room.len(), watch, |place| room[Sector::new(place)])?);
-    away.iter().for_each(|&(sector, _, share)| room[sector] = share);
-    let turned: Vec<Sector> = away.into_iter().map(|(sector, ..)| sector).collect();
+    limits.placement.turn(turned, watch)?;
+    if let Cow::Borrowed(all) = room {
+        let own = collect(all.len(), watch, |place| all[Sector::new(place)])?;
+        *room = Cow::Owned(IdVec::from_vec(own));
+    }
+    let own = room.to_mut();
+    turned.iter().for_each(|&(sector, _, share)| own[sector] = share);
+    let turned: Vec<Sector> = turned.iter().map(|&(sector, ..)| sector).collect();
     let bad = bad_around(given, &limits.placement, &turned, watch)?;
     let mut near = shrink(given, limits, bad, watch)?;
     let beside = around(given, &turned, watch)?.into_iter();
@@ -291,8 +335,7 @@ fn give_way(
     sort(&mut near, watch)?;
     near.dedup();
     grow(given, room, limits, &near, watch)?;
-    turned.into_iter().for_each(|sector| limits.reason[sector] = Reason::Folds);
-    Ok(())
+    Ok(turned)
 }
 
 /// A sector turned away from its wider front, to what it could take or as far as its narrower front
@@ -453,6 +496,7 @@ mod tests {
         let mut limits = bounded(&given, room, &Unwatched).unwrap();
         limits.placement.set(sector, taken * room[sector]);
         limits.reason[sector] = Reason::Folds;
+        let room = &mut Cow::Borrowed(room);
         give_way(&given, room, &mut limits, &[sector], &Unwatched).unwrap();
         assert_eq!(limits.reason[sector], Reason::Folds);
         let way = limits.placement.point[sector] - limits.placement.base(sector);
@@ -470,6 +514,32 @@ mod tests {
             let pulled = pulled(taken);
             let is_near = |one: f64, other: f64| (one - other).abs() < 0.001;
             assert!(is_near(pulled[0], narrow) && is_near(pulled[1], wide), "{taken}: {pulled:?}");
+        }
+    }
+
+    // -----.          the corner of a plate, with a bevel that vanishes: where a sector at it would fold,
+    // ---.  `.        both go straight on instead, as far as leaves three tenths of the bevel
+    //    :    |
+    #[test]
+    fn what_gathers_around_a_vanishing_edge_goes_straight_on_where_it_folds() {
+        let mut plate = shapes::Builder::with_uvs();
+        plate.prism(&[[0.0, 0.0], [2.0, 0.0], [2.0, 1.9], [1.9, 2.0], [0.0, 2.0]], 0.0, 1.0);
+        let plate = plate.finish();
+        let stages = stages_of(&plate, 0.2);
+        let given = Given { offsets: &stages.narrowed, ..given_of(&stages) };
+        let run = &stages.vanishing.runs[0];
+        let sectors = [0, 1].map(|k| run.members[k].0);
+        for (taken, goes_straight) in [(0.9, false), (0.2, true)] {
+            let mut limits = bounded(&given, &stages.shares, &Unwatched).unwrap();
+            limits.placement.set(sectors[0], taken);
+            limits.reason[sectors[0]] = Reason::Folds;
+            let room = &mut Cow::Borrowed(&stages.shares);
+            take_back(&given, room, &mut limits, &Unwatched).unwrap();
+            let is_plain = |k: usize| *limits.placement.offset(sectors[k]) == run.members[k].1;
+            assert_eq!([0, 1].map(is_plain), [goes_straight; 2], "{taken}");
+            let at = sectors.map(|sector| limits.placement.point[sector]);
+            let kept = at[0].distance(at[1]) / (0.1 * 2.0_f64.sqrt());
+            assert!(!goes_straight || (kept - 0.3).abs() < 1e-4, "{kept}");
         }
     }
 

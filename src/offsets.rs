@@ -11,6 +11,7 @@
 mod fronts;
 mod large;
 mod place;
+mod turned;
 
 use std::sync::{Mutex, PoisonError};
 
@@ -33,15 +34,16 @@ use crate::view::View;
 use crate::watch::{Times, Watch};
 
 use fronts::follow;
-pub use fronts::{narrow, narrow_all, parts};
+pub use fronts::{is_one_face, narrow, narrow_all, parts};
 use large::{MANY_CORNERS, offset_of_large};
 use place::{Way, place};
+pub use turned::turned;
 
 /// No vertex moves farther than this many widths: between edges that meet at less than 39 degrees
 /// the exact distance shoots out, and a tip would lose its point. The corners of ramps and
 /// triangles, from 45 degrees on, still get the exact one. The thesis gives up there (modifiers
 /// above 10); moving less far keeps a chamfer, which narrows towards the tip.
-const MITER_LIMIT: f64 = 3.0;
+pub const MITER_LIMIT: f64 = 3.0;
 
 /// A vertex slides along a seam of the texture where that opens the narrower of its two edges by at
 /// least this share of the wider.
@@ -148,12 +150,27 @@ pub fn offsets(
     for sector in large.into_inner().unwrap_or_else(PoisonError::into_inner) {
         offsets[sector] = offset_of_large(surface, chamfers, sector, watch)?;
     }
+    go_along(surface, sectors, &mut offsets, watch)?;
+    Ok(offsets)
+}
+
+/// Hidden faces, and the lines along an edge, move as what they lie at does.
+///
+/// # Errors
+/// [`Error::Cancelled`] where the watch stops it.
+pub fn go_along(
+    Surface { view, topology, faces }: Surface,
+    sectors: &Sectors,
+    offsets: &mut IdVec<Sector, Offset>,
+    watch: &dyn Watch,
+) -> Result<(), Error> {
+    let slow = &Times(STEPS_OF_SECTOR, watch);
     for followers in sectors.followers.chunk_by(|one, other| one.sector == other.sector) {
         slow.worked(followers.len())?;
         let sector = followers[0].sector;
         let corners: Vec<Corner> = sectors.corners(topology, sector).collect();
         watch.worked(corners.len())?;
-        if let Some(offset) = follow(view, faces, &offsets, &corners, followers) {
+        if let Some(offset) = follow(view, faces, offsets, &corners, followers) {
             offsets[sector] = offset;
         }
     }
@@ -161,11 +178,11 @@ pub fn offsets(
         slow.worked(1)?;
         let fan: Vec<Corner> = sectors.corners(topology, sectors.sector_of[corner]).collect();
         watch.worked(fan.len())?;
-        if let Some(offset) = span(view, faces, sectors, &offsets, &fan) {
+        if let Some(offset) = span(view, faces, sectors, offsets, &fan) {
             offsets[sectors.sector_of[corner]] = offset;
         }
     }
-    Ok(offsets)
+    Ok(())
 }
 
 /// Goes along with the ends of the line that the first corner of a flat fan is in: the line closes

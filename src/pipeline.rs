@@ -21,7 +21,7 @@ use crate::inside_out::{is_inside_out, turned_back, turned_normals};
 use crate::limits::{Element, lessen_cuts, limits};
 use crate::memory;
 use crate::mesh::Mesh;
-use crate::offsets::{Known, Offset, narrow_all, offsets as find_offsets};
+use crate::offsets::{Known, Offset, go_along, narrow_all, offsets as find_offsets};
 use crate::options::{Options, Verify};
 use crate::output::{output, unchanged};
 use crate::patches::{Patches, patches};
@@ -42,6 +42,7 @@ use crate::shape::Shape;
 use crate::threads::Threads;
 use crate::topology::topology;
 use crate::unpaired::{Unpaired, unpaired, with_verdicts};
+use crate::vanishing::vanishing;
 use crate::verdicts::verdicts;
 use crate::view::{View, measured, view_watched};
 use crate::watch::{Caller, STEPS, Watch};
@@ -497,8 +498,13 @@ fn make(
     let watch = Caller::new(&mut ask);
     let deep = &deep(topology, chamfers.sectors, &watch)?;
     let (none, nowhere, plenty) = (&Rests::default(), &IdVec::default(), &IdVec::default());
+    let vanishing = &vanishing(surface, chamfers, &mut offsets, &watch)?;
+    if !vanishing.runs.is_empty() {
+        go_along(surface, chamfers.sectors, &mut offsets, &watch)?;
+    }
     let base = Given {
         offsets: nowhere,
+        vanishing,
         rests: none,
         surface,
         chamfers,

@@ -11,7 +11,7 @@ use crate::given::{Given, deep};
 use crate::ids::{Cluster, IdVec, Sector, Triangle};
 use crate::limits::{Limits, limits};
 use crate::mesh::{Mesh, MeshBuffers};
-use crate::offsets::{Offset, narrow_all, offsets};
+use crate::offsets::{Offset, go_along, narrow_all, offsets};
 use crate::options::{Options, Verify, Width};
 use crate::patches::{Patches, patches};
 use crate::placement::Placement;
@@ -23,6 +23,7 @@ use crate::selection::selection;
 use crate::surface::Surface;
 use crate::threads::Threads;
 use crate::topology::{Topology, topology};
+use crate::vanishing::{Vanishing, vanishing};
 use crate::view::{View, view};
 use crate::watch::{Unwatched, Watch};
 use crate::weld::{Weld, weld};
@@ -36,6 +37,7 @@ pub struct Stages<'a> {
     pub edges: Edges,
     pub sectors: Sectors,
     pub offsets: IdVec<Sector, Offset>,
+    pub vanishing: Vanishing,
     /// With what each edge of a sector has room for.
     pub narrowed: IdVec<Sector, Offset>,
     /// `#triangles`: see [`crate::room::Room`].
@@ -71,13 +73,16 @@ pub fn stages_of_mesh<'a>(mesh: Mesh<'a>, options: &Options) -> Stages<'a> {
     let sectors = sectors(&view, &topology, &edges, &contacts, &Unwatched).unwrap();
     let surface = Surface { view: &view, topology: &topology, faces: &faces };
     let chamfers = Chamfers { edges: &edges, sectors: &sectors };
-    let offsets = offsets(surface, chamfers, None, (&threads, &Unwatched)).unwrap();
+    let mut offsets = offsets(surface, chamfers, None, (&threads, &Unwatched)).unwrap();
+    let vanishing = vanishing(surface, chamfers, &mut offsets, &Unwatched).unwrap();
+    go_along(surface, &sectors, &mut offsets, &Unwatched).unwrap();
     let deep = deep(&topology, &sectors, &Unwatched).unwrap();
     let (narrowed, shares, plenty) = {
         let (offsets, rests, deep, threads) = (&offsets, &Rests::default(), &deep, &threads);
         let plenty = &IdVec::default();
+        let (vanishing, apart) = (&vanishing, None);
         let given =
-            &Given { surface, chamfers, offsets, apart: None, rests, deep, plenty, threads };
+            &Given { surface, chamfers, offsets, vanishing, apart, rests, deep, plenty, threads };
         let room = room(given, &Unwatched).unwrap();
         let mut room = evenness(given, room, options.evenness.into(), &Unwatched).unwrap();
         let mut narrowed = offsets.clone();
@@ -96,6 +101,7 @@ pub fn stages_of_mesh<'a>(mesh: Mesh<'a>, options: &Options) -> Stages<'a> {
         edges,
         sectors,
         offsets,
+        vanishing,
         narrowed,
         shares,
         rests,
@@ -129,11 +135,12 @@ impl Stages<'_> {
 
     pub fn limits(&self, verify: Verify) -> Limits<'_> {
         let (surface, chamfers) = (self.surface(), self.chamfers());
-        let Stages { narrowed, shares, rests, deep, plenty, threads, .. } = self;
+        let Stages { narrowed, vanishing, shares, rests, deep, plenty, threads, .. } = self;
         let given = &Given {
             surface,
             chamfers,
             offsets: narrowed,
+            vanishing,
             apart: None,
             rests,
             deep,
@@ -242,11 +249,13 @@ mod tests {
         let found = contacts_of(&Unwatched).unwrap();
         let selection = selection(view, weld, &Options::default());
         let (surface, chamfers) = (stages.surface(), stages.chamfers());
-        let Stages { offsets: vectors, rests: held, deep, plenty, threads, .. } = &stages;
+        let Stages { offsets: vectors, vanishing, rests: held, deep, plenty, threads, .. } =
+            &stages;
         let given = &Given {
             surface,
             chamfers,
             offsets: vectors,
+            vanishing,
             apart: None,
             rests: held,
             deep,
@@ -301,12 +310,14 @@ mod tests {
             mesh.submesh_index_counts = vec![mesh.indices.len() as u32];
             let stages = stages_of(&mesh, 0.5);
             let Stages { view, topology, faces, weld, offsets: vectors, .. } = &stages;
-            let Stages { rests: held, deep, plenty, threads, shares: open, .. } = &stages;
+            let Stages { vanishing, rests: held, deep, plenty, threads, shares: open, .. } =
+                &stages;
             let (surface, chamfers) = (stages.surface(), stages.chamfers());
             let given = &Given {
                 surface,
                 chamfers,
                 offsets: vectors,
+                vanishing,
                 rests: held,
                 deep,
                 plenty,

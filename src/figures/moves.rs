@@ -123,6 +123,53 @@ fn draw_offsets(drawing: &mut Drawing, mesh: &MeshBuffers, width: f32, camera: C
     }
 }
 
+pub fn vanishing() -> Drawing {
+    let mut drawing = Drawing::new(720, 320);
+    drawing.title(185.0, "a bevel");
+    drawing.title(540.0, "a rounded corner");
+    let (c, s) = (0.3 * (1.0 - 0.866_025_4), 0.15);
+    let bevel = [[1.0, 0.75], [0.75, 1.0]];
+    let rounded = [[1.0, 0.7], [1.0 - c, 0.7 + s], [0.7 + s, 1.0 - c], [0.7, 1.0]];
+    for (x, corner) in [(185.0, &bevel[..]), (540.0, &rounded[..])] {
+        let mut plate = shapes::Builder::default();
+        let outline = [&[[-1.0, -0.4], [1.0, -0.4]][..], corner, &[[-1.0, 1.0]]].concat();
+        plate.prism(&outline, 0.0, 0.9);
+        let camera = Camera::new([0.6, 0.8, 4.0], [0.0, 0.3, 0.5], 115.0, [x, 165.0]);
+        draw_vanishing(&mut drawing, &plate.finish(), 0.4, camera);
+    }
+    drawing.legend(&[
+        (RED, "hard edge"),
+        (ORANGE, "pulled by the width alone"),
+        (INK, "offset"),
+        (BLUE, "pulled edge"),
+    ]);
+    drawing
+}
+
+/// The front face of a mesh with its edges pulled, and as they would be if none vanished.
+fn draw_vanishing(drawing: &mut Drawing, mesh: &MeshBuffers, width: f32, camera: Camera) {
+    let stages = stages_of(mesh, width);
+    let scene = Scene::of_mesh(camera, mesh);
+    scene.paint(drawing);
+    hard_edges(drawing, &scene, &stages, Pen::new(RED, 1.6));
+    let members = || stages.vanishing.runs.iter().flat_map(|run| &run.members);
+    let plain = |sector: Sector| {
+        let changed = members().find(|(member, _)| *member == sector);
+        changed.map_or(stages.offsets[sector].vector, |(_, plain)| plain.vector)
+    };
+    let at_front = |side: &Corner| stages.faces.normal[side.triangle()].z > 0.5;
+    for side in stages.edges.hard.iter().flat_map(|edge| edge.sides).filter(at_front) {
+        let ends = [side, side.next()];
+        let sectors = ends.map(|end| stages.sectors.sector_of[end]);
+        let at = ends.map(|end| stages.view.position_at(end));
+        let straight = [0, 1].map(|k| at[k] + plain(sectors[k]));
+        scene.line(drawing, straight, Pen::dashed(ORANGE, 1.2));
+        let pulled = [0, 1].map(|k| at[k] + stages.offsets[sectors[k]].vector);
+        scene.line(drawing, pulled, Pen::new(BLUE, 1.6));
+        scene.arrow(drawing, [at[0], pulled[0]], Pen::new(INK, 1.2));
+    }
+}
+
 pub fn room() -> Drawing {
     let mut drawing = Drawing::new(720, 320);
     drawing.title(185.0, "each edge has the room of its own face");

@@ -37,19 +37,10 @@ pub fn parts(
     if fan.starts_at_border || fan.ends_at_border() || topology.twin[fan.first] == fan.last.prev() {
         return None;
     }
-    let normal = faces.normal[fan.first.triangle()];
-    let mut before: Option<Corner> = None;
-    for corner in sectors.corners(topology, sector) {
-        let is_level = faces.normal[corner.triangle()].dot(normal) > LEVEL_COSINE;
-        let is_one = before.is_none_or(|before| {
-            let [one, other] = [before, corner].map(|corner| view.vertex_at(corner));
-            one == other || view.normal(one) == view.normal(other) && same_chart(view, one, other)
-        });
-        if !is_level || !is_one {
-            return None;
-        }
-        before = Some(corner);
+    if !is_one_face(surface, sectors, sector) {
+        return None;
     }
+    let normal = faces.normal[fan.first.triangle()];
     let [ahead, _] = arms(view, fan.first);
     let [_, back] = arms(view, fan.last);
     let (ahead, back) = (unit(ahead), unit(back));
@@ -59,6 +50,24 @@ pub fn parts(
     }
     let along_last = back * (ahead.cross(offset.vector).dot(normal) / sine);
     Some([along_last, offset.vector - along_last])
+}
+
+/// Whether a sector lies on one flat face, and has one vertex there or such as could be one.
+pub fn is_one_face(
+    Surface { view, topology, faces }: Surface,
+    sectors: &Sectors,
+    sector: Sector,
+) -> bool {
+    let normal = faces.normal[sectors.fans[sector].first.triangle()];
+    let mut before: Option<Corner> = None;
+    sectors.corners(topology, sector).all(|corner| {
+        let is_level = faces.normal[corner.triangle()].dot(normal) > LEVEL_COSINE;
+        let is_one = before.replace(corner).is_none_or(|before| {
+            let [one, other] = [before, corner].map(|corner| view.vertex_at(corner));
+            one == other || view.normal(one) == view.normal(other) && same_chart(view, one, other)
+        });
+        is_level && is_one
+    })
 }
 
 /// Of offsets that have unlike shares for their two edges (`fronts: #sectors by 2`), the one that has
