@@ -21,7 +21,7 @@ use crate::chamfers::Chamfers;
 use crate::edges::Edges;
 use crate::error::Error;
 use crate::faces::Faces;
-use crate::foot::{Foot, locate};
+use crate::foot::{Arms, Foot, arms, locate};
 use crate::ids::{Corner, Id, IdVec, Sector};
 use crate::math::Turn;
 use crate::sectors::{Fan, Sectors};
@@ -142,8 +142,7 @@ pub fn offsets(
         let is_even = is_even(view, faces, fan, spread);
         let course = course(surface, chamfers.edges, fan, (spread, is_even));
         let way = course.as_ref().and_then(|course| place(surface, (spread, is_even), course));
-        let is_plain = is_even || is_plain(surface, fan, spread);
-        Offset { is_plain, ..told(fan, course, way) }
+        told(fan, course, way, is_even || is_plain(surface, fan, spread))
     })?;
     for sector in large.into_inner().unwrap_or_else(PoisonError::into_inner) {
         offsets[sector] = offset_of_large(surface, chamfers, sector, watch)?;
@@ -202,6 +201,7 @@ fn span(
 /// A corner of a fan, unfolded into the plane.
 struct Blade {
     corner: Corner,
+    arms: Arms,
     /// The angle from the fan's first edge to the corner's first edge.
     start: Turn,
     /// The angle of the corner.
@@ -219,22 +219,22 @@ fn blades<'a>(
 ) -> impl Iterator<Item = Blade> + 'a {
     let mut before: Option<Turn> = None;
     sectors.corners(topology, sector).map(move |corner| {
-        let [to_next, to_prev] = arms(view, corner);
-        let angle = Turn::between(to_next, to_prev);
+        let arms = arms(view, corner);
+        let angle = Turn::between(arms[0], arms[1]);
         let end = before.map_or(angle, |before| before.plus(angle));
         let start = before.replace(end).unwrap_or(Turn::ZERO);
-        Blade { corner, start, angle, end }
+        Blade { corner, arms, start, angle, end }
     })
 }
 
 /// Where the vertex of a fan goes, or that it stays.
 #[inline]
-fn told(fan: &Fan, course: Option<Course>, way: Option<Way>) -> Offset {
+fn told(fan: &Fan, course: Option<Course>, way: Option<Way>, is_plain: bool) -> Offset {
     match (course, way) {
         (Some(Course { corner, is_capped, .. }), Some((vector, foot))) => {
-            Offset { vector, foot, is_capped, ..Offset::none(corner) }
+            Offset { vector, within: corner, foot, is_capped, fronts: [1.0; 2], is_plain }
         }
-        _ => Offset::none(fan.first),
+        _ => Offset { is_plain, ..Offset::none(fan.first) },
     }
 }
 
@@ -265,13 +265,6 @@ fn is_plain(Surface { view, faces, .. }: Surface, fan: &Fan, spread: &[Blade]) -
                 && faces.normal[triangle] != DVec3::ZERO
                 && !faces.is_line(triangle)
         })
-}
-
-/// From a corner to the next and to the previous corner.
-#[inline(always)]
-fn arms(view: &View, corner: Corner) -> [DVec3; 2] {
-    let at = view.position_at(corner);
-    [view.position_at(corner.next()) - at, view.position_at(corner.prev()) - at]
 }
 
 /// A way to go: an angle inside one corner, and a distance.

@@ -4,7 +4,7 @@ use std::cell::LazyCell;
 
 use glam::{DVec2, DVec3};
 
-use super::feet::{End, Frame, Room, feet_at, flat_lay};
+use super::feet::{End, Frame, Room, band_foot, feet_at, flat_lay};
 use super::fit::{Facing, Lie, MOST_STRETCH, misfit, roomiest};
 use super::ground::Ground;
 use super::{BANDS, BESIDE_BANDS, Spread, Way};
@@ -13,7 +13,6 @@ use crate::attributes::{Attributes, Taken};
 use crate::edges::HardEdge;
 use crate::ids::{Corner, Edge, Few, Triangle};
 use crate::math::{area_vector, unit};
-use crate::patches::Parts;
 use crate::placement::Placement;
 use crate::report::Blend;
 use crate::strips;
@@ -76,6 +75,7 @@ impl<'a> StripMap<'a> {
     }
 
     /// The strip at the start and at the end of the owner's half-edge.
+    #[inline(always)]
     fn strip_ends(&self, owner: usize) -> [End; 2] {
         let half_edge = self.edge.sides[owner];
         let edge =
@@ -170,7 +170,8 @@ impl<'a> StripMap<'a> {
     /// Where the far corners at the start and at the end of the owner's half-edge land on its band.
     fn far_feet(&self, way: Way, owner: usize) -> [Option<Blend>; 2] {
         let ends = self.strip_ends(owner);
-        let mut feet = [0, 1].map(|k| feet_at(self.surface, &ends[k], way)[1]);
+        let Way::Band(spread) = way else { return [None; 2] };
+        let mut feet = ends.map(|end| band_foot(self.surface, &end, spread));
         if self.triangles.len() < 2 {
             for (foot, [_, place]) in feet.iter_mut().zip(places(owner)) {
                 *foot = foot.filter(|_| self.is_used(place));
@@ -275,7 +276,7 @@ fn places(owner: usize) -> [[usize; 2]; 2] {
 /// face.
 pub fn lay_strip(
     given: &Given,
-    (edge, strip): (Edge, Parts),
+    (edge, triangles): (Edge, &[[u32; 3]]),
     (owner, band): (usize, Option<&Band>),
     taken_at: &mut Vec<TakenAt>,
 ) -> Triangle {
@@ -284,13 +285,14 @@ pub fn lay_strip(
     let face = hard.sides[owner].triangle();
     // Of most meshes that is all.
     if let (&[channel], Some(band)) = (given.channels, band.filter(|_| hard.seams != 0)) {
-        let feet = places(owner).into_iter().zip(band.far);
-        let feet = feet.filter_map(|([_, point], place)| Some((point as u32, place?)));
-        taken_at.extend(feet.map(|(at, place)| (at, Taken { channels: 1 << channel, place })));
+        for ([_, point], place) in places(owner).into_iter().zip(&band.far) {
+            if let &Some(place) = place {
+                taken_at.push((point as u32, Taken { channels: 1 << channel, place }));
+            }
+        }
         return face;
     }
-    let map =
-        LazyCell::new(|| StripMap::new(surface, placement, attributes, hard, strip.triangles));
+    let map = LazyCell::new(|| StripMap::new(surface, placement, attributes, hard, triangles));
     let (mut taken, mut channels): (Feet, [u8; 4]) = ([None; 4], [0; 4]);
     for &channel in given.channels {
         // What the owner was chosen by need not be looked for again.

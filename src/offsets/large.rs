@@ -30,6 +30,5 @@ pub fn offset_of_large(
     watch.worked(spread.len())?;
     let way = course.as_ref().and_then(|course| place(surface, (&spread, false), course));
     watch.worked(spread.len())?;
-    let is_plain = is_plain(surface, fan, &spread);
-    Ok(Offset { is_plain, ..told(fan, course, way) })
+    Ok(told(fan, course, way, is_plain(surface, fan, &spread)))
 }

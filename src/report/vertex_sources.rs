@@ -141,6 +141,17 @@ impl VertexSources {
         self.continuing.push(Continuing { own, owner, owner_channels: channels.into() });
     }
 
+    /// The blends of a vertex, for the surface and for the chart; none where it is one of the source as it
+    /// was.
+    pub(crate) fn moved(&self, vertex: usize) -> Option<[&Blend; 2]> {
+        let [surface, chart] = match self.own(vertex) {
+            Own::Kept(_) => return None,
+            Own::One(blend) => [blend; 2],
+            Own::Two(first) => [first, first + 1],
+        };
+        Some([surface, chart].map(|blend| &self.blends[blend as usize]))
+    }
+
     /// Which vertices were appended as just such a copy.
     pub(crate) fn copies(
         &self,
