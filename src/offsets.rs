@@ -132,12 +132,12 @@ pub fn offsets(
         }
         let fan = &sectors.fans[sector];
         spread.clear();
-        for blade in blades(view, topology, sectors, sector) {
+        for corner in sectors.corners(topology, sector) {
             if spread.len() == MANY_CORNERS {
                 large.lock().unwrap_or_else(PoisonError::into_inner).push(sector);
                 return Offset::none(fan.first);
             }
-            spread.push(blade);
+            spread.push(blade(view, corner, spread.last()));
         }
         let is_even = is_even(view, faces, fan, spread);
         let course = course(surface, chamfers.edges, fan, (spread, is_even));
@@ -210,21 +210,17 @@ struct Blade {
     end: Turn,
 }
 
-/// The corners of a sector, unfolded one after the other.
-fn blades<'a>(
-    view: &'a View,
-    topology: &'a Topology,
-    sectors: &'a Sectors,
-    sector: Sector,
-) -> impl Iterator<Item = Blade> + 'a {
-    let mut before: Option<Turn> = None;
-    sectors.corners(topology, sector).map(move |corner| {
-        let arms = arms(view, corner);
-        let angle = Turn::between(arms[0], arms[1]);
-        let end = before.map_or(angle, |before| before.plus(angle));
-        let start = before.replace(end).unwrap_or(Turn::ZERO);
-        Blade { corner, arms, start, angle, end }
-    })
+/// A corner of a fan, unfolded next to the one before it.
+#[inline(always)]
+fn blade(view: &View, corner: Corner, before: Option<&Blade>) -> Blade {
+    let arms = arms(view, corner);
+    let angle = Turn::between(arms[0], arms[1]);
+    match before {
+        None => Blade { corner, arms, start: Turn::ZERO, angle, end: angle },
+        Some(&Blade { end: start, .. }) => {
+            Blade { corner, arms, start, angle, end: start.plus(angle) }
+        }
+    }
 }
 
 /// Where the vertex of a fan goes, or that it stays.
