@@ -209,7 +209,7 @@ fn on_others(
 
 /// The feet on a sector's last and first edge; the old corner itself where the last one lies in
 /// another chart.
-fn feet_of_wings(
+pub fn feet_of_wings(
     given: &Given,
     (sector, wings): (Sector, Wings),
     below: impl Fn((Edge, Corner), usize) -> Option<Blend>,

@@ -169,9 +169,10 @@ impl<'a> StripMap<'a> {
 
     /// Where the far corners at the start and at the end of the owner's half-edge land on its band.
     fn far_feet(&self, way: Way, owner: usize) -> [Option<Blend>; 2] {
-        let ends = self.strip_ends(owner);
         let Way::Band(spread) = way else { return [None; 2] };
-        let mut feet = ends.map(|end| band_foot(self.surface, &end, spread));
+        let [start, stop] = self.strip_ends(owner);
+        let foot = |end: &End| band_foot(self.surface, end, spread);
+        let mut feet = [foot(&start), foot(&stop)];
         if self.triangles.len() < 2 {
             for (foot, [_, place]) in feet.iter_mut().zip(places(owner)) {
                 *foot = foot.filter(|_| self.is_used(place));
