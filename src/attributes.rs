@@ -262,6 +262,9 @@ fn add_parted(
     (streams, vertex_at): (&mut Streams, &mut IdVec<Corner, u32>),
     watch: &dyn Watch,
 ) -> Result<(), Error> {
+    if parted.is_empty() {
+        return Ok(());
+    }
     let mut added = Vec::with_capacity(parted.len());
     let mut row = Row::EMPTY;
     for &(sector, corner) in parted {

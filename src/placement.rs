@@ -126,14 +126,14 @@ impl<'a> Placement<'a> {
         if sector.is_none() { self.surface.view.position_at(corner) } else { self.point[sector] }
     }
 
-    /// Where a corner stands that is the first (0) or the last (1) one of its sector, and its normal.
+    /// The normal at a corner that is the first (0) or the last (1) one of its sector.
     #[inline]
-    pub fn end_at(&self, corner: Corner, end: usize) -> (DVec3, DVec3) {
-        let (view, sector) = (self.surface.view, self.sectors.sector_of[corner]);
+    pub fn normal_at_end(&self, corner: Corner, end: usize) -> DVec3 {
+        let sector = self.sectors.sector_of[corner];
         if sector.is_none() {
-            return (view.position_at(corner), view.normal_at(corner));
+            return self.surface.view.normal_at(corner);
         }
-        (self.point[sector], self.normals[sector][end])
+        self.normals[sector][end]
     }
 
     /// The normal at a corner; between the first and the last corner of a sector, the last one's.

@@ -59,15 +59,13 @@ impl Cut {
 }
 
 /// The strip of an edge where the sectors stand now.
-#[inline(always)]
 pub fn quad(placement: &Placement, edge: &HardEdge) -> Quad {
+    let corners = corners(edge);
     // A side starts at the first corner of a sector, and ends at the last one of another.
-    let [b1, a1, a2, b2] = corners(edge);
-    let at = |corner: Corner, end: usize| placement.end_at(corner, end);
-    let (ends, starts) = ([at(b1, 1), at(a2, 1)], [at(a1, 0), at(b2, 0)]);
+    let ends = [1, 0, 1, 0];
     Quad {
-        points: [ends[0].0, starts[0].0, ends[1].0, starts[1].0],
-        normals: [ends[0].1, starts[0].1, ends[1].1, starts[1].1],
+        points: corners.map(|corner| placement.position_at(corner)),
+        normals: [0, 1, 2, 3].map(|k| placement.normal_at_end(corners[k], ends[k])),
     }
 }
 
@@ -98,7 +96,6 @@ fn folds_more_from_b1([b1, a1, a2, b2]: [DVec3; 4]) -> f64 {
 }
 
 /// Whether all triangles of the cut strip face outwards, and neither pulled edge runs backwards.
-#[inline(always)]
 pub fn is_valid(quad: &Quad, cut: Cut, edge: DVec3, resolution: f64) -> bool {
     let [b1, a1, a2, b2] = quad.points;
     let runs_along = |from: DVec3, to: DVec3| (to - from).dot(edge) > 0.0;

@@ -168,9 +168,9 @@ impl Streams {
         work: (&Threads, &dyn Watch),
     ) -> Result<Streams, Error> {
         let mesh = &view.mesh;
-        let chart = |vertex: Vertex| sources.moved(vertex.index()).map(|[_, chart]| chart);
+        let chart = |vertex: Vertex| sources.chart_of(vertex.index());
         let normal = |vertex: Vertex| {
-            let [surface, _] = sources.moved(vertex.index())?;
+            let surface = sources.surface_of(vertex.index())?;
             Some(blended_normal(view, surface).as_vec3().to_array())
         };
         let normals = changed(mesh.normals, room, work, normal)?;
