@@ -40,6 +40,7 @@ impl Foot {
     }
 
     /// The blend of the triangle's vertices at a share of the way.
+    #[inline(always)]
     pub fn blend(&self, view: &View, share: f64) -> Blend {
         let [to_next, to_prev] = [0, 1].map(|k| self.start[k] + self.along[k] * share);
         if to_next.abs().max(to_prev.abs()) > MOST_WEIGHT {

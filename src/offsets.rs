@@ -378,6 +378,7 @@ fn meet(total: Turn, spread: &[Blade], [first, last]: [f64; 2]) -> Option<Course
 }
 
 /// Along the direction at half the fan's angle.
+#[inline(always)]
 fn bisect(total: Turn, spread: &[Blade], width: f64) -> Option<Course> {
     let half = total.half();
     let blade = spread.iter().find(|blade| half <= blade.end)?;

@@ -234,10 +234,12 @@ impl Streams {
             false => &column.values(&self.vertices)[column.range(of)],
         };
         let is_equal = |listed: u32| {
-            let own = |column: &Column| &column.values(&self.vertices)[column.range(listed)];
+            let is_equal = |column: &Column| {
+                are_equal(&column.values(&self.vertices)[column.range(listed)], value(column))
+            };
             position == self.vertices.positions[listed as usize]
                 && normal == self.vertices.normals[listed as usize]
-                && self.layout.columns.iter().all(|column| own(column) == value(column))
+                && self.layout.columns.iter().all(is_equal)
         };
         if let Some(equal) = self.index.find(list, is_equal) {
             return equal;
@@ -465,6 +467,15 @@ fn copy_few(from: &[f32], to: &mut [f32]) {
             (*to_x, *to_y, *to_z, *to_w) = (x, y, z, w);
         }
         (from, to) => to.copy_from_slice(from),
+    }
+}
+
+/// Whether two values of a stream are equal. Most have two numbers, which need no loop.
+#[inline]
+fn are_equal(one: &[f32], other: &[f32]) -> bool {
+    match (one, other) {
+        ([u, v], [other_u, other_v]) => u == other_u && v == other_v,
+        _ => one == other,
     }
 }
 

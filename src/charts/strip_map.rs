@@ -159,15 +159,22 @@ impl<'a> StripMap<'a> {
     /// The first of [`BANDS`], of those of a side, on which the strip fits in its first channel with a
     /// seam.
     pub fn band(&self, owner: usize) -> Option<Band> {
-        let channel = first_seam(self.edge);
-        BANDS.iter().find_map(|&way| {
-            let far = self.far_feet(way, owner);
-            let misfit = self.misfit_of_band(channel, owner, (way, &far));
-            (misfit <= MOST_STRETCH).then_some(Band { way, far })
-        })
+        // Nearly all fit on the first, which is compiled by itself.
+        let [first, others @ ..] = BANDS;
+        let others = || others.into_iter().find_map(|way| self.band_by(way, owner));
+        self.band_by(first, owner).or_else(others)
+    }
+
+    /// The band of one way, if the strip fits on it.
+    #[inline(always)]
+    fn band_by(&self, way: Way, owner: usize) -> Option<Band> {
+        let far = self.far_feet(way, owner);
+        let misfit = self.misfit_of_band(first_seam(self.edge), owner, (way, &far));
+        (misfit <= MOST_STRETCH).then_some(Band { way, far })
     }
 
     /// Where the far corners at the start and at the end of the owner's half-edge land on its band.
+    #[inline(always)]
     fn far_feet(&self, way: Way, owner: usize) -> [Option<Blend>; 2] {
         let Way::Band(spread) = way else { return [None; 2] };
         let [start, stop] = self.strip_ends(owner);
@@ -183,6 +190,7 @@ impl<'a> StripMap<'a> {
 
     /// As [`StripMap::misfit`]. What lies on the old edge, which is a side of the owner's triangle, is on
     /// the ground.
+    #[inline(always)]
     fn misfit_of_band(
         &self,
         channel: usize,

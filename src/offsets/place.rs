@@ -30,6 +30,7 @@ pub type Way = (DVec3, Foot);
 
 /// The way in space; none where the corner has no plane. Vector and foot lie in one plane, so that the
 /// foot blends to the very place.
+#[inline(always)]
 pub fn place(
     surface: Surface,
     (spread, is_even): (&[Blade], bool),
