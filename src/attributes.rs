@@ -24,7 +24,7 @@ use crate::chamfers::Chamfers;
 use crate::error::Error;
 use crate::ids::{Cluster, Corner, Id, IdVec, Sector, Triangle, Vertex};
 use crate::placement::Placement;
-use crate::report::Blend;
+use crate::report::{Blend, VertexSources};
 use crate::resample::{blended_normal, parts};
 use crate::scale::Space;
 use crate::sectors::Sectors;
@@ -35,7 +35,7 @@ use crate::view::View;
 use crate::watch::{Watch, each};
 use crate::weld::{Weld, hash_of};
 
-use streams::Row;
+use streams::{Layout, Row};
 pub use streams::{Streams, Taken};
 
 /// The vertices of the result, as far as source triangles use them.
@@ -58,34 +58,41 @@ pub fn attributes(
 ) -> Result<Attributes, Error> {
     let vertex_at = surface.view.mesh.indices.to_vec();
     watch.worked(vertex_at.len())?;
+    let sectors = chamfers.sectors;
+    let count = sectors.fans.len();
+    let has_moved = threads.map(count, watch, |sector| placement.has_moved(sector))?;
+    let vertices = surface.view.mesh.positions.len();
     // At a seam both far vertices of a strip are copied.
     let copies = 2 * chamfers.edges.hard.iter().filter(|edge| edge.seams != 0).count();
-    let attributes = Attributes {
-        streams: Streams::of_source(space.source, (chamfers.sectors.fans.len(), copies), watch)?,
+    let mut moving = Moving {
+        taken: staying(surface, sectors, &has_moved, watch)?,
+        movers: IdVec::filled(Corner::NONE, vertices),
+        sources: VertexSources::with_room(vertices, count, copies),
+        parted: Vec::new(),
         vertex_at: IdVec::from_vec(vertex_at),
     };
-    watch.worked(attributes.streams.vertices.positions.len())?;
-    let sectors = chamfers.sectors.fans.ids();
-    let has_moved: Vec<bool> = sectors.map(|sector| placement.has_moved(sector)).collect();
-    let has_moved = IdVec::from_vec(has_moved);
-    watch.worked(has_moved.len())?;
-    let taken = staying(surface, chamfers.sectors, &has_moved, watch)?;
-    let mut moving = Moving { taken, parted: Vec::new(), attributes };
-    let note = |moving: &Moving, sector: Sector, notes: &mut Notes| {
+    watch.worked(vertices)?;
+    let layout = Layout::new(space.source);
+    let note = |_: &Moving, sector: Sector, notes: &mut Notes| {
         if has_moved[sector] {
-            let streams = &moving.attributes.streams;
-            notes.add((space, surface), chamfers.sectors, placement, (streams, sector));
+            notes.add((space, surface), (sectors, sector), placement, &layout);
         }
     };
-    let work = (has_moved.len(), watch);
-    threads.blocks_then(work, &mut moving, note, Moving::take)?;
-    let Moving { parted, mut attributes, .. } = moving;
-    attributes.streams.look_up(weld);
-    add_parted((space, surface), placement, &parted, &mut attributes, watch)?;
+    let take = |moving: &mut Moving, notes: &mut Notes| moving.take(surface, sectors, notes);
+    threads.blocks_then((count, watch), &mut moving, note, take)?;
+    let Moving { movers, sources, parted, mut vertex_at, .. } = moving;
+    let moved = |vertex: Vertex| {
+        let mover = movers[vertex];
+        mover.is_some().then(|| placement.stored_at(mover))
+    };
+    let work = (threads, watch);
+    let mut streams = Streams::new((space.source, layout), sources, moved, copies, work)?;
+    streams.look_up(weld);
+    add_parted((space, surface), placement, &parted, (&mut streams, &mut vertex_at), watch)?;
     if has_moved.iter().any(|&has_moved| has_moved) {
-        close_collapsed(surface.view, surface.topology, &mut attributes.vertex_at);
+        close_collapsed(surface.view, surface.topology, &mut vertex_at);
     }
-    Ok(attributes)
+    Ok(Attributes { streams, vertex_at })
 }
 
 /// `#vertices`: whether some corner stays where it was, and so needs the source vertex.
@@ -114,16 +121,20 @@ type Parted = (Sector, Corner);
 struct Moving {
     /// `#vertices`: whether some sector has a source vertex already.
     taken: IdVec<Vertex, bool>,
+    /// `#vertices`: a corner of the sector that moves a source vertex; none where it stays.
+    movers: IdVec<Vertex, Corner>,
+    sources: VertexSources,
     parted: Vec<Parted>,
-    attributes: Attributes,
+    /// As in the [`Attributes`].
+    vertex_at: IdVec<Corner, u32>,
 }
 
 impl Moving {
     /// Gives each vertex that moves its new place: in its own index if that is free; else it is parted, and
     /// past the source vertices its number among those parted stands for it.
-    fn take(&mut self, notes: &mut Notes) {
+    fn take(&mut self, surface: Surface, sectors: &Sectors, notes: &mut Notes) {
         let sources = self.taken.len() as u32;
-        for (place, row) in (0..notes.moved.len()).zip(&notes.rows) {
+        for place in 0..notes.moved.len() {
             let (before, own) = notes.moved.split_at_mut(place);
             let own = &mut own[0];
             own.output = match before.get(own.twin as usize) {
@@ -134,13 +145,19 @@ impl Moving {
                 }
                 None => {
                     self.taken[own.vertex] = true;
-                    self.attributes.streams.set(own.vertex, row, own.blends);
-                    own.vertex.0
+                    self.movers[own.vertex] = own.corner;
+                    let [on_surface, in_chart] = own.blends;
+                    self.sources.set(own.vertex.index(), on_surface, in_chart);
+                    continue;
                 }
             };
+            if own.is_alone {
+                let corners = sectors.corners(surface.topology, own.sector);
+                corners.for_each(|corner| self.vertex_at[corner] = own.output);
+            }
         }
         for &(corner, moved) in &notes.corners {
-            self.attributes.vertex_at[corner] = notes.moved[moved as usize].output;
+            self.vertex_at[corner] = notes.moved[moved as usize].output;
         }
         notes.moved.clear();
         notes.corners.clear();
@@ -151,10 +168,10 @@ impl Moving {
 #[derive(Default)]
 struct Notes {
     moved: Vec<Moved>,
-    /// The values of each of them where it moves; past them, what is left of earlier notes.
-    rows: Vec<Row>,
-    /// The corners of the sectors, each with the place of its vertex among those.
+    /// The corners of the sectors with several vertices, each with the place of its own among those.
     corners: Vec<(Corner, u32)>,
+    /// For each vertex of the last of these sectors, its values where it moves.
+    rows: Vec<Row>,
 }
 
 /// A source vertex of a sector.
@@ -165,6 +182,8 @@ struct Moved {
     vertex: Vertex,
     /// Which of the [`parts`] of the sector it is of.
     part: u32,
+    /// Whether all corners of the sector have it, in one part.
+    is_alone: bool,
     blends: [Blend; 2],
     /// The place of one that it has become equal to, or none.
     twin: u32,
@@ -176,10 +195,19 @@ impl Notes {
     fn add(
         &mut self,
         (space, surface): (Space, Surface),
-        sectors: &Sectors,
+        (sectors, sector): (&Sectors, Sector),
         placement: &Placement,
-        (streams, sector): (&Streams, Sector),
+        layout: &Layout,
     ) {
+        let moved = |corner: Corner, part: u32, is_alone: bool| {
+            let vertex = surface.view.vertex_at(corner);
+            let blends = blends(surface.view, placement, sector, corner);
+            let (twin, output) = (NONE, vertex.0);
+            Moved { sector, corner, vertex, part, is_alone, blends, twin, output }
+        };
+        if placement.offset(sector).is_plain {
+            return self.moved.push(moved(sectors.fans[sector].first, 0, true));
+        }
         let first = self.moved.len();
         for (corner, part) in parts(surface, sectors, sector) {
             let vertex = surface.view.vertex_at(corner);
@@ -187,32 +215,42 @@ impl Notes {
             let known = self.moved[first..].iter().position(is_own);
             let place = known.map_or(self.moved.len(), |known| first + known);
             self.corners.push((corner, place as u32));
-            if known.is_some() {
-                continue;
+            if known.is_none() {
+                self.moved.push(moved(corner, part, false));
             }
-            let blends = blends(surface.view, placement, sector, corner);
-            if self.rows.len() == place {
-                self.rows.push(Row::EMPTY);
-            }
-            fill(space, placement, streams, (sector, blends), &mut self.rows[place]);
-            let twin = self.twin_of(space.source, streams, (first, vertex));
-            self.moved.push(Moved { sector, corner, vertex, part, blends, twin, output: NONE });
+        }
+        if self.moved.len() - first > 1 {
+            self.find_twins(space, placement, layout, first);
         }
     }
 
-    /// The place of a vertex of the sector, noted from the first place on, that the next one has become
-    /// equal to, though they differed before: their normals were less than a degree apart. Or of one that is
-    /// that very vertex, in another part. Or else none.
-    fn twin_of(&self, view: &View, streams: &Streams, (first, own): (usize, Vertex)) -> u32 {
-        let row = &self.rows[self.moved.len()];
+    /// Tells which vertices of a sector, noted from the first place on, have become equal.
+    fn find_twins(&mut self, space: Space, placement: &Placement, layout: &Layout, first: usize) {
+        let moved = &self.moved[first..];
+        self.rows.clear();
+        self.rows.resize(moved.len(), Row::EMPTY);
+        for (row, moved) in self.rows.iter_mut().zip(moved) {
+            fill(space, placement, layout, (moved.sector, moved.blends), row);
+        }
+        for own in 1..moved.len() {
+            let twin = self.twin_of(space.source, layout, (first, own));
+            self.moved[first + own].twin = twin.map_or(NONE, |twin| (first + twin) as u32);
+        }
+    }
+
+    /// Which of the vertices of a sector before one that has become equal to, though they differed before:
+    /// their normals were less than a degree apart. Or which is that very vertex, in another part.
+    fn twin_of(&self, view: &View, layout: &Layout, (first, own): (usize, usize)) -> Option<usize> {
+        let vertex = |place: usize| self.moved[first + place].vertex;
+        let own_vertex = vertex(own);
         let is_twin = |place: &usize| {
-            let other = self.moved[*place].vertex;
-            streams.are_equal(&self.rows[*place], row)
-                && (other == own
-                    || view.normal(other) != view.normal(own)
-                    || !same_chart(view, other, own))
+            let other = vertex(*place);
+            layout.are_equal(&self.rows[*place], &self.rows[own])
+                && (other == own_vertex
+                    || view.normal(other) != view.normal(own_vertex)
+                    || !same_chart(view, other, own_vertex))
         };
-        (first..self.moved.len()).find(is_twin).map_or(NONE, |twin| twin as u32)
+        (0..own).find(is_twin)
     }
 }
 
@@ -221,20 +259,22 @@ fn add_parted(
     (space, surface): (Space, Surface),
     placement: &Placement,
     parted: &[Parted],
-    attributes: &mut Attributes,
+    (streams, vertex_at): (&mut Streams, &mut IdVec<Corner, u32>),
     watch: &dyn Watch,
 ) -> Result<(), Error> {
-    let streams = &mut attributes.streams;
+    if parted.is_empty() {
+        return Ok(());
+    }
     let mut added = Vec::with_capacity(parted.len());
     let mut row = Row::EMPTY;
     for &(sector, corner) in parted {
         let blends = blends(surface.view, placement, sector, corner);
-        fill(space, placement, streams, (sector, blends), &mut row);
+        fill(space, placement, &streams.layout, (sector, blends), &mut row);
         added.push(streams.add_moved(surface.topology.cluster_at[corner], &row, blends));
         watch.worked(1)?;
     }
     let sources = surface.view.mesh.positions.len() as u32;
-    for vertex in attributes.vertex_at.iter_mut().filter(|vertex| **vertex >= sources) {
+    for vertex in vertex_at.iter_mut().filter(|vertex| **vertex >= sources) {
         *vertex = added[(*vertex - sources) as usize];
     }
     Ok(())
@@ -245,13 +285,13 @@ fn add_parted(
 fn fill(
     space: Space,
     placement: &Placement,
-    streams: &Streams,
+    layout: &Layout,
     (sector, [surface, chart]): (Sector, [Blend; 2]),
     row: &mut Row,
 ) {
     let normal = blended_normal(space.source, &surface);
     let place = (placement.stored(sector), normal);
-    streams.blend(space.source, place, &chart, row);
+    layout.blend(space.source, place, &chart, row);
 }
 
 /// Where a corner's vertex comes from when its sector takes a share of the offset: on the surface,

@@ -28,9 +28,13 @@ fn differ(view: &View, side: Corner, other: Corner, differ: impl Fn([DVec3; 2]) 
 
 /// Whether two corners at one position differ in a UV channel.
 pub fn seam_between(view: &View, channel: usize, one: Corner, other: Corner) -> bool {
-    let (uv, one, other) = (&view.mesh.uvs[channel], view.vertex_at(one), view.vertex_at(other));
+    let (one, other) = (view.vertex_at(one), view.vertex_at(other));
+    if one == other {
+        return false;
+    }
+    let uv = &view.mesh.uvs[channel];
     let mut values = uv_at(uv, one.index()).iter().zip(uv_at(uv, other.index()));
-    one != other && values.any(|(&a, &b)| (a - b).abs() > EQUAL_UV * a.abs().max(1.0))
+    values.any(|(&a, &b)| (a - b).abs() > EQUAL_UV * a.abs().max(1.0))
 }
 
 /// Whether two vertices at one position belong to one chart: equal in all that a chart carries.

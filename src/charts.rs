@@ -102,15 +102,18 @@ pub fn charts(
     let given = Given { surface, chamfers, placement, attributes, channels: &channels };
     let owners = owners(&given, patches, (threads, watch))?;
     let lay = |patch: Patch, charts: &mut Charts| {
-        let parts = patches.parts(patch);
+        let triangles = patches.triangles(patch);
         let (mut face, mut begin) = (Triangle::NONE, 0);
-        if !parts.triangles.is_empty() {
+        if !triangles.is_empty() {
             (face, begin) = match patches.edge_or_ring(patch) {
                 Ok(edge) => {
                     let owner = (owners.of(edge), owners.band[edge].as_ref());
-                    (lay_strip(&given, (edge, parts), owner, &mut charts.taken), 0)
+                    (lay_strip(&given, (edge, triangles), owner, &mut charts.taken), 0)
                 }
-                Err(ring) => lay_fill(&given, &owners, (ring, parts), &mut charts.taken),
+                Err(ring) => {
+                    let fill = (ring, patches.parts(patch));
+                    lay_fill(&given, &owners, fill, &mut charts.taken)
+                }
             };
         }
         charts.laid.push(Laid { face, begin: begin as u32, end: charts.taken.len() as u32 });

@@ -119,7 +119,7 @@ pub fn edges(
         let twin = topology.twin[corner];
         twin.is_some() && corner < twin && is_hard(view, corner, twin)
     })?;
-    let noise = noise::noise(view, topology, &sides);
+    let noise = noise::noise(view, topology, &sides, threads);
     watch.worked(sides.len())?;
     if !noise.is_empty() {
         sides.retain(|&side| !is_noise(view, &noise, [side, topology.twin[side]]));

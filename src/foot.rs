@@ -40,6 +40,7 @@ impl Foot {
     }
 
     /// The blend of the triangle's vertices at a share of the way.
+    #[inline(always)]
     pub fn blend(&self, view: &View, share: f64) -> Blend {
         let [to_next, to_prev] = [0, 1].map(|k| self.start[k] + self.along[k] * share);
         if to_next.abs().max(to_prev.abs()) > MOST_WEIGHT {
@@ -51,13 +52,31 @@ impl Foot {
     }
 }
 
+/// From a corner of a triangle to the next one and to the previous one.
+pub type Arms = [DVec3; 2];
+
+/// Those of a corner.
+#[inline(always)]
+pub fn arms(view: &View, corner: Corner) -> Arms {
+    let at = view.position_at(corner);
+    [view.position_at(corner.next()) - at, view.position_at(corner.prev()) - at]
+}
+
 /// The way from a point along a vector, projected onto the plane of a corner's triangle; none
 /// where the triangle has no area.
 #[inline]
 pub fn locate(view: &View, corner: Corner, from: DVec3, vector: DVec3) -> Option<Foot> {
-    let at = view.position_at(corner);
-    let to_next = view.position_at(corner.next()) - at;
-    let to_prev = view.position_at(corner.prev()) - at;
+    locate_by(arms(view, corner), corner, from - view.position_at(corner), vector)
+}
+
+/// The same where the corner's arms are known, and the way to the point.
+#[inline(always)]
+pub fn locate_by(
+    [to_next, to_prev]: Arms,
+    corner: Corner,
+    start: DVec3,
+    vector: DVec3,
+) -> Option<Foot> {
     let normal = to_next.cross(to_prev);
     let square = normal.length_squared();
     let weight = |part: DVec3| {
@@ -66,7 +85,7 @@ pub fn locate(view: &View, corner: Corner, from: DVec3, vector: DVec3) -> Option
     };
     let in_edges = |way: DVec3| [weight(way.cross(to_prev)), weight(to_next.cross(way))];
     // Nearly all ways begin at the corner.
-    let start = if from == at { [0.0; 2] } else { in_edges(from - at) };
+    let start = if start == DVec3::ZERO { [0.0; 2] } else { in_edges(start) };
     let along = in_edges(vector);
     let is_finite = |way: [f64; 2]| way[0].is_finite() && way[1].is_finite();
     (is_finite(start) && is_finite(along)).then_some(Foot { corner, start, along })

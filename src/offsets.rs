@@ -22,7 +22,7 @@ use crate::chamfers::Chamfers;
 use crate::edges::Edges;
 use crate::error::Error;
 use crate::faces::Faces;
-use crate::foot::{Foot, locate};
+use crate::foot::{Arms, Foot, arms, locate};
 use crate::ids::{Corner, Id, IdVec, Sector};
 use crate::math::Turn;
 use crate::sectors::{Fan, Sectors};
@@ -134,18 +134,17 @@ pub fn offsets(
         }
         let fan = &sectors.fans[sector];
         spread.clear();
-        for blade in blades(view, topology, sectors, sector) {
+        for corner in sectors.corners(topology, sector) {
             if spread.len() == MANY_CORNERS {
                 large.lock().unwrap_or_else(PoisonError::into_inner).push(sector);
                 return Offset::none(fan.first);
             }
-            spread.push(blade);
+            spread.push(blade(view, corner, spread.last()));
         }
         let is_even = is_even(view, faces, fan, spread);
         let course = course(surface, chamfers.edges, fan, (spread, is_even));
         let way = course.as_ref().and_then(|course| place(surface, (spread, is_even), course));
-        let is_plain = is_even || is_plain(surface, fan, spread);
-        Offset { is_plain, ..told(fan, course, way) }
+        told(fan, course, way, is_even || is_plain(surface, fan, spread))
     })?;
     for sector in large.into_inner().unwrap_or_else(PoisonError::into_inner) {
         offsets[sector] = offset_of_large(surface, chamfers, sector, watch)?;
@@ -219,6 +218,7 @@ fn span(
 /// A corner of a fan, unfolded into the plane.
 struct Blade {
     corner: Corner,
+    arms: Arms,
     /// The angle from the fan's first edge to the corner's first edge.
     start: Turn,
     /// The angle of the corner.
@@ -227,31 +227,27 @@ struct Blade {
     end: Turn,
 }
 
-/// The corners of a sector, unfolded one after the other.
-fn blades<'a>(
-    view: &'a View,
-    topology: &'a Topology,
-    sectors: &'a Sectors,
-    sector: Sector,
-) -> impl Iterator<Item = Blade> + 'a {
-    let mut before: Option<Turn> = None;
-    sectors.corners(topology, sector).map(move |corner| {
-        let [to_next, to_prev] = arms(view, corner);
-        let angle = Turn::between(to_next, to_prev);
-        let end = before.map_or(angle, |before| before.plus(angle));
-        let start = before.replace(end).unwrap_or(Turn::ZERO);
-        Blade { corner, start, angle, end }
-    })
+/// A corner of a fan, unfolded next to the one before it.
+#[inline(always)]
+fn blade(view: &View, corner: Corner, before: Option<&Blade>) -> Blade {
+    let arms = arms(view, corner);
+    let angle = Turn::between(arms[0], arms[1]);
+    match before {
+        None => Blade { corner, arms, start: Turn::ZERO, angle, end: angle },
+        Some(&Blade { end: start, .. }) => {
+            Blade { corner, arms, start, angle, end: start.plus(angle) }
+        }
+    }
 }
 
 /// Where the vertex of a fan goes, or that it stays.
 #[inline]
-fn told(fan: &Fan, course: Option<Course>, way: Option<Way>) -> Offset {
+fn told(fan: &Fan, course: Option<Course>, way: Option<Way>, is_plain: bool) -> Offset {
     match (course, way) {
         (Some(Course { corner, is_capped, .. }), Some((vector, foot))) => {
-            Offset { vector, foot, is_capped, ..Offset::none(corner) }
+            Offset { vector, within: corner, foot, is_capped, fronts: [1.0; 2], is_plain }
         }
-        _ => Offset::none(fan.first),
+        _ => Offset { is_plain, ..Offset::none(fan.first) },
     }
 }
 
@@ -282,13 +278,6 @@ fn is_plain(Surface { view, faces, .. }: Surface, fan: &Fan, spread: &[Blade]) -
                 && faces.normal[triangle] != DVec3::ZERO
                 && !faces.is_line(triangle)
         })
-}
-
-/// From a corner to the next and to the previous corner.
-#[inline(always)]
-fn arms(view: &View, corner: Corner) -> [DVec3; 2] {
-    let at = view.position_at(corner);
-    [view.position_at(corner.next()) - at, view.position_at(corner.prev()) - at]
 }
 
 /// A way to go: an angle inside one corner, and a distance.
@@ -406,6 +395,7 @@ fn meet(total: Turn, spread: &[Blade], [first, last]: [f64; 2]) -> Option<Course
 }
 
 /// Along the direction at half the fan's angle.
+#[inline(always)]
 fn bisect(total: Turn, spread: &[Blade], width: f64) -> Option<Course> {
     let half = total.half();
     let blade = spread.iter().find(|blade| half <= blade.end)?;

@@ -91,11 +91,12 @@ struct Made<'a> {
 impl Made<'_> {
     fn add(&mut self, (patch, parts): (Patch, Parts), chart: Chart, source: TriangleSource) {
         let rounded = self.rounding.and_then(|rounding| rounding.of(patch));
-        self.find_vertices(rounded, parts, chart);
+        self.find_vertices((source.kind, rounded), parts, chart);
         let submesh = self.submeshes.of_new(chart.face);
+        let part = &mut self.submeshes.parts[submesh];
         for triangle in rounded.map_or(parts.triangles, |rounded| rounded.triangles) {
             let vertices = triangle.map(|place| self.vertices[place as usize]);
-            self.submeshes.add(submesh, vertices, source);
+            part.add(vertices, source);
         }
     }
 
@@ -110,19 +111,28 @@ impl Made<'_> {
         let across = streams.add_between(space.source, cluster, (at, normal), (*place, None));
         let (kind, index) = (TriangleKind::Corner, space.source.vertex_at(joints[0]).0);
         let submesh = self.submeshes.of_source_triangle(joints[2].triangle());
-        self.submeshes.add(submesh, [across, own, end], TriangleSource { kind, index });
+        self.submeshes.parts[submesh].add([across, own, end], TriangleSource { kind, index });
     }
 
     /// Each joint has the vertex of its corner, or a copy of it that takes something from another
     /// chart; middles have vertices of their own.
-    fn find_vertices(&mut self, rounded: Option<Rounded>, parts: Parts, chart: Chart) {
+    fn find_vertices(
+        &mut self,
+        (kind, rounded): (TriangleKind, Option<Rounded>),
+        parts: Parts,
+        chart: Chart,
+    ) {
         let (space, joints) = (self.space, parts.joints);
         self.vertices.clear();
         self.vertices.extend(joints.iter().map(|&joint| self.attributes.vertex_at[joint]));
         for (point, taken) in chart.taking(joints.len()) {
             let (cluster, own) = (self.cluster_at(joints[point]), self.vertices[point]);
             let streams = &mut self.attributes.streams;
-            self.vertices[point] = streams.add_copy(space.source, cluster, own, taken);
+            // A fill often takes what a strip beside it has taken.
+            self.vertices[point] = match kind {
+                TriangleKind::Corner => streams.find_or_add_copy(space.source, cluster, own, taken),
+                _ => streams.add_copy(space.source, cluster, own, taken),
+            };
         }
         if let Some(rounded) = rounded {
             self.find_rounded(rounded, (parts, chart));
@@ -204,6 +214,11 @@ impl Part {
         part.sources.extend(triangles.map(|index| TriangleSource { kind, index }));
         part
     }
+
+    fn add(&mut self, vertices: [u32; 3], source: TriangleSource) {
+        self.indices.extend_from_slice(&vertices);
+        self.sources.push(source);
+    }
 }
 
 /// All triangles, one submesh after the other.
@@ -245,13 +260,6 @@ impl Submeshes {
             parts.push(Part::of_source(attributes, 0..0, room));
         }
         Submeshes { starts, target, parts }
-    }
-
-    /// Adds a new triangle to a submesh.
-    pub fn add(&mut self, submesh: usize, vertices: [u32; 3], source: TriangleSource) {
-        let part = &mut self.parts[submesh];
-        part.indices.extend_from_slice(&vertices);
-        part.sources.push(source);
     }
 
     fn of_source_triangle(&self, triangle: Triangle) -> usize {
@@ -321,7 +329,8 @@ mod tests {
         let [head, shank] = [0, 1].map(|submesh| bolt.submesh_index_counts[submesh]);
         let mut submeshes = submeshes(&bolt, ChamferSubmesh::Own);
         let own = submeshes.of_new(Triangle(0));
-        submeshes.add(own, [7, 8, 9], TriangleSource { kind: TriangleKind::Edge, index: 5 });
+        let source = TriangleSource { kind: TriangleKind::Edge, index: 5 };
+        submeshes.parts[own].add([7, 8, 9], source);
         let triangles = submeshes.joined();
         assert_eq!(triangles.index_counts, [head, shank, 3]);
         assert_eq!(triangles.indices[(head + shank) as usize..], [7, 8, 9]);

@@ -136,7 +136,7 @@ impl Patches {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     pub fn parts(&self, patch: Patch) -> Parts<'_> {
         let place = patch.index();
         let [from, to] = [self.ends[place], self.ends[place + 1]];

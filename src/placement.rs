@@ -188,6 +188,7 @@ impl<'a> Placement<'a> {
     }
 
     /// The normal at a sector's share of a way.
+    #[inline(always)]
     fn normal_on(&self, foot: &Foot, sector: Sector) -> DVec3 {
         let view = self.surface.view;
         let normals = foot.corner.triangle().corners().map(|corner| view.normal_at(corner));

@@ -150,7 +150,7 @@ impl Stages<'_> {
         limits(given, shares, verify, &Unwatched).unwrap()
     }
 
-    fn space(&self) -> Space<'_> {
+    pub fn space(&self) -> Space<'_> {
         Space { source: &self.view, measured: &self.view, scale: None }
     }
 

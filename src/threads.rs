@@ -94,8 +94,34 @@ impl Threads {
         scratch: impl Fn() -> S + Sync + Send,
         value: impl Fn(&mut S, I) -> T + Sync + Send,
     ) -> Result<IdVec<I, T>, Error> {
-        let value = |scratch: &mut S, index| value(scratch, I::new(index));
         let mut values = Vec::with_capacity(count);
+        self.extend_with(&mut values, count, watch, scratch, value)?;
+        Ok(IdVec::from_vec(values))
+    }
+
+    /// Appends the value for each of so many ids.
+    ///
+    /// # Errors
+    /// What `watch` gives.
+    pub fn extend<I: Id + Send, T: Send>(
+        &self,
+        values: &mut Vec<T>,
+        count: usize,
+        watch: &dyn Watch,
+        value: impl Fn(I) -> T + Sync + Send,
+    ) -> Result<(), Error> {
+        self.extend_with(values, count, watch, || (), |(), id| value(id))
+    }
+
+    fn extend_with<I: Id + Send, T: Send, S>(
+        &self,
+        values: &mut Vec<T>,
+        count: usize,
+        watch: &dyn Watch,
+        scratch: impl Fn() -> S + Sync + Send,
+        value: impl Fn(&mut S, I) -> T + Sync + Send,
+    ) -> Result<(), Error> {
+        let value = |scratch: &mut S, index| value(scratch, I::new(index));
         #[cfg(feature = "parallel")]
         if let Some(pool) = self.pool.as_ref().filter(|_| count >= LEAST_WORK) {
             use rayon::prelude::*;
@@ -105,13 +131,13 @@ impl Threads {
                 pool.install(|| values.par_extend(of_some));
                 watch.worked(some.len())?;
             }
-            return Ok(IdVec::from_vec(values));
+            return Ok(());
         }
         let mut scratch = scratch();
         for stretch in stretches(count, watch) {
             values.extend(stretch?.map(|index| value(&mut scratch, index)));
         }
-        Ok(IdVec::from_vec(values))
+        Ok(())
     }
 
     /// Looks at each id in the light of a state, block by block, and takes what was noted of the

@@ -11,13 +11,14 @@ use super::Index;
 use crate::error::Error;
 use crate::ids::{Cluster, Id, Vertex};
 use crate::math::unit;
-use crate::mesh::{MeshBuffers, UV_CHANNELS, UvBuffer};
+use crate::mesh::{MeshBuffers, UV_CHANNELS, Uv, UvBuffer};
 use crate::report::{Blend, VertexSource, VertexSources};
 use crate::resample::{blended_normal, weighted_sum};
 use crate::rounding::joined;
+use crate::threads::Threads;
 use crate::tolerance::{LEAST_REST, ORTHOGONAL};
 use crate::view::{View, wide};
-use crate::watch::{Watch, stretches};
+use crate::watch::Watch;
 use crate::weld::Weld;
 
 /// UV channels as bits.
@@ -68,14 +69,6 @@ impl Column {
             Stream::Tangent => vertices.tangents.as_flattened(),
             Stream::Color => vertices.colors.as_flattened(),
             Stream::Uv(channel) => &vertices.uvs[channel].values,
-        }
-    }
-
-    fn values_mut<'a>(&self, vertices: &'a mut MeshBuffers) -> &'a mut [f32] {
-        match self.stream {
-            Stream::Tangent => vertices.tangents.as_flattened_mut(),
-            Stream::Color => vertices.colors.as_flattened_mut(),
-            Stream::Uv(channel) => &mut vertices.uvs[channel].values,
         }
     }
 
@@ -157,41 +150,42 @@ pub struct Streams {
     pub vertices: MeshBuffers,
     /// `#vertices`.
     pub sources: VertexSources,
-    /// But for positions and normals.
-    columns: SmallVec<[Column; 12]>,
-    /// Per colour component, the least and the greatest value that a blend may have.
-    color_range: [[f32; 2]; 4],
+    pub layout: Layout,
     index: Index,
+    /// What a copy takes: kept, as making it takes longer than filling it.
+    row: Row,
 }
 
 impl Streams {
-    /// The streams of the source as they are. So many of its vertices will move, about; and there
-    /// is room for some more.
-    pub fn of_source(
-        view: &View,
-        (moved, room): (usize, usize),
-        watch: &dyn Watch,
+    /// The streams of the source, with room for some more vertices. `moved` tells where each of them that
+    /// has moved stands, whose values are blended as its source tells: just as in a [`Row`], but stream by
+    /// stream.
+    pub fn new(
+        (view, layout): (&View, Layout),
+        sources: VertexSources,
+        moved: impl Fn(Vertex) -> Option<[f32; 3]> + Sync + Send,
+        room: usize,
+        work: (&Threads, &dyn Watch),
     ) -> Result<Streams, Error> {
         let mesh = &view.mesh;
-        let mut uvs: [UvBuffer; UV_CHANNELS] = Default::default();
-        for (copy, uv) in uvs.iter_mut().zip(&mesh.uvs) {
-            let values = copied(uv.values, room * uv.components as usize, watch)?;
-            *copy = UvBuffer { components: uv.components, values };
-        }
-        Ok(Streams {
-            vertices: MeshBuffers {
-                positions: copied(mesh.positions, room, watch)?,
-                normals: copied(mesh.normals, room, watch)?,
-                tangents: copied(mesh.tangents, room, watch)?,
-                colors: copied(mesh.colors, room, watch)?,
-                uvs,
-                ..MeshBuffers::default()
-            },
-            sources: VertexSources::with_room(mesh.positions.len(), moved, room),
-            columns: columns(view),
-            color_range: color_range(mesh.colors),
-            index: Index::default(),
-        })
+        let chart = |vertex: Vertex| sources.chart_of(vertex.index());
+        let normal = |vertex: Vertex| {
+            let surface = sources.surface_of(vertex.index())?;
+            Some(blended_normal(view, surface).as_vec3().to_array())
+        };
+        let normals = changed(mesh.normals, room, work, normal)?;
+        let tangent =
+            |vertex: Vertex| Some(tangent(view, chart(vertex)?, wide(normals[vertex.index()])));
+        let color = |vertex: Vertex| Some(layout.color(view, chart(vertex)?));
+        let vertices = MeshBuffers {
+            positions: changed(mesh.positions, room, work, moved)?,
+            tangents: changed(mesh.tangents, room, work, tangent)?,
+            colors: changed(mesh.colors, room, work, color)?,
+            uvs: blended_uvs(&mesh.uvs, room, work, chart)?,
+            normals,
+            ..MeshBuffers::default()
+        };
+        Ok(Streams { vertices, sources, layout, index: Index::default(), row: Row::EMPTY })
     }
 
     /// A vertex's value in a UV channel.
@@ -199,23 +193,6 @@ impl Streams {
         let uv = &self.vertices.uvs[channel];
         let first = vertex as usize * uv.components as usize;
         DVec2::new(f64::from(uv.values[first]), f64::from(uv.values[first + 1]))
-    }
-
-    /// Whether two rows are equal in every stream.
-    pub fn are_equal(&self, one: &Row, other: &Row) -> bool {
-        one.0[..FIRST_RARER] == other.0[..FIRST_RARER]
-            && self.columns.iter().all(|column| one.of(column) == other.of(column))
-    }
-
-    /// Moves a source vertex.
-    pub fn set(&mut self, vertex: Vertex, row: &Row, [surface, chart]: [Blend; 2]) {
-        self.vertices.positions[vertex.index()] = row.at(POSITION);
-        self.vertices.normals[vertex.index()] = row.at(NORMAL);
-        for column in &self.columns {
-            let values = &mut column.values_mut(&mut self.vertices)[column.range(vertex.0)];
-            copy_few(row.of(column), values);
-        }
-        self.sources.set(vertex.index(), surface, chart);
     }
 
     /// From here on, what is appended is looked up first. No vertex moves any more.
@@ -228,38 +205,50 @@ impl Streams {
         self.add(self.list_of(cluster, row), row, |sources| sources.push_moved(surface, chart))
     }
 
-    /// A vertex of a cluster like another one, but for what it takes from another chart.
-    pub fn add_copy(&mut self, view: &View, cluster: Cluster, of: u32, taken: &Taken) -> u32 {
-        // A fill often takes what a strip beside it has taken.
+    /// A vertex of a cluster like another one, but for what it takes from another chart, where a patch before
+    /// may have taken just that.
+    pub fn find_or_add_copy(
+        &mut self,
+        view: &View,
+        cluster: Cluster,
+        of: u32,
+        taken: &Taken,
+    ) -> u32 {
         let list = self.index.list_at(cluster, self.vertices.positions[of as usize]);
         let copies = self.sources.copies(of as usize, taken.place, taken.channels);
-        if let Some(copy) = self.index.find_since(self.sources.first_continuing(), list, copies) {
-            return copy;
-        }
+        let copy = self.index.find_since(self.sources.first_continuing(), list, copies);
+        copy.unwrap_or_else(|| self.add_copy(view, cluster, of, taken))
+    }
+
+    /// The same, where that is not likely.
+    pub fn add_copy(&mut self, view: &View, cluster: Cluster, of: u32, taken: &Taken) -> u32 {
         let own = of as usize;
-        let place = (self.vertices.positions[own], self.vertices.normals[own]);
-        let mut row = Row::EMPTY;
-        row.stand(place.0, place.1);
-        self.take(view, &mut row, taken);
+        let (position, normal) = (self.vertices.positions[own], self.vertices.normals[own]);
+        let list = self.index.list_at(cluster, position);
+        let row = &mut self.row;
+        row.stand(position, normal);
+        self.layout.take(view, row, taken);
         // All but what it takes is read where the other has it.
         let value = |column: &Column| match column.stream.is_taken(taken.channels) {
             true => row.of(column),
             false => &column.values(&self.vertices)[column.range(of)],
         };
         let is_equal = |listed: u32| {
-            let own = |column: &Column| &column.values(&self.vertices)[column.range(listed)];
-            place.0 == self.vertices.positions[listed as usize]
-                && place.1 == self.vertices.normals[listed as usize]
-                && self.columns.iter().all(|column| own(column) == value(column))
+            let is_equal = |column: &Column| {
+                are_equal(&column.values(&self.vertices)[column.range(listed)], value(column))
+            };
+            position == self.vertices.positions[listed as usize]
+                && normal == self.vertices.normals[listed as usize]
+                && self.layout.columns.iter().all(is_equal)
         };
         if let Some(equal) = self.index.find(list, is_equal) {
             return equal;
         }
-        self.vertices.positions.push(place.0);
-        self.vertices.normals.push(place.1);
-        for column in &self.columns {
+        self.vertices.positions.push(position);
+        self.vertices.normals.push(normal);
+        for column in &self.layout.columns {
             match column.stream.is_taken(taken.channels) {
-                true => column.push(&mut self.vertices, &row),
+                true => column.push(&mut self.vertices, &self.row),
                 false => column.push_again(&mut self.vertices, of),
             }
         }
@@ -277,10 +266,10 @@ impl Streams {
         (near, taken): (Blend, Option<&Taken>),
     ) -> u32 {
         let mut row = Row::EMPTY;
-        self.blend(view, (position, normal), &near, &mut row);
+        self.layout.blend(view, (position, normal), &near, &mut row);
         let mut source = VertexSource::new(near, near);
         if let Some(taken) = taken {
-            self.take(view, &mut row, taken);
+            self.layout.take(view, &mut row, taken);
             (source.owner, source.owner_channels) = (taken.place, u32::from(taken.channels));
         }
         self.add(self.list_of(cluster, &row), &row, |sources| sources.push(source))
@@ -301,12 +290,14 @@ impl Streams {
         }
         let mut row = Row::EMPTY;
         row.stand(position.as_vec3().to_array(), normal.as_vec3().to_array());
-        for column in &self.columns {
+        for column in &self.layout.columns {
             for k in column.start..column.start + column.width {
                 row.0[k] = mean(rows.each_ref().map(|row| row.0[k]), weights);
             }
         }
-        if let Some(column) = self.columns.iter().find(|column| column.stream == Stream::Tangent) {
+        if let Some(column) =
+            self.layout.columns.iter().find(|column| column.stream == Stream::Tangent)
+        {
             let tangents = rows.map(|row| row.at(column.start));
             row.set(column, &mean_tangent(tangents, weights, wide(row.at(NORMAL))));
         }
@@ -356,7 +347,7 @@ impl Streams {
     fn push(&mut self, row: &Row) {
         self.vertices.positions.push(row.at(POSITION));
         self.vertices.normals.push(row.at(NORMAL));
-        self.columns.iter().for_each(|column| column.push(&mut self.vertices, row));
+        self.layout.columns.iter().for_each(|column| column.push(&mut self.vertices, row));
     }
 
     /// The vertex of a list that has a row.
@@ -374,16 +365,36 @@ impl Streams {
     fn has(&self, vertex: u32, row: &Row) -> bool {
         let own = |column: &Column| &column.values(&self.vertices)[column.range(vertex)];
         self.vertices.normals[vertex as usize] == row.at(NORMAL)
-            && self.columns.iter().all(|column| own(column) == row.of(column))
+            && self.layout.columns.iter().all(|column| own(column) == row.of(column))
     }
 
     /// Reads the row of a vertex.
     fn read(&self, vertex: u32, row: &mut Row) {
         let MeshBuffers { positions, normals, .. } = &self.vertices;
         row.stand(positions[vertex as usize], normals[vertex as usize]);
-        for column in &self.columns {
+        for column in &self.layout.columns {
             row.set(column, &column.values(&self.vertices)[column.range(vertex)]);
         }
+    }
+}
+
+/// How the values of a mesh stand in its rows.
+pub struct Layout {
+    /// But for positions and normals.
+    columns: SmallVec<[Column; 12]>,
+    /// Per colour component, the least and the greatest value that a blend may have.
+    color_range: [[f32; 2]; 4],
+}
+
+impl Layout {
+    pub fn new(view: &View) -> Layout {
+        Layout { columns: columns(view), color_range: color_range(view.mesh.colors) }
+    }
+
+    /// Whether two rows are equal in every stream.
+    pub fn are_equal(&self, one: &Row, other: &Row) -> bool {
+        one.0[..FIRST_RARER] == other.0[..FIRST_RARER]
+            && self.columns.iter().all(|column| one.of(column) == other.of(column))
     }
 
     /// Makes a row at a position, with a normal, and all else blended in a chart.
@@ -459,14 +470,57 @@ fn copy_few(from: &[f32], to: &mut [f32]) {
     }
 }
 
-/// A copy with room for some more; an absent stream stays absent.
-fn copied<T: Copy>(values: &[T], room: usize, watch: &dyn Watch) -> Result<Vec<T>, Error> {
-    let room = if values.is_empty() { 0 } else { room };
-    let mut copy = Vec::with_capacity(values.len() + room);
-    for stretch in stretches(values.len(), watch) {
-        copy.extend_from_slice(&values[stretch?]);
+/// Whether two values of a stream are equal. Most have two numbers, which need no loop.
+#[inline]
+fn are_equal(one: &[f32], other: &[f32]) -> bool {
+    match (one, other) {
+        ([u, v], [other_u, other_v]) => u == other_u && v == other_v,
+        _ => one == other,
     }
-    Ok(copy)
+}
+
+/// A copy of a stream with room for some more, in which some values are others; an absent stream stays
+/// absent.
+fn changed<T: Copy + Send + Sync>(
+    values: &[T],
+    room: usize,
+    (threads, watch): (&Threads, &dyn Watch),
+    other: impl Fn(Vertex) -> Option<T> + Sync + Send,
+) -> Result<Vec<T>, Error> {
+    let room = if values.is_empty() { 0 } else { room };
+    let mut all = Vec::with_capacity(values.len() + room);
+    let value = |vertex: Vertex| other(vertex).unwrap_or(values[vertex.index()]);
+    threads.extend(&mut all, values.len(), watch, value)?;
+    Ok(all)
+}
+
+/// All UV channels, blended where a vertex has a chart to be blended in.
+fn blended_uvs<'a>(
+    uvs: &[Uv; UV_CHANNELS],
+    room: usize,
+    work: (&Threads, &dyn Watch),
+    chart: impl Fn(Vertex) -> Option<&'a Blend> + Sync + Send,
+) -> Result<[UvBuffer; UV_CHANNELS], Error> {
+    let mut all: [UvBuffer; UV_CHANNELS] = Default::default();
+    for (all, uv) in all.iter_mut().zip(uvs) {
+        let values = match uv.components {
+            2 => blended_uv::<2>(uv.values, room, work, &chart)?,
+            3 => blended_uv::<3>(uv.values, room, work, &chart)?,
+            _ => blended_uv::<4>(uv.values, room, work, &chart)?,
+        };
+        *all = UvBuffer { components: uv.components, values };
+    }
+    Ok(all)
+}
+
+fn blended_uv<'a, const WIDTH: usize>(
+    values: &[f32],
+    room: usize,
+    work: (&Threads, &dyn Watch),
+    chart: impl Fn(Vertex) -> Option<&'a Blend> + Sync + Send,
+) -> Result<Vec<f32>, Error> {
+    let blended = |vertex: Vertex| Some(blended::<WIDTH>(values, chart(vertex)?));
+    Ok(changed(values.as_chunks().0, room, work, blended)?.into_flattened())
 }
 
 /// A blend of the values of a stream that has so many for each vertex.
@@ -572,7 +626,11 @@ fn turned(direction: DVec3, from: DVec3, to: DVec3) -> DVec3 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::{blends, fill};
     use super::*;
+    use crate::ids::Sector;
+    use crate::shapes;
+    use crate::stages::stages_of;
 
     // Past the end of a side from the least to the greatest number there is.
     #[test]
@@ -581,5 +639,31 @@ mod tests {
         assert_eq!(blend_value(&blend, [f32::MAX, f32::MIN, 0.0]), f32::MAX);
         assert_eq!(blend_value(&blend, [f32::MIN, f32::MAX, 0.0]), f32::MIN);
         assert_eq!(blend_value(&blend, [1.0, -1.0, 0.0]), 3.0);
+    }
+
+    // What moves within its own index is made stream by stream, and what is parted as a row.
+    #[test]
+    fn streams_hold_what_rows_would() {
+        for (name, mesh) in shapes::demo_models() {
+            let stages = stages_of(&mesh, 0.01);
+            let placement = stages.placement();
+            let attributes = stages.attributes(&placement);
+            let moved = |sector: &Sector| placement.has_moved(*sector);
+            for sector in stages.sectors.fans.ids().filter(moved) {
+                let corner = stages.sectors.fans[sector].first;
+                let blends = blends(&stages.view, &placement, sector, corner);
+                let mut row = Row::EMPTY;
+                let layout = &attributes.streams.layout;
+                fill(stages.space(), &placement, layout, (sector, blends), &mut row);
+                let vertex = attributes.vertex_at[corner];
+                assert!(attributes.streams.has_at(vertex, &row), "{name}, vertex {vertex}");
+            }
+        }
+    }
+
+    impl Streams {
+        fn has_at(&self, vertex: u32, row: &Row) -> bool {
+            self.vertices.positions[vertex as usize] == row.at(POSITION) && self.has(vertex, row)
+        }
     }
 }

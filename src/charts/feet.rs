@@ -64,7 +64,8 @@ pub fn feet_at(surface: Surface, end: &End, way: Way) -> [Option<Blend>; 2] {
 }
 
 /// Where one far corner of a strip lands on its owner's band.
-fn band_foot(surface: Surface, end: &End, spread: Spread) -> Option<Blend> {
+#[inline(always)]
+pub fn band_foot(surface: Surface, end: &End, spread: Spread) -> Option<Blend> {
     let share = match spread {
         Spread::Far | Spread::Narrow => share_of(end.edge, end.far),
         Spread::Near => share_of(end.edge, end.near),
@@ -208,7 +209,7 @@ fn on_others(
 
 /// The feet on a sector's last and first edge; the old corner itself where the last one lies in
 /// another chart.
-fn feet_of_wings(
+pub fn feet_of_wings(
     given: &Given,
     (sector, wings): (Sector, Wings),
     below: impl Fn((Edge, Corner), usize) -> Option<Blend>,

@@ -5,11 +5,11 @@ use std::cmp::Reverse;
 
 use glam::{DVec2, DVec3};
 
-use super::feet::{Frame, Lay, Room, flat_lay, is_broken, kite};
+use super::feet::{Frame, Lay, Room, feet_of_wings, flat_lay, is_broken, kite};
 use super::fit::{Facing, Lie, MOST_STRETCH, misfit};
 use super::ground::{Ground, density};
 use super::owners::Owners;
-use super::{FILL_WAYS, Given, TakenAt, Way, place_of};
+use super::{FILL_WAYS, Given, TakenAt, Way, Wings, place_of};
 use crate::attributes::Taken;
 use crate::ids::{Corner, Edge, Few, Ring, Sector, Triangle};
 use crate::math::{area_vector, unit};
@@ -33,7 +33,7 @@ struct FillMap<'a> {
     sectors: &'a [Sector],
     fill: Parts<'a>,
     /// Those of the ring, then the middles.
-    points: Few<DVec3>,
+    points: &'a [DVec3],
     /// The fill laid flat, once that is asked for.
     frame: OnceCell<Frame>,
 }
@@ -47,13 +47,52 @@ pub fn lay_fill(
     taken: &mut Vec<TakenAt>,
 ) -> (Triangle, usize) {
     let sectors = given.chamfers.sectors.ring(ring);
+    let point = |sector: Sector| given.placement.point[sector];
+    if let (&[a, b, c], []) = (sectors, fill.middles) {
+        let points = [point(a), point(b), point(c)];
+        let map = FillMap::new((given, owners), (sectors, fill), &points);
+        return map.lay_triangle(taken).unwrap_or_else(|| map.lay_into_chart(taken));
+    }
     let mut points: Few<DVec3> = Few::new();
-    points.extend(sectors.iter().map(|&sector| given.placement.point[sector]));
+    points.extend(sectors.iter().map(|&sector| point(sector)));
     points.extend(fill.middles.iter().map(|middle| middle.position));
-    FillMap { given, owners, sectors, fill, points, frame: OnceCell::new() }.lay_into_chart(taken)
+    FillMap::new((given, owners), (sectors, fill), &points).lay_into_chart(taken)
 }
 
-impl FillMap<'_> {
+impl<'a> FillMap<'a> {
+    fn new(
+        (given, owners): (&'a Given<'a>, &'a Owners),
+        (sectors, fill): (&'a [Sector], Parts<'a>),
+        points: &'a [DVec3],
+    ) -> FillMap<'a> {
+        FillMap { given, owners, sectors, fill, points, frame: OnceCell::new() }
+    }
+
+    /// As [`FillMap::lay_into_chart`], for three points around a corner at which the only channel has
+    /// seams: nearly always the first way fits the first owner. None where it does not.
+    fn lay_triangle(&self, taken: &mut Vec<TakenAt>) -> Option<(Triangle, usize)> {
+        let &[channel] = self.given.channels else { return None };
+        if !self.has_more_seams(channel, self.allowed_seams()) {
+            return None;
+        }
+        let owner = self.first_owner();
+        let wings = (self.sectors[owner], Wings::Far);
+        let feet = feet_of_wings(self.given, wings, |side, end| self.foot_below(side, end));
+        let places = [1, 2].map(|step| (owner + step) % 3);
+        let mut uvs = [self.own_uv(owner, channel); 3];
+        for (&place, foot) in places.iter().zip(&feet) {
+            uvs[place] = place_of(self.given.surface.view, channel, foot);
+        }
+        if self.misfit_on(channel, owner, Facing::AsFace, &uvs) > MOST_STRETCH {
+            return None;
+        }
+        let in_turn = if places[0] < places[1] { [0, 1] } else { [1, 0] };
+        for k in in_turn {
+            taken.push((places[k] as u32, Taken { channels: 1 << channel, place: feet[k] }));
+        }
+        Some((self.first(owner).triangle(), owner))
+    }
+
     /// The first way, and the first owner in rank, that fits in all channels that cannot run on; or
     /// else those that fit best.
     fn lay_into_chart(&self, taken: &mut Vec<TakenAt>) -> (Triangle, usize) {
@@ -130,19 +169,23 @@ impl FillMap<'_> {
         match way {
             Way::Kite(wings) => {
                 let middles = self.fill.middles.len();
-                let Given { chamfers, .. } = *self.given;
-                let below = |side, end| self.owners.foot_below(chamfers.edges, side, end);
+                let below = |side, end| self.foot_below(side, end);
                 kite(self.given, self.sectors, (owner, wings, middles), below, lay);
             }
             _ => *lay = self.flat(Room { corner: self.first(owner), scale: 1.0 }),
         }
     }
 
+    /// See [`Owners::foot_below`].
+    fn foot_below(&self, side: (Edge, Corner), end: usize) -> Option<Blend> {
+        self.owners.foot_below(self.given.chamfers.edges, side, end)
+    }
+
     fn flat(&self, room: Room) -> Lay {
         let frame = self.frame.get_or_init(|| {
             let triangles = self.fill.triangles.iter();
             let normal = triangles.map(|t| area_vector(t.map(|k| self.points[k as usize]))).sum();
-            Frame::new(&self.points, self.sectors.len(), unit(normal))
+            Frame::new(self.points, self.sectors.len(), unit(normal))
         });
         flat_lay(self.given.surface.view, room, frame, self.sectors.len())
     }
@@ -174,7 +217,7 @@ impl FillMap<'_> {
     /// Whether it fits where its vertices are in their own charts, and these are one around the
     /// corner.
     fn fits_as_it_is(&self, channel: usize) -> bool {
-        if self.seams(channel) > self.allowed_seams() {
+        if self.has_more_seams(channel, self.allowed_seams()) {
             return false;
         }
         let places = 0..self.sectors.len();
@@ -201,7 +244,7 @@ impl FillMap<'_> {
     fn misfit_on(&self, channel: usize, owner: usize, facing: Facing, uvs: &[DVec2]) -> f64 {
         let corners = [self.first(owner)];
         let ground = Ground::new(self.given.surface, channel, &corners);
-        let lie = Lie { triangles: self.fill.triangles, points: &self.points, uvs, unsure: uvs };
+        let lie = Lie { triangles: self.fill.triangles, points: self.points, uvs, unsure: uvs };
         misfit(self.given.surface.view, corners[0], facing, channel, &ground, &lie)
     }
 
@@ -211,16 +254,19 @@ impl FillMap<'_> {
         usize::from(self.given.chamfers.sectors.rings[ring].closed && self.fill.middles.is_empty())
     }
 
-    /// How often a channel breaks around the ring, at edges and within sectors.
-    fn seams(&self, channel: usize) -> usize {
+    /// Whether a channel breaks more often around the ring than so many times, at edges and within sectors.
+    fn has_more_seams(&self, channel: usize, allowed: usize) -> bool {
         let Given { surface, chamfers, .. } = *self.given;
-        let breaks = |&sector: &Sector| {
+        let is_at_edge = |sector: Sector| {
             let edge = chamfers.edges.chamfered_at[chamfers.sectors.fans[sector].last.prev()];
-            let at_edge = edge.is_some() && chamfers.edges.hard[edge].seams >> channel & 1 == 1;
-            usize::from(at_edge)
-                + usize::from(is_broken(surface.view, chamfers.sectors, sector, channel))
+            edge.is_some() && chamfers.edges.hard[edge].seams >> channel & 1 == 1
         };
-        self.sectors.iter().map(breaks).sum()
+        let mut seams = 0;
+        self.sectors.iter().any(|&sector| {
+            let is_within = is_broken(surface.view, chamfers.sectors, sector, channel);
+            seams += usize::from(is_at_edge(sector)) + usize::from(is_within);
+            seams > allowed
+        })
     }
 
     /// How good an owner a sector is.
@@ -238,5 +284,49 @@ impl FillMap<'_> {
         let last = surface.view.position_at(fan.last.prev()) - at;
         let is_convex = first.cross(last).dot(surface.faces.normal[fan.first.triangle()]) > 0.0;
         (self.given.placement.has_moved(sector), is_convex, owned)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{channels_of, owners::owners};
+    use super::*;
+    use crate::shapes;
+    use crate::stages::stages_of;
+    use crate::watch::{Unwatched, Watch};
+
+    #[test]
+    fn a_triangle_is_laid_as_any_other_fill() {
+        let mut laid = 0;
+        let cube = ("cube", shapes::cube(1.0));
+        for (name, mesh) in shapes::demo_models().into_iter().chain([cube]) {
+            let stages = stages_of(&mesh, 0.01);
+            let placement = stages.placement();
+            let (patches, attributes) = (stages.patches(&placement), stages.attributes(&placement));
+            let channels: Few<usize> = channels_of(&stages.view).collect();
+            let given = Given {
+                surface: stages.surface(),
+                chamfers: stages.chamfers(),
+                placement: &placement,
+                attributes: &attributes,
+                channels: &channels,
+            };
+            let work = (&stages.threads, &Unwatched as &dyn Watch);
+            let owners = &owners(&given, &patches, work).unwrap();
+            for ring in stages.sectors.rings.ids() {
+                let (sectors, fill) = (stages.sectors.ring(ring), patches.fill(ring));
+                if sectors.len() != 3 || fill.triangles.is_empty() {
+                    continue;
+                }
+                let points: Few<DVec3> = sectors.iter().map(|&at| placement.point[at]).collect();
+                let map = FillMap::new((&given, owners), (sectors, fill), &points);
+                let (mut quickly, mut taken) = (Vec::new(), Vec::new());
+                let Some(face) = map.lay_triangle(&mut quickly) else { continue };
+                assert_eq!(face, map.lay_into_chart(&mut taken), "{name}");
+                assert_eq!(quickly, taken, "{name}");
+                laid += 1;
+            }
+        }
+        assert!(laid > 8, "those of the cube and more, but {laid}");
     }
 }

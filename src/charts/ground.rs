@@ -44,6 +44,14 @@ impl Face {
         self.area != 0.0 && (0..3).all(|side| self.turn(side, point) * sign >= 0.0)
     }
 
+    /// Whether rounding its points can make its area vanish: models that are coloured by single texels
+    /// have all of a face at one place.
+    fn is_line(&self) -> bool {
+        let least = size(self.points) * EXPORTED_ROUNDING;
+        let longest = self.sides.map(DVec2::length_squared).into_iter().fold(0.0, f64::max);
+        self.area * self.area <= longest * (least * least)
+    }
+
     /// Its points, from that of one of its corners on.
     fn from(&self, corner: Corner) -> [DVec2; 3] {
         let first = corner.index() % 3;
@@ -149,11 +157,14 @@ impl<'a> Ground<'a> {
         if unsure.iter().all(|&point| own.holds(point)) {
             return true;
         }
-        let nears = triangles.iter().map(|triangle| nearness(corners(triangle)));
-        let near = nears.fold(f64::INFINITY, f64::min);
+        let near = || {
+            let nears = triangles.iter().map(|triangle| nearness(corners(triangle)));
+            nears.fold(f64::INFINITY, f64::min)
+        };
         let at = self.corners[0];
-        unsure.iter().all(|&point| own.is_below(point, near))
-            || [at, at.prev()].into_iter().any(|side| self.lie_on_two(own, side, (unsure, near)))
+        // Most of the others lie on it and on the one before it around the corner.
+        [at.prev(), at].into_iter().any(|side| self.lie_on_two(own, side, (unsure, &near)))
+            || unsure.iter().all(|&point| own.is_below(point, near()))
             || self.corners.len() == 1 && self.lie_around(points)
             || triangles.iter().all(|triangle| self.covers_one(own, corners(triangle)))
     }
@@ -175,7 +186,12 @@ impl<'a> Ground<'a> {
 
     /// Whether some points lie on the own triangle and on that beyond one of its sides, or as near to them,
     /// and these two are convex together: then all between the points does so, too.
-    fn lie_on_two(&self, own: &Face, side: Corner, (points, near): (&[DVec2], f64)) -> bool {
+    fn lie_on_two(
+        &self,
+        own: &Face,
+        side: Corner,
+        (points, near): (&[DVec2], &impl Fn() -> f64),
+    ) -> bool {
         if !self.runs_on(side) {
             return false;
         }
@@ -188,7 +204,10 @@ impl<'a> Ground<'a> {
         is_convex
             && [from, to] == [start, end]
             && own.area * beyond.area > 0.0
-            && points.iter().all(|&at| own.is_below(at, near) || beyond.is_below(at, near))
+            && points.iter().all(|&at| {
+                let is_beside = || [own, &beyond].iter().any(|face| face.is_beside(at, near()));
+                own.holds(at) || beyond.holds(at) || is_beside()
+            })
     }
 
     /// Whether the chart goes on all around the first corner, at least as far as some points are from it:
@@ -352,14 +371,7 @@ pub fn density(view: &View, triangle: Triangle, channel: usize) -> f64 {
 /// The same of a triangle that lies so on the texture.
 pub fn density_of(view: &View, triangle: Triangle, face: &Face) -> f64 {
     let area = area_vector(view.triangle(triangle)).length();
-    if area > 0.0 && !is_line(face.points) { face.area / area } else { 0.0 }
-}
-
-/// Whether rounding its UVs can make a triangle's area vanish: models that are coloured by single
-/// texels have all of a face at one place.
-fn is_line(points: [DVec2; 3]) -> bool {
-    let (area, least) = (texture_area(points), size(points) * EXPORTED_ROUNDING);
-    area * area <= longest_square(points) * (least * least)
+    if area > 0.0 && !face.is_line() { face.area / area } else { 0.0 }
 }
 
 /// Twice the area on the texture.
@@ -461,10 +473,10 @@ mod tests {
         let (own, beyond) = (ground.own(), ground.face(stages.topology.twin[inner[0]].triangle()));
         let middle = |face: &Face| (face.points[0] + face.points[1] + face.points[2]) / 3.0;
         let points = [own.points[0], middle(&own), middle(&beyond)];
-        assert!(ground.lie_on_two(&own, inner[0], (&points, 0.0)));
+        assert!(ground.lie_on_two(&own, inner[0], (&points, &|| 0.0)));
         let outside = beyond.from(stages.topology.twin[inner[0]])[2] * 2.0 - middle(&own);
-        assert!(!ground.lie_on_two(&own, inner[0], (&[points[0], points[1], outside], 0.0)));
-        assert!(!ground.lie_on_two(&own, inner[0].next(), (&points, 0.0)), "past a seam");
+        assert!(!ground.lie_on_two(&own, inner[0], (&[points[0], points[1], outside], &|| 0.0)));
+        assert!(!ground.lie_on_two(&own, inner[0].next(), (&points, &|| 0.0)), "past a seam");
     }
 
     /// The sides of the cylinder lie one beside the other in the atlas.

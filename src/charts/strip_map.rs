@@ -4,7 +4,7 @@ use std::cell::LazyCell;
 
 use glam::{DVec2, DVec3};
 
-use super::feet::{End, Frame, Room, feet_at, flat_lay};
+use super::feet::{End, Frame, Room, band_foot, feet_at, flat_lay};
 use super::fit::{Facing, Lie, MOST_STRETCH, misfit, roomiest};
 use super::ground::Ground;
 use super::{BANDS, BESIDE_BANDS, Spread, Way};
@@ -13,7 +13,6 @@ use crate::attributes::{Attributes, Taken};
 use crate::edges::HardEdge;
 use crate::ids::{Corner, Edge, Few, Triangle};
 use crate::math::{area_vector, unit};
-use crate::patches::Parts;
 use crate::placement::Placement;
 use crate::report::Blend;
 use crate::strips;
@@ -76,6 +75,7 @@ impl<'a> StripMap<'a> {
     }
 
     /// The strip at the start and at the end of the owner's half-edge.
+    #[inline(always)]
     fn strip_ends(&self, owner: usize) -> [End; 2] {
         let half_edge = self.edge.sides[owner];
         let edge =
@@ -159,18 +159,27 @@ impl<'a> StripMap<'a> {
     /// The first of [`BANDS`], of those of a side, on which the strip fits in its first channel with a
     /// seam.
     pub fn band(&self, owner: usize) -> Option<Band> {
-        let channel = first_seam(self.edge);
-        BANDS.iter().find_map(|&way| {
-            let far = self.far_feet(way, owner);
-            let misfit = self.misfit_of_band(channel, owner, (way, &far));
-            (misfit <= MOST_STRETCH).then_some(Band { way, far })
-        })
+        // Nearly all fit on the first, which is compiled by itself.
+        let [first, others @ ..] = BANDS;
+        let others = || others.into_iter().find_map(|way| self.band_by(way, owner));
+        self.band_by(first, owner).or_else(others)
+    }
+
+    /// The band of one way, if the strip fits on it.
+    #[inline(always)]
+    fn band_by(&self, way: Way, owner: usize) -> Option<Band> {
+        let far = self.far_feet(way, owner);
+        let misfit = self.misfit_of_band(first_seam(self.edge), owner, (way, &far));
+        (misfit <= MOST_STRETCH).then_some(Band { way, far })
     }
 
     /// Where the far corners at the start and at the end of the owner's half-edge land on its band.
+    #[inline(always)]
     fn far_feet(&self, way: Way, owner: usize) -> [Option<Blend>; 2] {
-        let ends = self.strip_ends(owner);
-        let mut feet = [0, 1].map(|k| feet_at(self.surface, &ends[k], way)[1]);
+        let Way::Band(spread) = way else { return [None; 2] };
+        let [start, stop] = self.strip_ends(owner);
+        let foot = |end: &End| band_foot(self.surface, end, spread);
+        let mut feet = [foot(&start), foot(&stop)];
         if self.triangles.len() < 2 {
             for (foot, [_, place]) in feet.iter_mut().zip(places(owner)) {
                 *foot = foot.filter(|_| self.is_used(place));
@@ -181,6 +190,7 @@ impl<'a> StripMap<'a> {
 
     /// As [`StripMap::misfit`]. What lies on the old edge, which is a side of the owner's triangle, is on
     /// the ground.
+    #[inline(always)]
     fn misfit_of_band(
         &self,
         channel: usize,
@@ -275,7 +285,7 @@ fn places(owner: usize) -> [[usize; 2]; 2] {
 /// face.
 pub fn lay_strip(
     given: &Given,
-    (edge, strip): (Edge, Parts),
+    (edge, triangles): (Edge, &[[u32; 3]]),
     (owner, band): (usize, Option<&Band>),
     taken_at: &mut Vec<TakenAt>,
 ) -> Triangle {
@@ -284,13 +294,14 @@ pub fn lay_strip(
     let face = hard.sides[owner].triangle();
     // Of most meshes that is all.
     if let (&[channel], Some(band)) = (given.channels, band.filter(|_| hard.seams != 0)) {
-        let feet = places(owner).into_iter().zip(band.far);
-        let feet = feet.filter_map(|([_, point], place)| Some((point as u32, place?)));
-        taken_at.extend(feet.map(|(at, place)| (at, Taken { channels: 1 << channel, place })));
+        for ([_, point], place) in places(owner).into_iter().zip(&band.far) {
+            if let &Some(place) = place {
+                taken_at.push((point as u32, Taken { channels: 1 << channel, place }));
+            }
+        }
         return face;
     }
-    let map =
-        LazyCell::new(|| StripMap::new(surface, placement, attributes, hard, strip.triangles));
+    let map = LazyCell::new(|| StripMap::new(surface, placement, attributes, hard, triangles));
     let (mut taken, mut channels): (Feet, [u8; 4]) = ([None; 4], [0; 4]);
     for &channel in given.channels {
         // What the owner was chosen by need not be looked for again.

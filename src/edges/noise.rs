@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 
-use crate::ids::{Cluster, Corner};
+use crate::ids::{Cluster, Corner, Edge, Id};
+use crate::threads::Threads;
 use crate::tolerance::{CHORD_TURN, NOISE, NOISE_SHARE};
 use crate::topology::Topology;
 use crate::view::View;
@@ -21,11 +22,15 @@ const NEARLY_NOISE: f64 = 0.99;
 /// ```
 ///
 /// Where another edge is sharp or flat, what differs beside it is its end.
-pub fn noise(view: &View, topology: &Topology, hard: &[Corner]) -> Vec<Corner> {
+pub fn noise(view: &View, topology: &Topology, hard: &[Corner], threads: &Threads) -> Vec<Corner> {
     let half_edges = || hard.iter().flat_map(|&side| [side, topology.twin[side]]);
     // Most meshes have no such end at all.
     let may_be_noise = |side: Corner| may_be_noise(view, topology, side);
-    if !hard.iter().any(|&side| may_be_noise(side) || may_be_noise(topology.twin[side])) {
+    let has_such = |edge: Edge| {
+        let side = hard[edge.index()];
+        may_be_noise(side) || may_be_noise(topology.twin[side])
+    };
+    if threads.filter(hard.len(), has_such).is_empty() {
         return Vec::new();
     }
     let end = |side: Corner| end_at(view, topology, side);

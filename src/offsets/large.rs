@@ -1,7 +1,7 @@
 //! Large sectors: what takes long by itself is told of corner by corner.
 
 use super::place::place;
-use super::{Offset, blades, course, is_plain, told};
+use super::{Offset, blade, course, is_plain, told};
 use crate::chamfers::Chamfers;
 use crate::error::Error;
 use crate::ids::Sector;
@@ -20,8 +20,8 @@ pub fn offset_of_large(
     watch: &dyn Watch,
 ) -> Result<Offset, Error> {
     let (fan, mut spread) = (&chamfers.sectors.fans[sector], Vec::new());
-    for blade in blades(surface.view, surface.topology, chamfers.sectors, sector) {
-        spread.push(blade);
+    for corner in chamfers.sectors.corners(surface.topology, sector) {
+        spread.push(blade(surface.view, corner, spread.last()));
         if spread.len().is_multiple_of(MANY_CORNERS) {
             watch.worked(MANY_CORNERS)?;
         }
@@ -30,6 +30,5 @@ pub fn offset_of_large(
     watch.worked(spread.len())?;
     let way = course.as_ref().and_then(|course| place(surface, (&spread, false), course));
     watch.worked(spread.len())?;
-    let is_plain = is_plain(surface, fan, &spread);
-    Ok(Offset { is_plain, ..told(fan, course, way) })
+    Ok(told(fan, course, way, is_plain(surface, fan, &spread)))
 }

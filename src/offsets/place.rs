@@ -2,10 +2,10 @@
 
 use glam::DVec3;
 
-use super::{Blade, Course, arms};
+use super::{Blade, Course};
 use crate::breaks::{is_hard, same_chart, seam_between, uv_at};
 use crate::faces::Faces;
-use crate::foot::{Foot, locate};
+use crate::foot::{Arms, Foot, arms, locate, locate_by};
 use crate::ids::{Corner, Few, Id};
 use crate::math::{area_vector, unit};
 use crate::mesh::{UV_CHANNELS, Uv};
@@ -30,33 +30,46 @@ pub type Way = (DVec3, Foot);
 
 /// The way in space; none where the corner has no plane. Vector and foot lie in one plane, so that the
 /// foot blends to the very place.
+#[inline(always)]
 pub fn place(
     surface: Surface,
     (spread, is_even): (&[Blade], bool),
     course: &Course,
 ) -> Option<Way> {
     let Surface { view, faces, .. } = surface;
-    let own = on(surface, course, course.corner)?;
+    let blade = spread.iter().find(|blade| blade.corner == course.corner)?;
+    let own = on(surface, (course, blade.arms), course.corner)?;
     if (is_even || is_flat(view, faces, spread, course)) && own.1.reach() <= FARTHEST {
         return Some(own).filter(|own| is_sound(faces, course, own));
     }
-    let way = by_others(surface, spread, course, own)?;
+    let way = by_others(surface, spread, (course, blade.arms), own)?;
     Some(way).filter(|way| is_sound(faces, course, way))
 }
 
 /// Where a course leads in the plane of a triangle at the fan's centre.
 #[inline(always)]
-fn on(Surface { view, faces, .. }: Surface, course: &Course, plane: Corner) -> Option<Way> {
-    let vector = way(view, faces, course, plane);
-    let foot = locate(view, carrier(faces, plane), view.position_at(course.corner), vector)?;
-    Some((vector, foot))
+fn on(surface: Surface, (course, arms): (&Course, Arms), plane: Corner) -> Option<Way> {
+    let Surface { view, faces, .. } = surface;
+    let vector = way(faces, (course, arms), plane);
+    let carrier = carrier(faces, plane);
+    let foot = if carrier == course.corner {
+        locate_by(arms, carrier, DVec3::ZERO, vector)
+    } else {
+        locate(view, carrier, view.position_at(course.corner), vector)
+    };
+    Some((vector, foot?))
 }
 
 /// The same where larger triangles tell more of it, or the own one too little.
 #[inline(never)]
-fn by_others(surface: Surface, spread: &[Blade], course: &Course, own: Way) -> Option<Way> {
+fn by_others(
+    surface: Surface,
+    spread: &[Blade],
+    (course, arms): (&Course, Arms),
+    own: Way,
+) -> Option<Way> {
     let (Surface { view, faces, .. }, within) = (surface, course.corner);
-    let on = |plane: Corner| on(surface, course, plane);
+    let on = |plane: Corner| on(surface, (course, arms), plane);
     let steadiest = steadiest(view, faces, spread, within);
     let steady = if steadiest == within { own } else { on(steadiest)? };
     let is_level = |one: DVec3, other: DVec3| one.distance(other) <= view.resolution * LEVEL_HEIGHT;
@@ -91,9 +104,9 @@ fn carrier(faces: &Faces, corner: Corner) -> Corner {
 }
 
 /// The way of a course in the plane of a triangle at the fan's centre.
-fn way(view: &View, faces: &Faces, course: &Course, plane: Corner) -> DVec3 {
+#[inline(always)]
+fn way(faces: &Faces, (course, [ahead, _]): (&Course, Arms), plane: Corner) -> DVec3 {
     let normal = faces.normal[plane.triangle()];
-    let [ahead, _] = arms(view, course.corner);
     let ahead = unit(ahead);
     let aside = normal.cross(ahead);
     let way = (ahead * course.angle.cos() + aside * course.angle.sin()) * course.distance;
