@@ -14,7 +14,7 @@ use crate::offsets::Offset;
 use crate::report::Blend;
 use crate::sectors::Sectors;
 use crate::surface::Surface;
-use crate::tolerance::{CREASE_COSINE, TOUCHING_STEPS};
+use crate::tolerance::{CREASE_COSINE, TOUCHING, TOUCHING_STEPS};
 use crate::view::{Stored, View, wide};
 
 /// So much nearer than the farthest place that can be told, for the sake of rounding.
@@ -42,16 +42,108 @@ pub fn surface_foot(
     if corners.all(|corner| surface.view.normal_at(corner) == normal) {
         return usual;
     }
-    let own = |breaks: Breaks| own_foot(surface, sectors, offset, (corner, breaks));
-    let way = offset.vector * share;
-    let own_part = own(is_hard);
+    let own_part = own_foot(surface, sectors, offset, (corner, is_hard));
     if own_part.is_none() && surface.view.has_soft_breaks() {
-        // What is no hard edge may be left over its other side: then that is the surface there.
-        return own(is_broken)
-            .filter(|own| stays_on(surface, own.corner, way))
-            .unwrap_or(offset.foot);
+        return soft_foot(surface, sectors, (offset, share), corner);
     }
     let told = own_part.unwrap_or(usual);
+    lying_on(surface, sectors, (told, offset, share), corner)
+}
+
+/// The same where no edge between the corner and the offset is hard, but light breaks at some. What is no hard
+/// edge may be left over its other side: then that is the surface there. A face that is shaded flat and that
+/// the way does not leave keeps its normal. Where soft edges turn by more than a hard one all together, light
+/// would break between the two, so the nearest face around that is hardly left is the surface there.
+fn soft_foot(
+    surface: Surface,
+    sectors: &Sectors,
+    (offset, share): (&Offset, f64),
+    corner: Corner,
+) -> Foot {
+    let way = offset.vector * share;
+    let lying_on = lying_on(surface, sectors, (offset.foot, offset, share), corner);
+    let normal = blended_normal(surface.view, &lying_on.blend(surface.view, share));
+    let Some(own) = own_foot(surface, sectors, offset, (corner, is_broken)) else {
+        let is_guess = leaves(surface, offset, corner)
+            && !lying_on.is_within(share)
+            && surface.view.normals_differ([surface.view.normal_at(corner), normal]);
+        // A line, past a face that is shaded as a curved one: nobody knows.
+        return if is_guess { Foot::at(corner) } else { lying_on };
+    };
+    if keeps(surface, own.corner, way) {
+        return own;
+    }
+    if is_one(surface, sectors, (normal, way), corner) {
+        return lying_on;
+    }
+    hardly_left(surface, sectors, (offset, share), own.corner).unwrap_or(lying_on)
+}
+
+/// Whether a face is shaded flat and a way does not leave it.
+fn keeps(surface: Surface, corner: Corner, way: DVec3) -> bool {
+    is_flat(surface.view, corner) && lies_on(surface, corner, way)
+}
+
+/// The way over the face that is fewest steps around the corner away, of those of its part that are shaded
+/// flat and that the way hardly leaves; of two, the earlier.
+fn hardly_left(
+    surface: Surface,
+    sectors: &Sectors,
+    (offset, share): (&Offset, f64),
+    own: Corner,
+) -> Option<Foot> {
+    let view = surface.view;
+    let fan: Few<Corner> = sectors.corners(surface.topology, sectors.sector_of[own]).collect();
+    let part = part_of(view, &fan, (own, is_hard))?;
+    let middle = part.iter().position(|&corner| corner == own)?;
+    let is_near = |&(_, &corner): &(usize, &Corner)| {
+        has_plane(surface, corner.triangle())
+            && is_flat(view, corner)
+            && off_plane(surface, corner, offset.vector * share) <= HARDLY_LEFT * view.extent
+    };
+    let near = part.iter().enumerate().filter(is_near);
+    let (_, &nearest) = near.min_by_key(|(step, _)| step.abs_diff(middle))?;
+    locate(view, nearest, view.position_at(nearest), offset.vector)
+}
+
+/// A face that is left by no more than this share of the extent is as good as the surface there: as near are
+/// parts that were modelled to touch.
+const HARDLY_LEFT: f64 = 0.5 * TOUCHING;
+
+/// Whether a normal is one with all those that faces of a corner's part keep where its vertex goes that way.
+fn is_one(
+    surface: Surface,
+    sectors: &Sectors,
+    (normal, way): (DVec3, DVec3),
+    corner: Corner,
+) -> bool {
+    let view = surface.view;
+    let fan: Few<Corner> = sectors.corners(surface.topology, sectors.sector_of[corner]).collect();
+    part_of(view, &fan, (corner, is_hard)).is_some_and(|part| {
+        let is_kept =
+            |own: &&Corner| has_plane(surface, own.triangle()) && keeps(surface, **own, way);
+        let mut kept = part.iter().filter(is_kept);
+        kept.all(|&own| !view.normals_differ([view.normal_at(own), normal]))
+    })
+}
+
+/// The corners of a fan that are of one part with a corner.
+fn part_of<'a>(
+    view: &View,
+    fan: &'a [Corner],
+    (corner, breaks): (Corner, Breaks),
+) -> Option<&'a [Corner]> {
+    let mut parts = fan.chunk_by(|&one, &other| !breaks(view, other, one.prev()));
+    parts.find(|part| part.contains(&corner))
+}
+
+/// A way as it is told, or else the one that its end lies on, where it ends past the face that tells it.
+fn lying_on(
+    surface: Surface,
+    sectors: &Sectors,
+    (told, offset, share): (Foot, &Offset, f64),
+    corner: Corner,
+) -> Foot {
     if told.is_within(share) {
         return told;
     }
@@ -67,8 +159,7 @@ fn below(
     corner: Corner,
 ) -> Option<Foot> {
     let fan: Few<Corner> = sectors.corners(surface.topology, sectors.sector_of[corner]).collect();
-    let mut parts = fan.chunk_by(|&one, &other| !is_hard(surface.view, other, one.prev()));
-    let part = parts.find(|part| part.contains(&corner))?;
+    let part = part_of(surface.view, &fan, (corner, is_hard))?;
     let on = |&own: &Corner| {
         let foot = locate(surface.view, own, surface.view.position_at(own), offset.vector)?;
         let lies_on = lies_on(surface, own, offset.vector * share);
@@ -99,19 +190,20 @@ pub fn parts<'a>(
     })
 }
 
-/// Whether a way from a corner stays in the plane of its triangle, and that is shaded flat: past a curved
-/// one nobody knows.
-fn stays_on(surface: Surface, corner: Corner, way: DVec3) -> bool {
-    let view = surface.view;
+/// Whether a corner's triangle is shaded flat: past a curved one nobody knows.
+fn is_flat(view: &View, corner: Corner) -> bool {
     let bends = |other: Corner| view.normals_break([corner, other].map(|at| view.normal_at(at)));
-    lies_on(surface, corner, way) && ![corner.next(), corner.prev()].into_iter().any(bends)
+    ![corner.next(), corner.prev()].into_iter().any(bends)
 }
 
 /// Whether a way from a corner stays in the plane of its triangle.
 fn lies_on(surface: Surface, corner: Corner, way: DVec3) -> bool {
-    let Surface { view, faces, .. } = surface;
-    let off_plane = faces.normal[corner.triangle()].dot(way).abs();
-    off_plane <= TOUCHING_STEPS * view.resolution
+    off_plane(surface, corner, way) <= TOUCHING_STEPS * surface.view.resolution
+}
+
+/// How far a way from a corner leaves the plane of its triangle.
+fn off_plane(surface: Surface, corner: Corner, way: DVec3) -> f64 {
+    surface.faces.normal[corner.triangle()].dot(way).abs()
 }
 
 /// As [`surface_foot`], within the corner's own texture chart; where that has no plane, the corner
@@ -226,8 +318,7 @@ fn own_foot(
     (corner, breaks): (Corner, Breaks),
 ) -> Option<Foot> {
     let fan: Few<Corner> = sectors.corners(surface.topology, sectors.sector_of[corner]).collect();
-    let mut parts = fan.chunk_by(|&one, &other| !breaks(surface.view, other, one.prev()));
-    let part = parts.find(|part| part.contains(&corner))?;
+    let part = part_of(surface.view, &fan, (corner, breaks))?;
     let own = if !part.contains(&offset.within) {
         nearest(surface, &fan, offset, |own| part.contains(&own))
             .or_else(|| likest(surface, &fan, corner))
@@ -286,10 +377,11 @@ pub fn weighted_sum(blend: &Blend, values: [DVec3; 3]) -> DVec3 {
 mod tests {
     use super::*;
     use crate::ids::Id;
-    use crate::options::Options;
+    use crate::mesh::MeshBuffers;
+    use crate::options::{Options, Width};
     use crate::scale::Scale;
     use crate::shapes;
-    use crate::stages::stages_of;
+    use crate::stages::{Stages, stages_of, stages_with};
     use crate::view::view;
 
     #[test]
@@ -371,23 +463,97 @@ mod tests {
             let turned = wide(*normal) + DVec3::splat(0.002 * f64::from(turn));
             *normal = unit(turned).as_vec3().to_array();
         }
-        let mut stages = stages_of(&cube, 0.1);
         let mut looked_at = 0;
-        for sector in stages.sectors.fans.ids() {
-            stages.sectors.fans[sector].is_broken = true;
-            let fan: Vec<Corner> = stages.sectors.corners(&stages.topology, sector).collect();
-            let [one, other] = fan[..] else { continue };
-            for (on, told_on) in [(one, other), (other, one)] {
-                let at = |corner: Corner| stages.view.position_at(corner);
-                let vector = ((at(on.next()) - at(on)) + (at(on.prev()) - at(on))) * 0.2;
-                let foot = locate(&stages.view, told_on, at(on), vector).unwrap();
-                let usual = stages.offsets[sector];
-                let offset = Offset { vector, foot, within: told_on, is_plain: false, ..usual };
-                let foot = surface_foot(stages.surface(), &stages.sectors, (&offset, 1.0), one);
-                assert_eq!(foot.corner, on);
-                looked_at += 1;
+        for hard_angle in [1.0, 20.0] {
+            let mut stages = stages_where(&cube, hard_angle);
+            for sector in stages.sectors.fans.ids() {
+                stages.sectors.fans[sector].is_broken = true;
+                let fan: Vec<Corner> = stages.sectors.corners(&stages.topology, sector).collect();
+                let [one, other] = fan[..] else { continue };
+                for (on, told_on) in [(one, other), (other, one)] {
+                    let at = |corner: Corner| stages.view.position_at(corner);
+                    let vector = ((at(on.next()) - at(on)) + (at(on.prev()) - at(on))) * 0.2;
+                    let foot = locate(&stages.view, told_on, at(on), vector).unwrap();
+                    let usual = stages.offsets[sector];
+                    let offset = Offset { vector, foot, within: told_on, is_plain: false, ..usual };
+                    let foot = surface_foot(stages.surface(), &stages.sectors, (&offset, 1.0), one);
+                    assert_eq!(foot.corner, on);
+                    looked_at += 1;
+                }
             }
         }
         assert!(looked_at > 0);
+    }
+
+    fn stages_where(mesh: &MeshBuffers, hard_angle: f32) -> Stages<'_> {
+        let options = Options::default().with_width(Width::Units(0.1)).with_hard_angle(hard_angle);
+        stages_with(mesh, &options)
+    }
+
+    /// Faces around a tip, each of which turns by less than 20 degrees from the one before, and two walls
+    /// that close them.
+    fn tip() -> MeshBuffers {
+        let at = |degrees: f32| [degrees.to_radians().cos(), degrees.to_radians().sin(), 0.0];
+        let ways = [-100.0, 0.0, 15.0, 30.0, 45.0, 60.0, 160.0];
+        let mut mesh = MeshBuffers::default();
+        for pair in ways.windows(2) {
+            let corners = [[0.0, 0.0, 1.0], at(pair[0]), at(pair[1])];
+            let [a, b, c] = corners.map(wide);
+            mesh.normals.extend([unit((b - a).cross(c - a)).as_vec3().to_array(); 3]);
+            mesh.positions.extend(corners);
+        }
+        mesh.indices = (0..mesh.positions.len() as u32).collect();
+        mesh.submesh_index_counts = vec![mesh.indices.len() as u32];
+        mesh
+    }
+
+    /// The way lies in the planes of the first and the last of the faces around the tip, and on the last. The
+    /// second goes with that as long as both are one, or else with the first, or keeps its own where it is
+    /// hardly left.
+    #[test]
+    fn what_leaves_its_face_goes_with_one_beside_that_keeps_its_normal() {
+        let tip = tip();
+        let [first, second, last] = [1, 2, 4].map(|face| Triangle(face).corners()[0]);
+        for (hard_angle, leaves_by, on) in
+            [(20.0, 1e-3, first), (40.0, 1e-3, last), (20.0, 5e-6, second), (40.0, 5e-6, last)]
+        {
+            let stages = stages_where(&tip, hard_angle);
+            let (view, sector) = (&stages.view, stages.sectors.sector_of[first]);
+            assert_eq!(sector, stages.sectors.sector_of[last]);
+            let normal = |corner: Corner| stages.faces.normal[corner.triangle()];
+            let along = normal(first).cross(normal(last));
+            let vector = along * (leaves_by / along.dot(normal(second)));
+            let foot = locate(view, last, view.position_at(last), vector).unwrap();
+            let offset = Offset { vector, foot, within: last, ..stages.offsets[sector] };
+            let foot = surface_foot(stages.surface(), &stages.sectors, (&offset, 1.0), second);
+            assert_eq!(foot.corner, on, "{hard_angle}, {leaves_by}");
+        }
+    }
+
+    //   .-----.
+    //   |     |
+    //   '-----*- o   past the side of a face that is shaded as a curved one, from a line: nobody knows
+    #[test]
+    fn past_a_curved_face_a_line_keeps_its_normal() {
+        let mut cube = shapes::plain_cube(1.0);
+        for (normal, turn) in cube.normals.iter_mut().zip(1..) {
+            let turned = wide(*normal) + DVec3::splat(0.02 * f64::from(turn % 3));
+            *normal = unit(turned).as_vec3().to_array();
+        }
+        let mut stages = stages_where(&cube, 5.0);
+        let corner = Corner(0);
+        let sector = stages.sectors.sector_of[corner];
+        stages.sectors.fans[sector].is_broken = true;
+        let at = |corner: Corner| stages.view.position_at(corner);
+        let vector = (at(corner) - at(corner.next())) * 20.0;
+        let beyond = locate(&stages.view, corner, at(corner), vector).unwrap();
+        let offset = Offset { vector, foot: beyond, within: corner, ..stages.offsets[sector] };
+        let told = |stages: &Stages| {
+            surface_foot(stages.surface(), &stages.sectors, (&offset, 1.0), corner)
+        };
+        assert_eq!(told(&stages), beyond);
+        let lender = stages.topology.twin[corner];
+        stages.faces.lender[corner.triangle()] = lender;
+        assert_eq!(told(&stages), Foot::at(corner));
     }
 }

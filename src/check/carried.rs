@@ -351,7 +351,7 @@ fn those_of(pairs: &[(u32, u32)], key: u32) -> impl Iterator<Item = u32> {
 }
 
 /// The least height of a triangle.
-fn height(corners: [DVec3; 3]) -> f64 {
+pub(super) fn height(corners: [DVec3; 3]) -> f64 {
     let longest = (0..3).map(|k| corners[k].distance(corners[(k + 1) % 3])).fold(0.0, f64::max);
     normal_with_area(corners).map_or(0.0, |normal| normal.length() / longest)
 }

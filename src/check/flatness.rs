@@ -68,7 +68,7 @@ pub(super) fn check_flatness(
     let extent = before.extent();
     let tolerance = (PLANE_TOLERANCE * extent).max(before.rounding());
     let least_height = LEAST_HEIGHT * before.rounding();
-    let beside = Beside::default();
+    let (beside, shown) = (Beside::default(), Shown::new(origins));
     for (triangle, source) in (0u32..).zip(&origins.triangles) {
         let Some(source) = source else { continue };
         // A line or a point has no plane and shows no normal.
@@ -104,11 +104,20 @@ pub(super) fn check_flatness(
             face.filter(stays).is_some_and(|face| face.bends(after.normal(corner)))
         };
         // All of it, or nothing: what is shaded as two faces is none of them.
-        let goes_on = |side: u32| {
-            beside.goes_on_with(before, source[0] / 3, after.normal(3 * triangle + side))
+        let goes_on = |corner: u32| {
+            let normal = after.normal(corner);
+            let own = origins.own_corner(corner).map(|own| before.normal(own));
+            let is_own = own.is_some_and(|own| own.distance(normal) <= NORMAL_TOLERANCE);
+            beside.any(before, source[0] / 3, |face| {
+                is_between(before, face, normal)
+                    || is_own && is_one(before, face, after.shading(corner))
+                    || !is_low(before.triangle(face), least_height)
+                        && shown.has(after, face, corner)
+            })
         };
         let bends = |fan: &Fan, normal: DVec3| {
-            fan.bends(normal) && (fan.plane.is_some() || !(0..3).all(goes_on))
+            let mut own = 3 * triangle..3 * triangle + 3;
+            fan.bends(normal) && (fan.plane.is_some() || !own.all(goes_on))
         };
         if corners().any(|(fan, corner, _)| {
             shows(&fan) && (bends(&fan, after.normal(corner)) || is_bent(corner))
@@ -134,15 +143,14 @@ struct Beside {
 }
 
 impl Beside {
-    /// Whether a normal is one of a triangle beside a line, or beside those in a row with it, or between
-    /// such a triangle's own.
-    fn goes_on_with(&self, surface: &Surface, line: u32, normal: DVec3) -> bool {
+    /// Whether a triangle beside a line, or beside those in a row with it, is such.
+    fn any(&self, surface: &Surface, line: u32, is_such: impl Fn(u32) -> bool) -> bool {
         let pairs = self.pairs.get_or_init(|| Beside::pairs(surface));
         let (mut row, mut next) = (vec![line], 0);
         while let Some(&line) = row.get(next).filter(|_| row.len() <= MOST_BESIDE) {
             let first = pairs.partition_point(|pair| pair[0] < line);
             for &[_, other] in pairs[first..].iter().take_while(|pair| pair[0] == line) {
-                if is_between(surface, other, normal) {
+                if is_such(other) {
                     return true;
                 }
                 let is_line = pairs.binary_search_by_key(&other, |pair| pair[0]).is_ok();
@@ -168,6 +176,44 @@ impl Beside {
         pairs.sort_unstable();
         pairs
     }
+}
+
+/// The triangles that show in the result what some of the source are, once they are asked for.
+struct Shown<'a> {
+    origins: &'a Origins<'a>,
+    /// Sorted: a triangle of the source, and one of the result.
+    pairs: OnceCell<Vec<[u32; 2]>>,
+}
+
+impl<'a> Shown<'a> {
+    fn new(origins: &'a Origins<'a>) -> Shown<'a> {
+        Shown { origins, pairs: OnceCell::new() }
+    }
+
+    /// Whether a triangle of the source is shaded where a corner of the result stands as that corner is:
+    /// what is wrong with that is found there.
+    fn has(&self, after: &Surface, source: u32, corner: u32) -> bool {
+        let pairs = self.pairs.get_or_init(|| {
+            let shown = (0u32..).zip(&self.origins.triangles);
+            let pair =
+                |(triangle, source): (u32, &Option<[u32; 3]>)| Some([(*source)?[0] / 3, triangle]);
+            let mut pairs: Vec<_> = shown.filter_map(pair).collect();
+            pairs.sort_unstable();
+            pairs
+        });
+        let is_alike = |other: u32| {
+            after.cluster(other) == after.cluster(corner)
+                && after.normal(other).distance(after.normal(corner)) <= NORMAL_TOLERANCE
+        };
+        let first = pairs.partition_point(|pair| pair[0] < source);
+        let mut shown = pairs[first..].iter().take_while(|pair| pair[0] == source);
+        shown.any(|&[_, triangle]| (3 * triangle..3 * triangle + 3).any(is_alike))
+    }
+}
+
+/// Whether a normal is one with those of a triangle, as nearly as they have to be where no edge is.
+fn is_one(surface: &Surface, triangle: u32, normal: DVec3) -> bool {
+    (3 * triangle..3 * triangle + 3).all(|corner| surface.shares_with(corner, normal))
 }
 
 /// Whether a normal is no farther from those of a triangle than they are from each other.
@@ -348,6 +394,47 @@ mod tests {
         assert_eq!((with(middle), with(away)), (0, 2));
     }
 
+    //  .---.      under the face lies a line, whose normals lean by so much: where it opens below, what it
+    //  |  /       shows there is the face, and its upper corners may keep what is one with that
+    //  | /
+    //  '=======
+    #[test]
+    fn a_line_that_opens_may_keep_normals_that_are_one_with_those_beside() {
+        let face = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        let line = |low: f32| [[1.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.5, low, 0.0]];
+        let up = [0.0, 0.0, 1.0];
+        for (lean, bent) in [(0.02, 0), (0.05, 1)] {
+            let leans = DVec3::new(lean, 0.0, 1.0).normalize().as_vec3().to_array();
+            let mesh = |low: f32, lowest: [f32; 3]| {
+                let normals = [up, up, up, leans, leans, lowest];
+                triangles(&[face, line(low)].concat(), &normals, &[0, 1, 2, 3, 4, 5])
+            };
+            let (before, after) = (mesh(-1e-7, leans), mesh(-0.1, up));
+            let findings = compare(&before.as_mesh(), &after.as_mesh(), Verify::Fast);
+            assert_eq!(findings.count(Rule::FlatNormal), bent, "{lean}: {findings}");
+        }
+    }
+
+    //  o---.      the same where the face is shaded otherwise at `o` now: that is wrong of the face alone, as
+    //  |  /       long as the line goes on with it
+    //  o=======
+    #[test]
+    fn a_line_that_opens_is_shaded_as_the_face_beside_is_now() {
+        let face = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        let line = |low: f32| [[1.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.5, low, 0.0]];
+        let [up, aside, turned, other] =
+            [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 0.6, 0.8], [0.6, 0.0, 0.8]];
+        let mesh = |low: f32, normals: [[f32; 3]; 6]| {
+            triangles(&[face, line(low)].concat(), &normals, &[0, 1, 2, 3, 4, 5])
+        };
+        let before = mesh(-1e-7, [up, up, up, aside, aside, aside]);
+        for (end, bent) in [(turned, 1), (other, 2)] {
+            let after = mesh(-0.1, [turned, up, up, up, end, up]);
+            let findings = compare(&before.as_mesh(), &after.as_mesh(), Verify::Fast);
+            assert_eq!(findings.count(Rule::FlatNormal), bent, "{end:?}");
+        }
+    }
+
     //  .---.      under the face lies a line: it may be shaded as that face, but not as nothing there is
     //  |  /
     //  | /
@@ -361,8 +448,11 @@ mod tests {
         let mesh = triangles(&[face, line].concat(), &normals, &[0, 1, 2, 3, 4, 5]);
         let mesh: Mesh = mesh.as_mesh();
         let (surface, beside) = (Surface::new(&mesh), Beside::default());
-        assert!(beside.goes_on_with(&surface, 1, DVec3::Z));
-        assert!(!beside.goes_on_with(&surface, 1, DVec3::Y));
-        assert!(!beside.goes_on_with(&surface, 0, DVec3::X), "the face is no line");
+        let goes_on = |line: u32, normal: DVec3| {
+            beside.any(&surface, line, |face| is_between(&surface, face, normal))
+        };
+        assert!(goes_on(1, DVec3::Z));
+        assert!(!goes_on(1, DVec3::Y));
+        assert!(!goes_on(0, DVec3::X), "the face is no line");
     }
 }

@@ -1,5 +1,6 @@
 //! A mesh welded by position: its edges, borders and connected parts.
 
+use super::carried::height;
 use super::noise::Step;
 use super::stored::{axes, farthest, normal_with_area, normals_to, vector};
 use crate::groups::Groups;
@@ -21,6 +22,9 @@ const BARE_SHARE: f64 = 0.999;
 /// How far a position may be off by rounding alone, relative to the largest coordinate: a few of
 /// the smallest steps of single precision.
 const ROUNDING: f64 = 4.0 * f32::EPSILON as f64;
+
+/// How far a unit normal may be off by rounding alone.
+const NORMAL_ROUNDING: f64 = 4.0 * f32::EPSILON as f64;
 
 /// The same for coordinates below the normal range, whose steps are all of one size.
 const LEAST_ROUNDING: f64 = 4.0 * f32::from_bits(1) as f64;
@@ -227,12 +231,32 @@ impl<'a> Surface<'a> {
         if self.mesh.normals.is_empty() {
             return Vec::new();
         }
-        let mut round = self.clusters_where(Step::is_round);
-        if !round.is_empty() {
-            let sharp = self.clusters_where(|step| !step.is_round());
-            round.retain(|cluster| sharp.binary_search(cluster).is_err());
+        self.clusters_all(Step::is_round)
+    }
+
+    /// Sorted: the same for all that rounding leaves to be told.
+    pub fn nearly_round(&self) -> Vec<u32> {
+        self.clusters_all(Step::may_be_round)
+    }
+
+    /// Whether chance may have set the normals of two opposite half-edges apart, for all that rounding
+    /// leaves to be told. `nearly_round`: as that tells.
+    pub fn may_be_noise(&self, [a, b]: [&HalfEdge; 2], nearly_round: &[u32]) -> bool {
+        [0, 1].iter().all(|&end| {
+            self.share_normal([a.corners[end], b.corners[1 - end]])
+                || nearly_round.binary_search(&self.cluster(a.corners[end])).is_ok()
+                    && self.step(a, b, end).may_be_noise()
+        })
+    }
+
+    /// Sorted: the clusters where some normals differ across an edge, and all that do differ so.
+    fn clusters_all(&self, holds: fn(&Step) -> bool) -> Vec<u32> {
+        let mut found = self.clusters_where(holds);
+        if !found.is_empty() {
+            let others = self.clusters_where(|step| !holds(step));
+            found.retain(|cluster| others.binary_search(cluster).is_err());
         }
-        round
+        found
     }
 
     /// Sorted: where a normal differs so from all of those across an edge.
@@ -262,7 +286,9 @@ impl<'a> Surface<'a> {
         let [a, b] = normals(far);
         let facing = |corner: u32| Some(self.facing(corner / 3)?.normalize());
         let facings = facing(near[0]).zip(facing(near[1])).map(|(one, other)| [one, other]);
-        Step { normals: normals(near), facings, beyond: a - b }
+        let turns = near.map(|corner| self.rounding / height(self.triangle(corner / 3)));
+        let slack = turns[0].max(turns[1]) + NORMAL_ROUNDING;
+        Step { normals: normals(near), facings, beyond: a - b, slack }
     }
 
     /// Whether the normals of two corners are one, as nearly as importers store them or the caller has said.

@@ -77,6 +77,7 @@ struct Sides<'a> {
     edge_of: Vec<([u32; 2], u32)>,
     /// Once they are asked for.
     borders: OnceCell<Borders<'a>>,
+    nearly_round: OnceCell<Vec<u32>>,
 }
 
 impl<'a> Sides<'a> {
@@ -90,7 +91,7 @@ impl<'a> Sides<'a> {
         }
         edge_of.sort_unstable();
         edge_of.dedup();
-        Sides { surface, edges, edge_of, borders: OnceCell::new() }
+        Sides { surface, edges, edge_of, borders: OnceCell::new(), nearly_round: OnceCell::new() }
     }
 
     /// Whether a verdict's widths are those of its edge. Where more than two triangles meet, those
@@ -142,17 +143,25 @@ impl<'a> Sides<'a> {
                 let [from, to] = [from, to].map(|end| end - at(corner));
                 from.dot(to) < 0.0 && from.length().min(to.length()) > reach
             };
-            let ends = borders.along(side).map(|other| other.corners[1 - end]);
-            let mut ends = ends.filter(|&o| at(o).distance(at(corner)) <= reach).peekable();
+            let ends_here = |o: &&HalfEdge| at(o.corners[1 - end]).distance(at(corner)) <= reach;
+            let mut ends = borders.along(side).filter(ends_here).peekable();
             if ends.peek().is_none() || others().any(runs_past) {
                 return told == 0.0 || 2.0 * told >= own - tolerance;
             }
             // Where the part there stays, one side of it may go along with what is beside.
-            let is_told = |other: f64| {
+            let is_told = |[own, other]: [f64; 2]| {
                 let is_left = told == 0.0 && own.min(other) <= tolerance;
                 is_left || (told - (own + other) / 2.0).abs() <= tolerance
             };
-            ends.any(|other| ruler.pulled(side, other).is_some_and(is_told))
+            // What is a hair off the long one runs at an angle to it where it is short.
+            ends.any(|other| {
+                let corners = [corner, other.corners[1 - end]];
+                let pulls = |line| {
+                    let [own, other] = corners.map(|corner| ruler.pulled(line, corner));
+                    Some([own?, other?])
+                };
+                [side, other].into_iter().filter_map(pulls).any(is_told)
+            })
         };
         verdict.outcome != Outcome::Skipped
             && vertices(self.surface, side) == verdict.vertices
@@ -172,10 +181,17 @@ impl<'a> Sides<'a> {
                 && is_whole(backward)
                 && sides.iter().all(|side| told.binary_search(side).is_err())
                 && !self.lies_in_face([forward, backward], &told)
+                && !self.may_be_noise([forward, backward])
             {
                 findings.note(Rule::Verdicts, Element::SourceEdge(sides[0][0], sides[0][1]));
             }
         }
+    }
+
+    /// Whether it is for rounding to tell that an edge is more than noise.
+    fn may_be_noise(&self, edge: [&HalfEdge; 2]) -> bool {
+        let nearly_round = self.nearly_round.get_or_init(|| self.surface.nearly_round());
+        self.surface.may_be_noise(edge, nearly_round)
     }
 
     /// Whether an edge without a verdict is a side of a line that is no more than a part of the faces
@@ -255,4 +271,35 @@ fn agrees(verdict: &EdgeVerdict, measured: &MeasuredEdge, is_alone: bool, tolera
     verdict.widths.iter().zip(measured.distances).all(|(&told, [one, other])| {
         (f64::from(told) - (f64::from(one) + f64::from(other)) / 2.0).abs() <= tolerance
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    //      .          the normals of the two sides differ at `A` by as much as one of them is off its
+    //    .' '.        flat face: whether that is noise of a round one, is for rounding to tell
+    //   A-----.
+    //    '. .'
+    #[test]
+    fn what_rounding_alone_tells_from_noise_needs_no_verdict() {
+        let positions = [
+            [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.5, 1.0, 0.0]],
+            [[1.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.5, -1.0, -0.4]],
+        ];
+        for (short_by, missing) in [(-1e-3, 0), (5e-7, 0), (1e-3, 1)] {
+            let up = [0.0, 0.0, 1.0];
+            let mesh = Mesh {
+                positions: positions.as_flattened(),
+                normals: &[[0.0, 0.05, 1.0], up, up, up, [0.0, -short_by, 1.0], up],
+                indices: &[0, 1, 2, 3, 4, 5],
+                submesh_index_counts: &[6],
+                ..Mesh::default()
+            };
+            let surface = Surface::new(&mesh);
+            let mut findings = Findings::default();
+            Sides::new(&surface).check_complete(&[], &mut findings);
+            assert_eq!(findings.count(Rule::Verdicts), missing, "{short_by}");
+        }
+    }
 }
