@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::place::place;
-use super::{Blade, Course, Offset, arms, blades, is_even};
+use super::{Blade, Course, Offset, blade, is_even};
 use crate::ids::Sector;
 use crate::math::{Turn, unit};
 use crate::sectors::Sectors;
@@ -20,8 +20,11 @@ pub fn turned(
 ) -> Option<Offset> {
     let Surface { view, topology, faces } = surface;
     let fan = &sectors.fans[sector];
-    let spread: Vec<Blade> = blades(view, topology, sectors, sector).collect();
-    let ahead = unit(arms(view, fan.first)[0]);
+    let mut spread: Vec<Blade> = Vec::new();
+    for corner in sectors.corners(topology, sector) {
+        spread.push(blade(view, corner, spread.last()));
+    }
+    let ahead = unit(spread[0].arms[0]);
     let aside = faces.normal[fan.first.triangle()].cross(ahead);
     let angle = direction(vector.dot(ahead), vector.dot(aside));
     let blade = spread.iter().find(|blade| angle <= blade.end)?;
