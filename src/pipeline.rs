@@ -498,7 +498,7 @@ fn make(
     let watch = Caller::new(&mut ask);
     let deep = &deep(topology, chamfers.sectors, &watch)?;
     let (none, nowhere, plenty) = (&Rests::default(), &IdVec::default(), &IdVec::default());
-    let vanishing = &vanishing(surface, chamfers, &mut offsets, &watch)?;
+    let vanishing = &vanishing(surface, chamfers, &mut offsets, (threads, &watch))?;
     if !vanishing.runs.is_empty() {
         go_along(surface, chamfers.sectors, &mut offsets, &watch)?;
     }

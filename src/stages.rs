@@ -74,7 +74,7 @@ pub fn stages_of_mesh<'a>(mesh: Mesh<'a>, options: &Options) -> Stages<'a> {
     let surface = Surface { view: &view, topology: &topology, faces: &faces };
     let chamfers = Chamfers { edges: &edges, sectors: &sectors };
     let mut offsets = offsets(surface, chamfers, None, (&threads, &Unwatched)).unwrap();
-    let vanishing = vanishing(surface, chamfers, &mut offsets, &Unwatched).unwrap();
+    let vanishing = vanishing(surface, chamfers, &mut offsets, (&threads, &Unwatched)).unwrap();
     go_along(surface, &sectors, &mut offsets, &Unwatched).unwrap();
     let deep = deep(&topology, &sectors, &Unwatched).unwrap();
     let (narrowed, shares, plenty) = {

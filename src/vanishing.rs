@@ -19,10 +19,11 @@ use glam::DVec3;
 use crate::chamfers::Chamfers;
 use crate::edges::HardEdge;
 use crate::error::Error;
-use crate::ids::{Corner, IdVec, Sector};
+use crate::ids::{Corner, Edge, IdVec, Sector};
 use crate::math::unit;
 use crate::offsets::{MITER_LIMIT, Offset, is_one_face, turned};
 use crate::surface::Surface;
+use crate::threads::Threads;
 use crate::tolerance::LEVEL_COSINE;
 use crate::watch::Watch;
 
@@ -67,29 +68,35 @@ pub fn vanishing(
     surface: Surface,
     chamfers: Chamfers,
     offsets: &mut IdVec<Sector, Offset>,
-    watch: &dyn Watch,
+    (threads, watch): (&Threads, &dyn Watch),
 ) -> Result<Vanishing, Error> {
+    let mut sides = Rims { surface, chamfers, offsets }.vanishing_sides((threads, watch))?;
     let mut plain = BTreeMap::new();
     let mut runs: Vec<Gathering> = Vec::new();
     for _ in 0..MOST_PASSES {
-        let mut found = Rims { surface, chamfers, offsets }.runs(watch)?;
+        watch.worked(sides.len())?;
+        let mut found = Rims { surface, chamfers, offsets }.runs(&sides);
         let is_new = |(sector, offset): &(Sector, Offset)| offsets[*sector] != *offset;
         if !found.iter().flatten().any(is_new) {
             break;
         }
+        let mut gathered = BTreeSet::new();
         for &(sector, offset) in found.iter().flatten() {
             let before = std::mem::replace(&mut offsets[sector], offset);
             plain.entry(sector).or_insert(before);
+            gathered.insert(sector);
+            let fan = &chamfers.sectors.fans[sector];
+            sides.extend([fan.first, fan.last.prev()]);
         }
+        sides.sort_unstable();
+        sides.dedup();
         // Where a longer run meets nowhere near, the shorter one stays.
-        let gathered: BTreeSet<Sector> =
-            found.iter().flatten().map(|(sector, _)| *sector).collect();
         found.extend(runs.into_iter().filter(|run| !gathered.contains(&run[0].0)));
         runs = found;
     }
-    let rims = Rims { surface, chamfers, offsets };
+    let lost = Rims { surface, chamfers, offsets }.on_whole_rims(&runs);
     let (whole, runs): (Vec<_>, Vec<_>) =
-        runs.into_iter().partition(|run| rims.vanishes_whole(run[0].0));
+        runs.into_iter().partition(|run| lost.contains(&run[0].0));
     whole.into_iter().flatten().for_each(|(sector, _)| offsets[sector] = plain[&sector]);
     let run = |run: Gathering| {
         let members: Vec<(Sector, Offset)> =
@@ -122,31 +129,48 @@ struct Rims<'a> {
 }
 
 impl Rims<'_> {
-    /// All runs, with the offsets that their sectors get.
-    fn runs(&self, watch: &dyn Watch) -> Result<Vec<Gathering>, Error> {
-        let mut runs = Vec::new();
-        for edge in self.chamfers.edges.hard.iter() {
-            watch.worked(1)?;
-            if edge.skipped.is_none() {
-                let first =
-                    |side: &Corner| self.vanishes(*side) && !self.vanishes(self.before(*side));
-                runs.extend(edge.sides.into_iter().filter(first).filter_map(|side| self.run(side)));
-            }
-        }
-        Ok(runs)
+    /// The sides that vanish, in the order of their edges.
+    fn vanishing_sides(
+        &self,
+        (threads, watch): (&Threads, &dyn Watch),
+    ) -> Result<Vec<Corner>, Error> {
+        let (hard, mut sides) = (&self.chamfers.edges.hard, Vec::new());
+        let note = |_: &Vec<Corner>, edge: Edge, notes: &mut Vec<Corner>| {
+            let edge = &hard[edge];
+            let is_open = edge.skipped.is_none();
+            notes.extend(edge.sides.into_iter().filter(|&side| is_open && self.vanishes(side)));
+        };
+        threads
+            .blocks_then((hard.len(), watch), &mut sides, note, |all, notes| all.append(notes))?;
+        Ok(sides)
     }
 
-    /// Whether a whole rim would vanish, from a sector around to it.
-    fn vanishes_whole(&self, sector: Sector) -> bool {
-        let first = self.chamfers.sectors.fans[sector].first;
-        let mut side = first;
-        while self.vanishes(side) {
-            side = self.behind(side);
-            if side == first {
-                return true;
-            }
+    /// All runs of such sides, with the offsets that their sectors get.
+    fn runs(&self, sides: &[Corner]) -> Vec<Gathering> {
+        let is_first = |side: &Corner| self.vanishes(*side) && !self.vanishes(self.before(*side));
+        sides.iter().copied().filter(is_first).filter_map(|side| self.run(side)).collect()
+    }
+
+    /// The sectors on rims that vanish whole, of those at which runs begin.
+    fn on_whole_rims(&self, runs: &[Gathering]) -> BTreeSet<Sector> {
+        let mut is_whole = BTreeMap::new();
+        for run in runs {
+            let first = self.chamfers.sectors.fans[run[0].0].first;
+            let (mut seen, mut side) = (Vec::new(), first);
+            // Walked again from each of its runs, a rim would take quadratic time.
+            let comes_around = loop {
+                if !self.vanishes(side) || is_whole.contains_key(&self.at(side)) {
+                    break false;
+                }
+                seen.push(self.at(side));
+                side = self.behind(side);
+                if side == first {
+                    break true;
+                }
+            };
+            is_whole.extend(seen.into_iter().map(|sector| (sector, comes_around)));
         }
-        false
+        is_whole.into_iter().filter(|(_, whole)| *whole).map(|(sector, _)| sector).collect()
     }
 
     fn at(&self, corner: Corner) -> Sector {
