@@ -15,6 +15,7 @@
 //! stands at one place, so there is a list of the vertices that came from each cluster, or several
 //! by where they stand now: the tip of a huge cone has as many as it has sides.
 
+mod rows;
 mod streams;
 
 use std::collections::BTreeMap;
@@ -35,8 +36,9 @@ use crate::view::View;
 use crate::watch::{Watch, each};
 use crate::weld::{Weld, hash_of};
 
-use streams::{Layout, Row};
-pub use streams::{Streams, Taken};
+pub use rows::Taken;
+use rows::{Layout, Row};
+pub use streams::Streams;
 
 /// The vertices of the result, as far as source triangles use them.
 pub struct Attributes {
