@@ -13,8 +13,8 @@ use std::ops::RangeInclusive;
 
 use chamfer::check::{Rule, assert_sound, check};
 use chamfer::{
-    Convexity, EdgeFactor, Factors, Held, Mesh, MeshBuffers, Options, Reason, Verify, Width,
-    chamfer,
+    Convexity, EdgeFactor, EdgeVerdict, Factors, Held, Mesh, MeshBuffers, Options, Reason, Verify,
+    Width, chamfer,
 };
 use glam::{DMat3, DVec3};
 use proptest::collection::vec;
@@ -199,7 +199,8 @@ proptest! {
     }
 
     /// All that stands on a side of a closed box does so once: nothing keeps it from being brought
-    /// together.
+    /// together. Only where rounding has moved what stands there off the plane of a turned box, its pieces
+    /// may cut a face beside, and one edge is left.
     #[test]
     fn of_one_box_no_junction_is_left(
         grid in grid(1..=1),
@@ -210,9 +211,37 @@ proptest! {
         let options = Options::default().with_width(Width::PercentOfExtent(percent));
         let result = chamfer(&mesh.as_mesh(), &options).unwrap();
         assert_sound("box", &mesh.as_mesh(), &result);
-        prop_assert_eq!(result.totals.skipped[Reason::TJunction], 0);
+        let is_left = |verdict: &&EdgeVerdict| verdict.reason == Reason::TJunction;
+        let left: Vec<_> = result.verdicts.iter().filter(is_left).collect();
+        let is_upright = layout.turn.to_cols_array().iter().filter(|&&along| along != 0.0).count() == 3;
+        prop_assert!(left.len() <= usize::from(!is_upright), "{left:?}");
+        for verdict in left {
+            prop_assert!(is_met_off_plane(&mesh, verdict.vertices), "{verdict:?}");
+        }
     }
 }
+
+/// Whether a vertex stands on a side of a triangle, but for rounding, and not in its plane.
+fn is_met_off_plane(mesh: &MeshBuffers, [from, to]: [u32; 2]) -> bool {
+    let at = |vertex: u32| DVec3::from(mesh.positions[vertex as usize].map(f64::from));
+    let side = at(to) - at(from);
+    let stands_on = |way: DVec3| {
+        let share = way.dot(side) / side.length_squared();
+        (way - side * share).length() < NEARLY * side.length()
+            && (NEARLY..1.0 - NEARLY).contains(&share)
+    };
+    let has = |t: &[u32], vertex: u32| t.contains(&vertex);
+    let mut own = mesh.indices.chunks_exact(3).filter(|t| has(t, from) && has(t, to));
+    let Some(apex) = own.next().and_then(|t| t.iter().find(|&&v| v != from && v != to)) else {
+        return false;
+    };
+    let normal = side.cross(at(*apex) - at(from));
+    let mut ways = (0..mesh.positions.len() as u32).map(|vertex| at(vertex) - at(from));
+    ways.any(|way| stands_on(way) && normal.dot(way) != 0.0)
+}
+
+/// What is off by less than this share of a side stands on it.
+const NEARLY: f64 = 1e-5;
 
 fn face(across: u8, along: &[u8]) -> Cells {
     Cells { across, along: along.to_vec(), diagonals: 0, copies: 1 }

@@ -366,6 +366,29 @@ fn a_width_that_is_told_wrong_is_found() {
     }
 }
 
+/// The part of the wall at the left end is short, and its other end a hair off the roof's edge: what is
+/// pulled far along is measured on that part as well as on the whole edge.
+#[test]
+fn beside_a_short_part_a_width_is_told_of_the_part_or_of_the_whole_edge() {
+    let (short, above, along) = (0.02, 1e-5, 0.5);
+    let mut mesh = roof_on_wall(&[0.0, short, 4.0], &[[0.0, 4.0]], FRONT);
+    let standing = mesh.positions.iter_mut().filter(|at| **at == [short, 0.0, 0.0]);
+    standing.for_each(|at| at[1] += above);
+    let mut result = chamfered(&mesh);
+    let at_end = result.mesh.positions.iter_mut().filter(|at| at[0] == 0.0);
+    at_end.for_each(|at| at[0] += along);
+    let [from, _] = result.verdicts[0].vertices.map(|vertex| mesh.positions[vertex as usize][0]);
+    let end = usize::from(from != 0.0);
+    let told = result.verdicts[0].widths[end];
+    // The wall went down from a line that rises.
+    let of_part = told + along * above / short / 2.0;
+    for (width, wrong) in [(told, 0), (of_part, 0), (2.0 * of_part - told, 1), (0.99 * told, 1)] {
+        result.verdicts[0].widths[end] = width;
+        let findings = check(&mesh.as_mesh(), &result, Verify::Fast);
+        assert_eq!(findings.count(Rule::Widths), wrong, "{width}");
+    }
+}
+
 /// So many that the mesh is done block by block.
 #[test]
 fn a_field_of_such_boxes_is_chamfered_as_one_is() {
