@@ -12,7 +12,7 @@ use super::ground::{Foot, Ground, at};
 use super::junctions::{Borders, reach};
 use super::origins::Origins;
 use super::rules::{Element, Findings, Rule};
-use super::stored::normal_with_area;
+use super::stored::{height, normal_with_area};
 use super::streams::{ExtraStream, Slack, Stream};
 use super::surface::{HalfEdge, Surface};
 use super::widths::{Ruler, distance_from_line};
@@ -348,12 +348,6 @@ impl Carried<'_> {
 fn those_of(pairs: &[(u32, u32)], key: u32) -> impl Iterator<Item = u32> {
     let first = pairs.partition_point(|&(other, _)| other < key);
     pairs[first..].iter().take_while(move |(other, _)| *other == key).map(|&(_, value)| value)
-}
-
-/// The least height of a triangle.
-pub(super) fn height(corners: [DVec3; 3]) -> f64 {
-    let longest = (0..3).map(|k| corners[k].distance(corners[(k + 1) % 3])).fold(0.0, f64::max);
-    normal_with_area(corners).map_or(0.0, |normal| normal.length() / longest)
 }
 
 fn note(judged: Result<(), Judgement>, vertex: u32, findings: &mut Findings) {

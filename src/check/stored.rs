@@ -16,6 +16,12 @@ pub(super) fn vector(stored: &[f32; 3]) -> DVec3 {
     DVec3::from(stored.map(f64::from))
 }
 
+/// The least height of a triangle.
+pub(super) fn height(corners: [DVec3; 3]) -> f64 {
+    let longest = (0..3).map(|k| corners[k].distance(corners[(k + 1) % 3])).fold(0.0, f64::max);
+    normal_with_area(corners).map_or(0.0, |normal| normal.length() / longest)
+}
+
 /// A stretch, column by column. A mirror turns all triangles over, and changes no length and no angle:
 /// so it is left out.
 pub(super) fn axes(scale: [[f32; 3]; 3]) -> DMat3 {

@@ -1,8 +1,7 @@
 //! A mesh welded by position: its edges, borders and connected parts.
 
-use super::carried::height;
 use super::noise::Step;
-use super::stored::{axes, farthest, normal_with_area, normals_to, vector};
+use super::stored::{axes, farthest, height, normal_with_area, normals_to, vector};
 use crate::groups::Groups;
 use crate::mesh::Mesh;
 use glam::{DMat3, DVec3};
