@@ -73,7 +73,7 @@ fn soft_foot(
     if keeps(surface, own.corner, way) {
         return own;
     }
-    if is_one(surface, sectors, (normal, way), corner) {
+    if is_one(surface, sectors, (normal, offset, share), corner) {
         return lying_on;
     }
     hardly_left(surface, sectors, (offset, share), own.corner).unwrap_or(lying_on)
@@ -85,7 +85,7 @@ fn keeps(surface: Surface, corner: Corner, way: DVec3) -> bool {
 }
 
 /// The way over the face that is fewest steps around the corner away, of those of its part that are shaded
-/// flat and that the way hardly leaves; of two, the earlier.
+/// flat and that the way hardly leaves; of two, the earlier. None where that goes with the offset itself.
 fn hardly_left(
     surface: Surface,
     sectors: &Sectors,
@@ -103,6 +103,9 @@ fn hardly_left(
     };
     let near = part.iter().enumerate().filter(is_near);
     let (_, &nearest) = near.min_by_key(|(step, _)| step.abs_diff(middle))?;
+    if others(view, part, offset.within).all(|&other| other != nearest) {
+        return None;
+    }
     locate(view, nearest, view.position_at(nearest), offset.vector)
 }
 
@@ -114,17 +117,29 @@ const HARDLY_LEFT: f64 = 0.5 * TOUCHING;
 fn is_one(
     surface: Surface,
     sectors: &Sectors,
-    (normal, way): (DVec3, DVec3),
+    (normal, offset, share): (DVec3, &Offset, f64),
     corner: Corner,
 ) -> bool {
     let view = surface.view;
     let fan: Few<Corner> = sectors.corners(surface.topology, sectors.sector_of[corner]).collect();
     part_of(view, &fan, (corner, is_hard)).is_some_and(|part| {
+        let way = offset.vector * share;
         let is_kept =
             |own: &&Corner| has_plane(surface, own.triangle()) && keeps(surface, **own, way);
-        let mut kept = part.iter().filter(is_kept);
+        let mut kept = others(view, part, offset.within).filter(is_kept);
         kept.all(|&own| !view.normals_differ([view.normal_at(own), normal]))
     })
+}
+
+/// The corners of a part between which and the one that the offset lies on light breaks: all others go with
+/// the offset, also where its face is shaded as a curved one and theirs, in its plane, are not.
+fn others<'a>(
+    view: &'a View,
+    part: &'a [Corner],
+    within: Corner,
+) -> impl Iterator<Item = &'a Corner> {
+    let pieces = part.chunk_by(|&one, &other| !is_broken(view, other, one.prev()));
+    pieces.filter(move |piece| !piece.contains(&within)).flatten()
 }
 
 /// The corners of a fan that are of one part with a corner.
@@ -493,8 +508,14 @@ mod tests {
     /// Faces around a tip, each of which turns by less than 20 degrees from the one before, and two walls
     /// that close them.
     fn tip() -> MeshBuffers {
-        let at = |degrees: f32| [degrees.to_radians().cos(), degrees.to_radians().sin(), 0.0];
-        let ways = [-100.0, 0.0, 15.0, 30.0, 45.0, 60.0, 160.0];
+        around(&[-100.0, 0.0, 15.0, 30.0, 45.0, 60.0, 160.0].map(|degrees| (degrees, 0.0)))
+    }
+
+    /// Faces around a point at a height of 1, between ways by their degrees and the heights of their ends.
+    fn around(ways: &[(f32, f32)]) -> MeshBuffers {
+        let at = |(degrees, height): (f32, f32)| {
+            [degrees.to_radians().cos(), degrees.to_radians().sin(), height]
+        };
         let mut mesh = MeshBuffers::default();
         for pair in ways.windows(2) {
             let corners = [[0.0, 0.0, 1.0], at(pair[0]), at(pair[1])];
@@ -527,6 +548,41 @@ mod tests {
             let offset = Offset { vector, foot, within: last, ..stages.offsets[sector] };
             let foot = surface_foot(stages.surface(), &stages.sectors, (&offset, 1.0), second);
             assert_eq!(foot.corner, on, "{hard_angle}, {leaves_by}");
+        }
+    }
+
+    /// Four triangles around a point, three of a plane and one that leans. The way lies on the third, which is
+    /// shaded as a curved one: so all of the plane go with it, unless light breaks at the first, and so does
+    /// the fourth, but where the first keeps another normal and the fourth is hardly left.
+    #[test]
+    fn what_goes_with_the_offset_keeps_no_normal_of_its_own() {
+        let flat = [-45.0, 0.0, 45.0, 90.0].map(|degrees| (degrees, 1.0));
+        let leaning = [(-100.0, 0.0), (135.0, 0.85), (200.0, 0.0)];
+        let [first, curved, beside] = [1, 3, 4].map(|face| Triangle(face).corners());
+        let turned = |degrees: f32| [degrees.to_radians().sin(), 0.0, degrees.to_radians().cos()];
+        for (first_turns, aside, on) in [
+            (0.0, 0.1, curved[0]),
+            (10.0, 0.1, curved[0]),
+            (0.0, 2e-5, curved[0]),
+            (10.0, 2e-5, beside[0]),
+        ] {
+            let mut mesh = around(&[&leaning[..1], &flat, &leaning[1..]].concat());
+            mesh.normals[curved[2].index()] = turned(-30.0);
+            for corner in first {
+                mesh.normals[corner.index()] = turned(first_turns);
+            }
+            let stages = stages_where(&mesh, 20.0);
+            let [sector, other] = [curved, beside].map(|at| stages.sectors.sector_of[at[0]]);
+            assert_eq!(sector, other);
+            let (within, vector) = (curved[0], DVec3::new(aside, 0.85, 0.0));
+            let foot = locate(&stages.view, within, DVec3::Z, vector).unwrap();
+            let offset = Offset { vector, foot, within, ..stages.offsets[sector] };
+            let told = |at: Corner| {
+                surface_foot(stages.surface(), &stages.sectors, (&offset, 1.0), at).corner
+            };
+            assert_eq!(told(Triangle(2).corners()[0]), within);
+            assert_eq!(told(first[0]) == within, first_turns == 0.0);
+            assert_eq!(told(beside[0]), on, "{first_turns}, {aside}");
         }
     }
 
