@@ -8,6 +8,7 @@
 //! Where that would bend a surface, the vertex slides along the bend instead: along the border at
 //! the end of a sector, or along the sharpest crease inside of it.
 
+mod along;
 mod fronts;
 mod large;
 mod place;
@@ -22,18 +23,18 @@ use crate::chamfers::Chamfers;
 use crate::edges::Edges;
 use crate::error::Error;
 use crate::faces::Faces;
-use crate::foot::{Arms, Foot, arms, locate};
+use crate::foot::{Arms, Foot, arms};
 use crate::ids::{Corner, Id, IdVec, Sector};
 use crate::math::Turn;
 use crate::sectors::{Fan, Sectors};
 use crate::surface::Surface;
 use crate::threads::Threads;
-use crate::tolerance::{CREASE_COSINE, FLAT_COSINE, LEAST_SLIDE_SINE, LEVEL_COSINE};
+use crate::tolerance::{CREASE_COSINE, FLAT_COSINE, LEAST_SLIDE_SINE};
 use crate::topology::Topology;
 use crate::view::View;
 use crate::watch::{Times, Watch};
 
-use fronts::follow;
+pub use along::go_along;
 pub use fronts::{is_one_face, narrow, narrow_all, parts};
 use large::{MANY_CORNERS, offset_of_large};
 use place::{Way, place};
@@ -151,68 +152,6 @@ pub fn offsets(
     }
     go_along(surface, sectors, &mut offsets, watch)?;
     Ok(offsets)
-}
-
-/// Hidden faces, and the lines along an edge, move as what they lie at does.
-///
-/// # Errors
-/// [`Error::Cancelled`] where the watch stops it.
-pub fn go_along(
-    Surface { view, topology, faces }: Surface,
-    sectors: &Sectors,
-    offsets: &mut IdVec<Sector, Offset>,
-    watch: &dyn Watch,
-) -> Result<(), Error> {
-    let slow = &Times(STEPS_OF_SECTOR, watch);
-    for followers in sectors.followers.chunk_by(|one, other| one.sector == other.sector) {
-        slow.worked(followers.len())?;
-        let sector = followers[0].sector;
-        let corners: Vec<Corner> = sectors.corners(topology, sector).collect();
-        watch.worked(corners.len())?;
-        if let Some(offset) = follow(view, faces, offsets, &corners, followers) {
-            offsets[sector] = offset;
-        }
-    }
-    for &corner in &sectors.spanned {
-        slow.worked(1)?;
-        let fan: Vec<Corner> = sectors.corners(topology, sectors.sector_of[corner]).collect();
-        watch.worked(fan.len())?;
-        if let Some(offset) = span(view, faces, sectors, offsets, &fan) {
-            offsets[sectors.sector_of[corner]] = offset;
-        }
-    }
-    Ok(())
-}
-
-/// Goes along with the ends of the line that the first corner of a flat fan is in: the line closes
-/// the gap between a chamfered edge and two that meet on it, and stays a line.
-fn span(
-    view: &View,
-    faces: &Faces,
-    sectors: &Sectors,
-    offsets: &IdVec<Sector, Offset>,
-    fan: &[Corner],
-) -> Option<Offset> {
-    let corner = fan[0];
-    let ends = [corner.next(), corner.prev()];
-    let vector = |end: Corner| {
-        let sector = sectors.sector_of[end];
-        if sector.is_none() { DVec3::ZERO } else { offsets[sector].vector }
-    };
-    let at = view.position_at(corner);
-    let distance = |end: Corner| view.position_at(end).distance(at);
-    let share = distance(ends[0]) / (distance(ends[0]) + distance(ends[1]));
-    let vector = vector(ends[0]).lerp(vector(ends[1]), share);
-    let normal = faces.normal[corner.triangle()];
-    let is_level = |corner: &Corner| faces.normal[corner.triangle()].dot(normal) > LEVEL_COSINE;
-    let within = |&corner: &Corner| {
-        let foot = locate(view, corner, at, vector)?;
-        Some(Offset { vector, foot, ..Offset::none(corner) })
-    };
-    let inside = |offset: &Offset| offset.foot.along[0].min(offset.foot.along[1]);
-    let faces = fan.iter().filter(|corner| !faces.is_line(corner.triangle())).filter_map(within);
-    let best = faces.max_by(|one, other| inside(one).total_cmp(&inside(other)));
-    best.filter(|_| vector.is_finite() && fan.iter().all(is_level))
 }
 
 /// A corner of a fan, unfolded into the plane.

@@ -93,7 +93,7 @@ fn hardly_left(
     own: Corner,
 ) -> Option<Foot> {
     let view = surface.view;
-    let fan: Few<Corner> = sectors.corners(surface.topology, sectors.sector_of[own]).collect();
+    let fan = fan_of(surface, sectors, own);
     let part = part_of(view, &fan, (own, is_hard))?;
     let middle = part.iter().position(|&corner| corner == own)?;
     let is_near = |&(_, &corner): &(usize, &Corner)| {
@@ -121,7 +121,7 @@ fn is_one(
     corner: Corner,
 ) -> bool {
     let view = surface.view;
-    let fan: Few<Corner> = sectors.corners(surface.topology, sectors.sector_of[corner]).collect();
+    let fan = fan_of(surface, sectors, corner);
     part_of(view, &fan, (corner, is_hard)).is_some_and(|part| {
         let way = offset.vector * share;
         let is_kept =
@@ -140,6 +140,11 @@ fn others<'a>(
 ) -> impl Iterator<Item = &'a Corner> {
     let pieces = part.chunk_by(|&one, &other| !is_broken(view, other, one.prev()));
     pieces.filter(move |piece| !piece.contains(&within)).flatten()
+}
+
+/// The corners of the sector that a corner is of.
+fn fan_of(surface: Surface, sectors: &Sectors, corner: Corner) -> Few<Corner> {
+    sectors.corners(surface.topology, sectors.sector_of[corner]).collect()
 }
 
 /// The corners of a fan that are of one part with a corner.
@@ -173,7 +178,7 @@ fn below(
     (offset, share): (&Offset, f64),
     corner: Corner,
 ) -> Option<Foot> {
-    let fan: Few<Corner> = sectors.corners(surface.topology, sectors.sector_of[corner]).collect();
+    let fan = fan_of(surface, sectors, corner);
     let part = part_of(surface.view, &fan, (corner, is_hard))?;
     let on = |&own: &Corner| {
         let foot = locate(surface.view, own, surface.view.position_at(own), offset.vector)?;
@@ -231,7 +236,7 @@ pub fn chart_foot(surface: Surface, sectors: &Sectors, offset: &Offset, corner: 
         return usual;
     }
     // Two charts may have the same coordinates at the corner, and other ones around it.
-    let fan: Few<Corner> = sectors.corners(surface.topology, sectors.sector_of[corner]).collect();
+    let fan = fan_of(surface, sectors, corner);
     let parts = || fan.chunk_by(|one, other| seam_channels(surface.view, *other, one.prev()) == 0);
     let is_carried = |part: &[Corner]| part.contains(&usual.corner) || !fan.contains(&usual.corner);
     match parts().find(|part| part.contains(&corner)) {
@@ -278,7 +283,7 @@ fn foot(
     if (vertex == at_offset || agree(vertex, at_offset)) && is_carried {
         return Some(offset.foot);
     }
-    let fan: Few<Corner> = sectors.corners(surface.topology, sectors.sector_of[corner]).collect();
+    let fan = fan_of(surface, sectors, corner);
     let is_own = |own: Corner| {
         let own = surface.view.vertex_at(own);
         own == vertex || agree(vertex, own)
@@ -332,7 +337,7 @@ fn own_foot(
     offset: &Offset,
     (corner, breaks): (Corner, Breaks),
 ) -> Option<Foot> {
-    let fan: Few<Corner> = sectors.corners(surface.topology, sectors.sector_of[corner]).collect();
+    let fan = fan_of(surface, sectors, corner);
     let part = part_of(surface.view, &fan, (corner, breaks))?;
     let own = if !part.contains(&offset.within) {
         nearest(surface, &fan, offset, |own| part.contains(&own))
