@@ -5,9 +5,7 @@
 //! is seen. Which parts make a block depends on the mesh alone, so the result is the same for any
 //! number of threads.
 //!
-//! Afterwards the results of all blocks are joined to the result of the mesh.
-//!
-//! Source vertices and triangles go back to where they were; what is new follows, block by block.
+//! Their results are put together by [`crate::joined`].
 
 use crate::bvh::{Aabb, Tree};
 use crate::edges::may_be_hard;
@@ -16,8 +14,6 @@ use crate::groups::Groups;
 use crate::ids::{Cluster, Id, IdVec, Triangle, Vertex};
 use crate::memory;
 use crate::mesh::{MeshBuffers, Uv, UvBuffer};
-use crate::report::{Chamfered, EdgeVerdict, Piece, TriangleKind, TriangleSource, VertexSources};
-use crate::threads::Threads;
 use crate::view::View;
 use crate::watch::{Watch, each};
 use crate::weld::Weld;
@@ -40,9 +36,6 @@ const NEAR_WIDTHS: f64 = 4.0;
 /// blocks save.
 const MOST_PAIRS: usize = 32;
 
-/// So many results are put together at a time, and their memory is given back.
-const JOINED_AT_ONCE: usize = 16;
-
 /// Which elements of a mesh each block has: none twice, and all of them.
 pub struct Blocks {
     /// Of each block in ascending order.
@@ -57,6 +50,16 @@ impl Blocks {
     /// How many there are.
     pub fn len(&self) -> usize {
         self.triangles.len()
+    }
+
+    /// In ascending order.
+    pub fn triangles_of(&self, block: usize) -> &[Triangle] {
+        self.triangles.of(block)
+    }
+
+    /// In ascending order.
+    pub fn vertices_of(&self, block: usize) -> &[Vertex] {
+        self.vertices.of(block)
     }
 }
 
@@ -250,255 +253,4 @@ fn values_of(values: &[f32], components: usize, vertices: &[Vertex]) -> Vec<f32>
     let mut own = Vec::with_capacity(present.len() * components);
     present.iter().for_each(|vertex| own.extend_from_slice(&values[range(vertex)]));
     own
-}
-
-/// The results of all blocks in their order (`results: #blocks`), put together.
-///
-/// # Errors
-/// [`Error::Cancelled`] where the watch stops it.
-pub fn join(
-    view: &View,
-    blocks: &Blocks,
-    results: Vec<Chamfered>,
-    (threads, watch): (&Threads, &dyn Watch),
-) -> Result<Chamfered, Error> {
-    let vertices = VertexPlaces::new(view, blocks, &results);
-    watch.worked(vertices.count)?;
-    let triangles = TrianglePlaces::new(view, blocks, &results);
-    watch.worked(vertices.count)?;
-    let mut joined = empty(view, &vertices, &triangles, &results, watch)?;
-    watch.worked(vertices.count)?;
-    let mut streams = std::mem::take(&mut joined.mesh);
-    joined.mesh.indices = std::mem::take(&mut streams.indices);
-    let mut left = results.into_iter().enumerate();
-    loop {
-        let some: Vec<_> = left.by_ref().take(JOINED_AT_ONCE).collect();
-        if some.is_empty() {
-            break;
-        }
-        watch.worked(some.iter().map(|(_, result)| result.triangle_sources.len()).sum())?;
-        put_some((&mut joined, &mut streams), blocks, (&vertices, &triangles), some, threads);
-    }
-    joined.mesh = MeshBuffers { indices: std::mem::take(&mut joined.mesh.indices), ..streams };
-    joined.pieces.sort_unstable_by_key(|piece| piece.triangle);
-    Ok(joined)
-}
-
-/// The results of some blocks: the streams of their vertices, and beside these all else.
-fn put_some(
-    (joined, streams): (&mut Chamfered, &mut MeshBuffers),
-    blocks: &Blocks,
-    (vertices, triangles): (&VertexPlaces, &TrianglePlaces),
-    mut some: Vec<(usize, Chamfered)>,
-    threads: &Threads,
-) {
-    let places = |(block, result): &(usize, Chamfered)| {
-        vertices.of(*block, blocks.vertices.of(*block), result)
-    };
-    let places: Vec<Vec<u32>> = some.iter().map(places).collect();
-    let sources = some.iter_mut().map(|(_, result)| std::mem::take(&mut result.vertex_sources));
-    let sources: Vec<VertexSources> = sources.collect();
-    let some = || some.iter().zip(&places);
-    threads.both(
-        || some().for_each(|((_, own), places)| put_vertices(streams, &own.mesh, places)),
-        || {
-            for (((block, result), places), sources) in some().zip(sources) {
-                let own = (blocks.vertices.of(*block), blocks.triangles.of(*block));
-                put_triangles(joined, result, own, (places, &triangles.of(*block, own.1)));
-                put_verdicts(joined, result, own.0);
-                joined.vertex_sources.put_part(sources, places, |v| own.0[v as usize].0);
-            }
-        },
-    );
-}
-
-/// The triangles of a block's result, before its verdicts.
-fn put_triangles(
-    joined: &mut Chamfered,
-    result: &Chamfered,
-    (vertices, triangles): (&[Vertex], &[Triangle]),
-    (vertex_at, place_of): (&[u32], &[u32]),
-) {
-    let first_edge = joined.verdicts.len() as u32;
-    for (number, at) in place_of.iter().map(|&at| at as usize).enumerate() {
-        let TriangleSource { kind, index } = result.triangle_sources[number];
-        let index = match kind {
-            TriangleKind::Source => triangles[index as usize].0,
-            TriangleKind::Edge => first_edge + index,
-            TriangleKind::Corner => vertices[index as usize].0,
-        };
-        joined.triangle_sources[at] = TriangleSource { kind, index };
-        for k in 0..3 {
-            joined.mesh.indices[3 * at + k] =
-                vertex_at[result.mesh.indices[3 * number + k] as usize];
-        }
-    }
-    let place = |piece: &Piece| Piece { triangle: place_of[piece.triangle as usize], ..*piece };
-    joined.pieces.extend(result.pieces.iter().map(place));
-}
-
-fn put_verdicts(joined: &mut Chamfered, result: &Chamfered, vertices: &[Vertex]) {
-    let at = |vertex: u32| vertices[vertex as usize].0;
-    let verdict =
-        |verdict: &EdgeVerdict| EdgeVerdict { vertices: verdict.vertices.map(at), ..*verdict };
-    joined.verdicts.extend(result.verdicts.iter().map(verdict));
-    joined.totals.add(&result.totals);
-    joined.largest_width = joined.largest_width.max(result.largest_width);
-}
-
-/// A result with room for all, and nothing in it.
-fn empty(
-    view: &View,
-    vertices: &VertexPlaces,
-    triangles: &TrianglePlaces,
-    results: &[Chamfered],
-    watch: &dyn Watch,
-) -> Result<Chamfered, Error> {
-    let (mesh, count) = (&view.mesh, vertices.count);
-    let present = |is_absent: bool| if is_absent { 0 } else { count };
-    let uv = |uv: &Uv| UvBuffer {
-        components: uv.components,
-        values: vec![0.0; count * uv.components as usize],
-    };
-    let triangle_count = triangles.starts[triangles.starts.len() - 1] as usize;
-    let nothing = TriangleSource { kind: TriangleKind::Source, index: 0 };
-    let verdicts = results.iter().map(|result| result.verdicts.len()).sum();
-    let mesh = MeshBuffers {
-        positions: vec![[0.0; 3]; count],
-        normals: vec![[0.0; 3]; count],
-        tangents: vec![[0.0; 4]; present(mesh.tangents.is_empty())],
-        colors: vec![[0.0; 4]; present(mesh.colors.is_empty())],
-        uvs: mesh.uvs.each_ref().map(uv),
-        indices: vec![0; 3 * triangle_count],
-        submesh_index_counts: triangles
-            .starts
-            .windows(2)
-            .map(|bounds| 3 * (bounds[1] - bounds[0]))
-            .collect(),
-    };
-    watch.worked(count)?;
-    let vertex_sources = VertexSources::with_places(vertices.first_continuing, count);
-    watch.worked(count)?;
-    Ok(Chamfered {
-        mesh,
-        vertex_sources,
-        triangle_sources: vec![nothing; triangle_count],
-        verdicts: Vec::with_capacity(verdicts),
-        width: view.width as f32,
-        hard_angle: view.hard_angle,
-        ..Chamfered::default()
-    })
-}
-
-fn put_vertices(joined: &mut MeshBuffers, own: &MeshBuffers, places: &[u32]) {
-    put(&mut joined.positions, &own.positions, places);
-    put(&mut joined.normals, &own.normals, places);
-    put(&mut joined.tangents, &own.tangents, places);
-    put(&mut joined.colors, &own.colors, places);
-    for (joined, own) in joined.uvs.iter_mut().zip(&own.uvs) {
-        let width = joined.components as usize;
-        if width > 0 {
-            for (value, &place) in own.values.chunks_exact(width).zip(places) {
-                let first = place as usize * width;
-                joined.values[first..first + width].copy_from_slice(value);
-            }
-        }
-    }
-}
-
-fn put<T: Copy>(joined: &mut [T], own: &[T], places: &[u32]) {
-    own.iter().zip(places).for_each(|(&value, &place)| joined[place as usize] = value);
-}
-
-/// Where the vertices of all blocks go: those of the source, then what has moved away from them, and
-/// then what continues other charts.
-struct VertexPlaces {
-    /// `#blocks`: where what is new of each begins, of either kind.
-    new: Vec<[usize; 2]>,
-    first_continuing: usize,
-    count: usize,
-}
-
-impl VertexPlaces {
-    fn new(view: &View, blocks: &Blocks, results: &[Chamfered]) -> VertexPlaces {
-        let count_of = |result: &Chamfered| result.mesh.positions.len();
-        let count = results.iter().map(count_of).sum();
-        let moved = |(block, result): (usize, &Chamfered)| {
-            result.vertex_sources.first_continuing() - blocks.vertices.of(block).len()
-        };
-        let sources = view.mesh.positions.len();
-        let first_continuing = sources + results.iter().enumerate().map(moved).sum::<usize>();
-        let mut next = [sources, first_continuing];
-        let mut new = Vec::with_capacity(results.len());
-        for (block, result) in results.iter().enumerate() {
-            new.push(next);
-            next[0] += moved((block, result));
-            next[1] += count_of(result) - result.vertex_sources.first_continuing();
-        }
-        VertexPlaces { new, first_continuing, count }
-    }
-
-    /// Where each vertex of a block's result goes; `own: #source vertices` of the block.
-    fn of(&self, block: usize, own: &[Vertex], result: &Chamfered) -> Vec<u32> {
-        let [moved, continuing] = self.new[block];
-        let first_continuing = result.vertex_sources.first_continuing();
-        let moved = (moved..).take(first_continuing - own.len());
-        let continuing = (continuing..).take(result.mesh.positions.len() - first_continuing);
-        let new = moved.chain(continuing).map(|place| place as u32);
-        own.iter().map(|vertex| vertex.0).chain(new).collect()
-    }
-}
-
-/// Where the triangles of all blocks go: in each submesh those of the source, then what is new.
-struct TrianglePlaces {
-    /// `#submeshes + 1`: where the triangles of each begin, and the end.
-    starts: Vec<u32>,
-    /// `#blocks by #submeshes`.
-    of_blocks: Vec<Vec<Stretch>>,
-}
-
-/// The triangles of a block in one submesh of its result.
-#[derive(Clone, Copy)]
-struct Stretch {
-    /// So many of the source come first.
-    old: u32,
-    /// The first source triangle of the submesh goes so much farther back.
-    shift: u32,
-    /// Where what is new begins, and how much of it there is.
-    new: u32,
-    count: u32,
-}
-
-impl TrianglePlaces {
-    fn new(view: &View, blocks: &Blocks, results: &[Chamfered]) -> TrianglePlaces {
-        let submeshes = results.first().map_or(0, |first| first.mesh.submesh_index_counts.len());
-        let old: Vec<Vec<u32>> =
-            (0..results.len()).map(|block| triangle_counts(view, blocks, block)).collect();
-        let (mut starts, mut source, mut of_blocks) = (vec![0], 0, vec![vec![]; results.len()]);
-        for submesh in 0..submeshes {
-            let own = view.mesh.submesh_index_counts.get(submesh).map_or(0, |count| count / 3);
-            let (shift, mut new) = (starts[submesh] - source, starts[submesh] + own);
-            for (block, result) in results.iter().enumerate() {
-                let old = old[block].get(submesh).copied().unwrap_or(0);
-                let count = result.mesh.submesh_index_counts[submesh] / 3 - old;
-                of_blocks[block].push(Stretch { old, shift, new, count });
-                new += count;
-            }
-            starts.push(new);
-            source += own;
-        }
-        TrianglePlaces { starts, of_blocks }
-    }
-
-    /// Where each triangle of a block's result goes; `own: #source triangles` of the block.
-    fn of(&self, block: usize, mut own: &[Triangle]) -> Vec<u32> {
-        let mut places = Vec::new();
-        for stretch in &self.of_blocks[block] {
-            let (old, rest) = own.split_at(stretch.old as usize);
-            places.extend(old.iter().map(|triangle| stretch.shift + triangle.0));
-            places.extend(stretch.new..stretch.new + stretch.count);
-            own = rest;
-        }
-        places
-    }
 }

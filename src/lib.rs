@@ -75,6 +75,7 @@ mod groups;
 mod ids;
 mod inside_out;
 mod intersect;
+mod joined;
 mod limits;
 mod line;
 mod lines;

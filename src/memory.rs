@@ -223,3 +223,21 @@ pub fn ask(bytes: u64) -> Result<(), Error> {
         usize::try_from(bytes.saturating_add(BYTES_PER_CALL)).map_err(|_| Error::OutOfMemory)?;
     Vec::<u8>::new().try_reserve_exact(bytes).map_err(|_| Error::OutOfMemory)
 }
+
+/// Room for so many more values in a list that had so many before any of a kind were put there; where
+/// there is too little, for so many times as many of that kind as there will be then.
+///
+/// # Errors
+/// [`Error::OutOfMemory`] where it is not to be had.
+pub fn make_room<T>(
+    values: &mut Vec<T>,
+    more: usize,
+    (kept, times): (usize, f64),
+) -> Result<(), Error> {
+    let wanted = values.len() + more;
+    if wanted <= values.capacity() {
+        return Ok(());
+    }
+    let expected = kept + ((wanted - kept) as f64 * times) as usize;
+    values.try_reserve_exact(expected.max(wanted) - values.len()).map_err(|_| Error::OutOfMemory)
+}

@@ -1,12 +1,13 @@
 //! The stages in their order: the only file that knows it.
 
 use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glam::DVec3;
 
 use crate::apart::apart;
 use crate::attributes::{Attributes, attributes};
-use crate::blocks::{Blocks, blocks, cut, join};
+use crate::blocks::{Blocks, blocks, cut};
 use crate::charts::{Charts, charts};
 use crate::closers::closers;
 use crate::contacts::contacts;
@@ -18,6 +19,7 @@ use crate::flaps::{Flap, flaps};
 use crate::given::{Given, deep};
 use crate::ids::{IdVec, Patch, Sector, Triangle};
 use crate::inside_out::{is_inside_out, turned_back, turned_normals};
+use crate::joined::Joined;
 use crate::limits::{Element, lessen_cuts, limits};
 use crate::memory;
 use crate::mesh::Mesh;
@@ -174,39 +176,38 @@ fn each_block(
 ) -> Result<Chamfered, Error> {
     let threads = &Threads::new(options.threads, view.corner_count());
     let alone = &Options { threads: 1, ..*options };
-    let chamfered = |watch: &dyn Watch, block: usize| {
+    let done = AtomicUsize::new(0);
+    let chamfered = |watch: &dyn Watch, &block: &usize| {
         let own = cut(view, blocks, block);
         let mesh = Mesh { factors: view.mesh.factors, ..own.as_mesh() };
         let view = View { mesh, ..*view };
         let weld = weld(&view.mesh, watch)?;
-        chamfer_welded(view, weld, alone, &mut |_| watch.worked(STEPS))
+        let chamfered = chamfer_welded(view, weld, alone, &mut |_| watch.worked(STEPS));
+        done.fetch_add(1, Ordering::Relaxed);
+        chamfered
     };
-    let mut results = Vec::with_capacity(blocks.len());
+    let share = || done.load(Ordering::Relaxed) as f32 / blocks.len() as f32 * SHARE_OF_BLOCKS;
+    let ask = &mut || told(progress(share()));
+    let watch = &Caller::new(ask);
+    let (mut joined, mut made) = (Joined::new(view, blocks)?, Vec::new());
     let all: Vec<usize> = (0..blocks.len()).collect();
     for some in all.chunks(BLOCKS_AT_ONCE * threads.count()) {
-        let share = |done: usize| done as f32 / blocks.len() as f32 * SHARE_OF_BLOCKS;
-        let mut ask = || told(progress(share(results.len())));
-        let watch = Caller::new(&mut ask);
-        let done = threads.map_watched(some, &watch, |watch, &block| chamfered(watch, block))?;
-        results.extend(done);
-        told(progress(share(results.len())))?;
+        let before = std::mem::take(&mut made);
+        made = threads.map_beside(some, watch, chamfered, || joined.add(before))?;
+        watch.worked(STEPS)?;
     }
-    let counts = |count: fn(&Chamfered) -> usize| results.iter().map(count).sum::<usize>();
-    let (vertices, triangles) =
-        (counts(|part| part.mesh.positions.len()), counts(|part| part.triangle_sources.len()));
-    memory::ask(memory::of_joined(&view.mesh, vertices, triangles))?;
-    let ask = &mut || told(progress(SHARE_OF_BLOCKS));
-    let work = (threads, &Caller::new(ask) as &dyn Watch);
-    let joined = join(view, blocks, results, work)?;
+    joined.add(made)?;
+    let joined = joined.finish(watch)?;
     told(progress(1.0))?;
     Ok(joined)
 }
 
-/// So many blocks for each thread take some thousandths of a second: then the caller is told.
-const BLOCKS_AT_ONCE: usize = 4;
+/// What so many blocks for each thread have made is put together while the next are done: by then that
+/// no thread waits long for the others counts for little.
+const BLOCKS_AT_ONCE: usize = 8;
 
-/// How much of a call is done before the results of blocks are put together.
-const SHARE_OF_BLOCKS: f32 = 0.9;
+/// How much of a call is done when the last block is.
+const SHARE_OF_BLOCKS: f32 = 0.98;
 
 fn told(answer: ControlFlow<()>) -> Result<(), Error> {
     match answer {

@@ -280,24 +280,33 @@ impl Threads {
         watch: &dyn Watch,
         value: impl Fn(&dyn Watch, &I) -> Result<T, Error> + Sync + Send,
     ) -> Result<Vec<T>, Error> {
+        self.map_beside(items, watch, value, || Ok(()))
+    }
+
+    /// As [`Threads::map_watched`], and does something else beside, or before.
+    ///
+    /// # Errors
+    /// As there, or what the other thing gives.
+    pub fn map_beside<I: Sync, T: Send>(
+        &self,
+        items: &[I],
+        watch: &dyn Watch,
+        value: impl Fn(&dyn Watch, &I) -> Result<T, Error> + Sync + Send,
+        beside: impl FnOnce() -> Result<(), Error> + Send,
+    ) -> Result<Vec<T>, Error> {
         #[cfg(feature = "parallel")]
         if let Some(pool) = &self.pool {
             let flag = Flag::default();
             let all = || self.map_large(items, || (), |(), item| value(&flag, item));
-            return waited_for(pool, (watch, &flag), all)?.into_iter().collect();
+            let work = || Some(pool.join(all, beside));
+            let Some((values, done)) = waited_for(pool, (watch, &flag), work)? else {
+                return Ok(Vec::new());
+            };
+            done?;
+            return values.into_iter().collect();
         }
+        beside()?;
         items.iter().map(|item| value(watch, item)).collect()
-    }
-
-    /// Does two things that have nothing to do with each other.
-    pub fn both(&self, one: impl FnOnce() + Send, other: impl FnOnce() + Send) {
-        #[cfg(feature = "parallel")]
-        if let Some(pool) = &self.pool {
-            pool.join(one, other);
-            return;
-        }
-        one();
-        other();
     }
 
     /// The ids that are such, in ascending order.
@@ -386,9 +395,6 @@ mod tests {
             assert_eq!(next[9_999], 10_000);
             let counted = threads.map_large(&numbers[..9], || 0, |_, number| number + 1);
             assert_eq!(counted, (1..10).collect::<Vec<u32>>());
-            let (mut one, mut other) = (0, 0);
-            threads.both(|| one = 1, || other = 2);
-            assert_eq!((one, other), (1, 2));
             let odd = threads.filter(10_000, |vertex: Vertex| vertex.0 % 2 == 1);
             assert!(odd.into_iter().eq((0..5_000).map(|half| Vertex(2 * half + 1))));
         }

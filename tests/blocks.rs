@@ -1,5 +1,9 @@
 //! Large meshes of many parts are chamfered block by block: as they would be at once.
 
+#[allow(dead_code)]
+#[path = "support/boxes.rs"]
+mod boxes;
+
 use std::ops::ControlFlow;
 
 use chamfer::check::assert_sound;
@@ -7,6 +11,8 @@ use chamfer::{
     ChamferSubmesh, Chamfered, MeshBuffers, Options, TriangleKind, Verify, Width, chamfer,
     chamfer_by_stages, chamfer_with_progress, shapes,
 };
+
+use boxes::{Block, assembly};
 
 /// Bolts of two submeshes, of many sizes, in rows: some fifty thousand triangles.
 fn many() -> MeshBuffers {
@@ -39,6 +45,42 @@ fn many() -> MeshBuffers {
     all.indices = indices.concat();
     assert!(all.indices.len() / 3 > 33_000, "{}", all.indices.len() / 3);
     all
+}
+
+/// Boxes of which two share a corner of their tops, where one of them gets a vertex of its own; the top of
+/// the first is in two halves, so that its walls come in pieces; in two submeshes, with a texture.
+///
+/// ```text
+///                 +--------+
+///                 | second |      seen from above
+///   +------+------+--------+
+///   |    first    |
+///   +------+------+
+/// ```
+fn corner_to_corner() -> MeshBuffers {
+    const ALL_BUT_TOP: u8 = 0b01_1111;
+    let (mut tops_and_second, mut walls) = (Vec::new(), Vec::new());
+    for k in 0..1500 {
+        let (x, y) = (6.0 * f64::from(k % 40), 4.0 * f64::from(k / 40));
+        let block = |[x0, x1]: [f64; 2], y0: f64, without: u8| Block {
+            without,
+            ..Block::new([x + x0, y + y0, 0.0], [x + x1, y + y0 + 1.0, 1.0])
+        };
+        walls.push(block([0.0, 3.0], 0.0, !ALL_BUT_TOP));
+        tops_and_second.push(block([0.0, 1.5], 0.0, ALL_BUT_TOP));
+        tops_and_second.push(block([1.5, 3.0], 0.0, ALL_BUT_TOP));
+        tops_and_second.push(block([3.0, 4.0], 1.0, 0));
+    }
+    let of_walls = 30 * walls.len() as u32;
+    tops_and_second.append(&mut walls);
+    let mut mesh = assembly(&tops_and_second, glam::DMat3::IDENTITY, true);
+    mesh.submesh_index_counts = vec![mesh.indices.len() as u32 - of_walls, of_walls];
+    mesh.uvs[0].components = 2;
+    for (position, normal) in mesh.positions.iter().zip(&mesh.normals) {
+        let axis = (0..3).find(|&axis| normal[axis] != 0.0).expect("it points somewhere");
+        mesh.uvs[0].values.extend([position[(axis + 1) % 3], position[(axis + 2) % 3]]);
+    }
+    mesh
 }
 
 fn at_once(mesh: &MeshBuffers, options: &Options) -> Chamfered {
@@ -84,14 +126,39 @@ fn triangles(result: &Chamfered) -> Vec<Vec<u32>> {
     all
 }
 
+/// Each piece by the triangle that it is of, and where it lies there, in an order of its own.
+fn pieces(result: &Chamfered) -> Vec<(u32, Vec<u32>)> {
+    let told = |piece: &chamfer::Piece| {
+        let source = result.triangle_sources[piece.triangle as usize];
+        assert_eq!(source.kind, TriangleKind::Source);
+        (source.index, piece.corners.as_flattened().iter().map(|weight| weight.to_bits()).collect())
+    };
+    let mut all: Vec<_> = result.pieces.iter().map(told).collect();
+    all.sort_unstable();
+    all
+}
+
 #[test]
 fn blocks_change_nothing_but_the_order() {
-    let mesh = many();
+    let mesh = corner_to_corner();
+    let result = chamfer(&mesh.as_mesh(), &options(ChamferSubmesh::Owner)).unwrap();
+    let new: Vec<_> = result.vertex_sources.iter().skip(mesh.positions.len()).collect();
+    let moved = new.iter().filter(|new| new.owner_channels == 0).count();
+    let pieces = result.pieces.len();
+    assert!(moved >= 1000 && new.len() > moved + 20_000 && pieces > 800, "{moved} {pieces}");
+    for mesh in [many(), mesh] {
+        blocks_are_as_the_whole(&mesh);
+    }
+}
+
+fn blocks_are_as_the_whole(mesh: &MeshBuffers) {
     for target in [ChamferSubmesh::Owner, ChamferSubmesh::Own, ChamferSubmesh::Given(1)] {
         let options = options(target);
         let (whole, joined) =
-            (at_once(&mesh, &options), chamfer(&mesh.as_mesh(), &options).unwrap());
+            (at_once(mesh, &options), chamfer(&mesh.as_mesh(), &options).unwrap());
         assert_eq!(triangles(&whole), triangles(&joined));
+        assert_eq!(pieces(&whole), pieces(&joined));
+        assert!(joined.pieces.is_sorted_by_key(|piece| piece.triangle));
         assert_eq!(whole.mesh.positions.len(), joined.mesh.positions.len());
         let sorted = |result: &Chamfered| {
             let mut verdicts: Vec<_> =
@@ -106,8 +173,8 @@ fn blocks_change_nothing_but_the_order() {
         let sources = mesh.positions.len();
         assert_eq!(whole.mesh.positions[..sources], joined.mesh.positions[..sources]);
         assert!(whole.mesh.indices != joined.mesh.indices, "it was done at once");
-        let old = mesh.submesh_index_counts[0] as usize;
-        assert_eq!(whole.mesh.indices[..old], joined.mesh.indices[..old]);
+        let old = mesh.submesh_index_counts[0] as usize / 3;
+        assert_eq!(whole.triangle_sources[..old], joined.triangle_sources[..old]);
     }
 }
 
@@ -120,6 +187,8 @@ fn the_result_is_sound_and_the_same_for_any_number_of_threads() {
     assert!(one.mesh == three.mesh && one.verdicts == three.verdicts);
     assert!(one.vertex_sources == three.vertex_sources);
     assert_sound("bolts", &mesh.as_mesh(), &one);
+    let mesh = corner_to_corner();
+    assert_sound("boxes", &mesh.as_mesh(), &chamfer(&mesh.as_mesh(), &options).unwrap());
 }
 
 /// What is told of some bolts, and of the result, if the caller breaks when it is told so often.
@@ -140,9 +209,9 @@ fn it_tells_how_far_it_is_and_can_be_cancelled() {
     assert!(!is_cancelled && all.is_sorted() && all.last() == Some(&1.0), "{all:?}");
     let mut ends = all.clone();
     ends.dedup();
-    // Some blocks at a time, of two thousand triangles and more each; then they are put together.
-    assert!(ends.len() > 5 && ends.contains(&0.9), "{ends:?}");
-    for &end in &ends[..ends.len() - 1] {
+    // Blocks are of two thousand triangles and more each; what is left when the last is done is little.
+    assert!(ends.len() > 5 && ends.contains(&0.98), "{ends:?}");
+    for &end in &ends[..ends.len() - 2] {
         let times = all.iter().filter(|&&share| share == end).count();
         assert!(times > 2, "within {end} it is told {times} times");
     }

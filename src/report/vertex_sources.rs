@@ -1,6 +1,8 @@
 //! What the vertices of a result were re-sampled from, in less memory than an array of it takes.
 
 use super::{Blend, VertexSource};
+use crate::error::Error;
+use crate::memory;
 
 /// `#vertices`: what each was re-sampled from.
 ///
@@ -87,45 +89,40 @@ impl VertexSources {
         }
     }
 
-    /// So many, of which those from `first_continuing` on may continue other charts. Each is
-    /// put before it is asked for.
-    pub(crate) fn with_places(first_continuing: usize, count: usize) -> VertexSources {
-        let owner = Blend::one(0);
-        let none = Continuing { own: Own::Kept(0), owner, owner_channels: 0 };
-        VertexSources {
-            own: vec![Own::Kept(0); first_continuing],
-            continuing: vec![none; count - first_continuing],
-            ..VertexSources::default()
-        }
+    /// Room for those of some parts, of which so many vertices have moved, where there were so many of the
+    /// source: see [`memory::make_room`].
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`] where it is not to be had.
+    pub(crate) fn make_room<'a>(
+        &mut self,
+        parts: impl Iterator<Item = &'a VertexSources> + Clone,
+        moved: usize,
+        (kept, times): (usize, f64),
+    ) -> Result<(), Error> {
+        let count = |of: fn(&VertexSources) -> usize| parts.clone().map(of).sum();
+        memory::make_room(&mut self.blends, count(|part| part.blends.len()), (0, times))?;
+        memory::make_room(&mut self.own, moved, (kept, times))?;
+        memory::make_room(&mut self.continuing, count(|part| part.continuing.len()), (0, times))
     }
 
-    /// Puts those of a part of a mesh where its vertices go (`places: #vertices` of the part), in terms
-    /// of the source vertices that `at` tells of those of the part.
-    pub(crate) fn put_part(
-        &mut self,
-        part: VertexSources,
-        places: &[u32],
-        at: impl Fn(u32) -> u32,
-    ) {
+    /// Appends those of a part of a mesh, in terms of the source vertices that `at` tells of those of the
+    /// part, which are so many: these are set where they are, and what is new stands behind.
+    pub(crate) fn append(&mut self, part: VertexSources, kept: usize, at: impl Fn(u32) -> u32) {
         let first = self.blends.len() as u32;
         let blend = |blend: Blend| Blend { vertices: blend.vertices.map(&at), ..blend };
-        let moved = |own: Own| match own {
+        let own = |own: Own| match own {
             Own::Kept(source) => Own::Kept(at(source)),
             Own::One(place) => Own::One(first + place),
             Own::Two(place) => Own::Two(first + place),
         };
-        let first_continuing = self.first_continuing();
-        for (vertex, place) in places.iter().map(|&place| place as usize).enumerate() {
-            match place.checked_sub(first_continuing) {
-                None => self.own[place] = moved(part.own(vertex)),
-                Some(place) => {
-                    let Continuing { own, owner, owner_channels } =
-                        part.continuing[vertex - part.first_continuing()];
-                    let (own, owner) = (moved(own), blend(owner));
-                    self.continuing[place] = Continuing { own, owner, owner_channels };
-                }
-            }
-        }
+        (0..kept).for_each(|vertex| self.own[at(vertex as u32) as usize] = own(part.own(vertex)));
+        self.own.extend((kept..part.first_continuing()).map(|vertex| own(part.own(vertex))));
+        self.continuing.extend(part.continuing.iter().map(|one| Continuing {
+            own: own(one.own),
+            owner: blend(one.owner),
+            owner_channels: one.owner_channels,
+        }));
         self.blends.extend(part.blends.into_iter().map(blend));
     }
 
