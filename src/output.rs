@@ -93,11 +93,8 @@ impl Made<'_> {
         let rounded = self.rounding.and_then(|rounding| rounding.of(patch));
         self.find_vertices((source.kind, rounded), parts, chart);
         let submesh = self.submeshes.of_new(chart.face);
-        let part = &mut self.submeshes.parts[submesh];
-        for triangle in rounded.map_or(parts.triangles, |rounded| rounded.triangles) {
-            let vertices = triangle.map(|place| self.vertices[place as usize]);
-            part.add(vertices, source);
-        }
+        let triangles = rounded.map_or(parts.triangles, |rounded| rounded.triangles);
+        self.submeshes.parts[submesh].add_patch(triangles, &self.vertices, source);
     }
 
     /// A flap belongs to the face that it continues, whatever becomes of chamfers.
@@ -125,15 +122,17 @@ impl Made<'_> {
         let (space, joints) = (self.space, parts.joints);
         self.vertices.clear();
         self.vertices.extend(joints.iter().map(|&joint| self.attributes.vertex_at[joint]));
-        for (point, taken) in chart.taking(joints.len()) {
+        chart.taking(joints.len()).for_each(|(point, taken)| {
             let (cluster, own) = (self.cluster_at(joints[point]), self.vertices[point]);
             let streams = &mut self.attributes.streams;
             // A fill often takes what a strip beside it has taken.
-            self.vertices[point] = match kind {
-                TriangleKind::Corner => streams.find_or_add_copy(space.source, cluster, own, taken),
-                _ => streams.add_copy(space.source, cluster, own, taken),
+            let known = match kind {
+                TriangleKind::Corner => streams.find_copy(cluster, own, taken),
+                _ => None,
             };
-        }
+            let add = || streams.add_copy(space.source, cluster, own, taken);
+            self.vertices[point] = known.unwrap_or_else(add);
+        });
         if let Some(rounded) = rounded {
             self.find_rounded(rounded, (parts, chart));
             return;
@@ -219,6 +218,13 @@ impl Part {
         self.indices.extend_from_slice(&vertices);
         self.sources.push(source);
     }
+
+    /// Adds triangles over some vertices, by their places among these.
+    fn add_patch(&mut self, triangles: &[[u32; 3]], vertices: &[u32], source: TriangleSource) {
+        let places = triangles.as_flattened().iter();
+        self.indices.extend(places.map(|&place| vertices[place as usize]));
+        self.sources.extend(std::iter::repeat_n(source, triangles.len()));
+    }
 }
 
 /// All triangles, one submesh after the other.
@@ -263,6 +269,9 @@ impl Submeshes {
     }
 
     fn of_source_triangle(&self, triangle: Triangle) -> usize {
+        if let [_, _] = self.starts[..] {
+            return 0;
+        }
         self.starts.partition_point(|&start| start <= triangle.0) - 1
     }
 

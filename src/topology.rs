@@ -32,6 +32,8 @@ pub struct Topology {
     pub contacts: Vec<Corner>,
     /// Half-edges that lie on one edge though they are no twins: parts touch there.
     pub touching: Vec<[Corner; 2]>,
+    /// Whether any triangle is [collapsed](Topology::is_collapsed).
+    pub has_collapsed: bool,
 }
 
 impl Topology {
@@ -63,6 +65,7 @@ impl Topology {
             hidden: self.hidden.clone(),
             contacts: self.contacts.iter().map(|&side| name(side)).collect(),
             touching: self.touching.iter().map(|pair| pair.map(name)).collect(),
+            has_collapsed: self.has_collapsed,
         };
         for hidden in &mut all.hidden {
             hidden.half_edge = name(hidden.half_edge);
@@ -97,6 +100,7 @@ pub fn topology(view: &View, weld: &Weld, watch: &dyn Watch) -> Result<Topology,
         hidden: Vec::new(),
         contacts: Vec::new(),
         touching: Vec::new(),
+        has_collapsed: false,
     };
     join_all(view, &mut joined, watch)?;
     joined.sort();
@@ -118,6 +122,7 @@ struct Spoke {
 
 fn join_all(view: &View, joined: &mut Topology, watch: &dyn Watch) -> Result<(), Error> {
     let (starts, mut spokes) = buckets(view, joined, watch)?;
+    joined.has_collapsed = spokes.len() < view.corner_count();
     let mut crowds = Vec::new();
     each(joined.clusters, watch, |near: Cluster| {
         let [mut start, end] = [0, 1].map(|k| starts[near.index() + k] as usize);

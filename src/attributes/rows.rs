@@ -32,12 +32,12 @@ pub enum Stream {
 }
 
 impl Stream {
-    /// Whether it goes along with some UV channels that go elsewhere: the tangent does with the first.
-    pub fn is_taken(self, channels: Channels) -> bool {
+    /// The UV channels along with which it goes elsewhere: the tangent does with the first.
+    fn channels(self) -> Channels {
         match self {
-            Stream::Tangent => channels & 1 == 1,
-            Stream::Uv(channel) => channels >> channel & 1 == 1,
-            Stream::Color => false,
+            Stream::Tangent => 1,
+            Stream::Uv(channel) => 1 << channel,
+            Stream::Color => 0,
         }
     }
 }
@@ -46,13 +46,22 @@ impl Stream {
 #[derive(Clone, Copy)]
 pub struct Column {
     pub stream: Stream,
+    /// The UV channels that it goes along with, as bits: see [`Stream::channels`].
+    channels: Channels,
     /// Where its values stand in a row, and how many there are.
     pub start: usize,
     pub width: usize,
 }
 
 impl Column {
+    /// Whether it goes along with some UV channels that go elsewhere.
+    #[inline]
+    pub fn is_taken(&self, channels: Channels) -> bool {
+        self.channels & channels != 0
+    }
+
     /// All values of the stream, vertex by vertex.
+    #[inline]
     pub fn values<'a>(&self, vertices: &'a MeshBuffers) -> &'a [f32] {
         match self.stream {
             Stream::Tangent => vertices.tangents.as_flattened(),
@@ -61,6 +70,7 @@ impl Column {
         }
     }
 
+    #[inline]
     pub fn push(&self, vertices: &mut MeshBuffers, row: &Row) {
         match self.stream {
             Stream::Tangent => vertices.tangents.push(row.at(self.start)),
@@ -85,6 +95,7 @@ impl Column {
     }
 
     /// Of one vertex.
+    #[inline]
     pub fn range(&self, vertex: u32) -> std::ops::Range<usize> {
         let first = vertex as usize * self.width;
         first..first + self.width
@@ -108,12 +119,15 @@ impl Row {
         self.0[NORMAL..FIRST_RARER].copy_from_slice(&normal);
     }
 
+    #[inline]
     pub fn of(&self, column: &Column) -> &[f32] {
         &self.0[column.start..column.start + column.width]
     }
 
+    #[inline]
     pub fn at<const WIDTH: usize>(&self, start: usize) -> [f32; WIDTH] {
-        std::array::from_fn(|k| self.0[start + k])
+        let values = &self.0[start..start + WIDTH];
+        std::array::from_fn(|k| values[k])
     }
 
     fn of_mut(&mut self, column: &Column) -> &mut [f32] {
@@ -168,8 +182,9 @@ impl Layout {
     }
 
     /// Takes UV channels from another place, and the tangent along with the first of them.
+    #[inline]
     pub fn take(&self, view: &View, row: &mut Row, Taken { channels, place }: &Taken) {
-        for column in self.columns.iter().filter(|column| column.stream.is_taken(*channels)) {
+        for column in self.columns.iter().filter(|column| column.is_taken(*channels)) {
             match column.stream {
                 Stream::Tangent => {
                     row.set(column, &tangent(view, place, wide(row.at(NORMAL))));
@@ -208,7 +223,7 @@ fn columns(view: &View) -> SmallVec<[Column; 12]> {
     all.map(|(stream, width)| {
         let start = end;
         end += width;
-        Column { stream, start, width }
+        Column { stream, channels: stream.channels(), start, width }
     })
     .collect()
 }
@@ -235,6 +250,7 @@ pub fn are_equal(one: &[f32], other: &[f32]) -> bool {
 }
 
 /// A blend of the values of a stream that has so many for each vertex.
+#[inline]
 pub fn blended<const WIDTH: usize>(values: &[f32], blend: &Blend) -> [f32; WIDTH] {
     let values = values.as_chunks().0;
     let [a, b, c]: [[f32; WIDTH]; 3] = blend.vertices.map(|vertex| values[vertex as usize]);

@@ -14,7 +14,7 @@ use crate::error::Error;
 use crate::ids::{Cluster, Id, Vertex};
 use crate::mesh::{MeshBuffers, UV_CHANNELS, Uv, UvBuffer};
 use crate::report::{Blend, VertexSource, VertexSources};
-use crate::resample::blended_normal;
+use crate::resample::{is_same, stored_normal};
 use crate::rounding::joined;
 use crate::threads::Threads;
 use crate::view::{View, wide};
@@ -48,7 +48,7 @@ impl Streams {
         let chart = |vertex: Vertex| sources.chart_of(vertex.index());
         let normal = |vertex: Vertex| {
             let surface = sources.surface_of(vertex.index())?;
-            Some(blended_normal(view, surface).as_vec3().to_array())
+            Some(stored_normal(view, surface))
         };
         let normals = changed(mesh.normals, room, work, normal)?;
         let tangent =
@@ -78,26 +78,23 @@ impl Streams {
     }
 
     /// A vertex of a cluster that has moved away from others of its source vertex.
-    pub fn add_moved(&mut self, cluster: Cluster, row: &Row, [surface, chart]: [Blend; 2]) -> u32 {
+    pub fn add_moved(
+        &mut self,
+        cluster: Cluster,
+        row: &Row,
+        (surface, chart): (Blend, Option<Blend>),
+    ) -> u32 {
         self.add(self.list_of(cluster, row), row, |sources| sources.push_moved(surface, chart))
     }
 
-    /// A vertex of a cluster like another one, but for what it takes from another chart, where a patch before
-    /// may have taken just that.
-    pub fn find_or_add_copy(
-        &mut self,
-        view: &View,
-        cluster: Cluster,
-        of: u32,
-        taken: &Taken,
-    ) -> u32 {
+    /// What was appended as a vertex of a cluster like another one, but for what it takes from another chart.
+    pub fn find_copy(&self, cluster: Cluster, of: u32, taken: &Taken) -> Option<u32> {
         let list = self.index.list_at(cluster, self.vertices.positions[of as usize]);
         let copies = self.sources.copies(of as usize, taken.place, taken.channels);
-        let copy = self.index.find_since(self.sources.first_continuing(), list, copies);
-        copy.unwrap_or_else(|| self.add_copy(view, cluster, of, taken))
+        self.index.find_since(self.sources.first_continuing(), list, copies)
     }
 
-    /// The same, where that is not likely.
+    /// A vertex of a cluster like another one, but for what it takes from another chart.
     pub fn add_copy(&mut self, view: &View, cluster: Cluster, of: u32, taken: &Taken) -> u32 {
         let own = of as usize;
         let (position, normal) = (self.vertices.positions[own], self.vertices.normals[own]);
@@ -106,7 +103,7 @@ impl Streams {
         row.stand(position, normal);
         self.layout.take(view, row, taken);
         // All but what it takes is read where the other has it.
-        let value = |column: &Column| match column.stream.is_taken(taken.channels) {
+        let value = |column: &Column| match column.is_taken(taken.channels) {
             true => row.of(column),
             false => &column.values(&self.vertices)[column.range(of)],
         };
@@ -114,8 +111,8 @@ impl Streams {
             let is_equal = |column: &Column| {
                 are_equal(&column.values(&self.vertices)[column.range(listed)], value(column))
             };
-            position == self.vertices.positions[listed as usize]
-                && normal == self.vertices.normals[listed as usize]
+            is_same(position, self.vertices.positions[listed as usize])
+                && is_same(normal, self.vertices.normals[listed as usize])
                 && self.layout.columns.iter().all(is_equal)
         };
         if let Some(equal) = self.index.find(list, is_equal) {
@@ -124,7 +121,7 @@ impl Streams {
         self.vertices.positions.push(position);
         self.vertices.normals.push(normal);
         for column in &self.layout.columns {
-            match column.stream.is_taken(taken.channels) {
+            match column.is_taken(taken.channels) {
                 true => column.push(&mut self.vertices, &self.row),
                 false => column.push_again(&mut self.vertices, of),
             }
@@ -229,12 +226,10 @@ impl Streams {
 
     /// The vertex of a list that has a row.
     fn find(&self, list: usize, row: &Row) -> Option<u32> {
-        let [x, y, z] = row.at(POSITION);
+        let position = row.at(POSITION);
         // Most that came from one cluster stand elsewhere.
-        let stands_there = |vertex: u32| {
-            let [at_x, at_y, at_z] = self.vertices.positions[vertex as usize];
-            at_x == x && at_y == y && at_z == z
-        };
+        let stands_there =
+            |vertex: u32| is_same(self.vertices.positions[vertex as usize], position);
         self.index.find(list, |listed| stands_there(listed) && self.has(listed, row))
     }
 
@@ -265,7 +260,7 @@ fn changed<T: Copy + Send + Sync>(
 ) -> Result<Vec<T>, Error> {
     let room = if values.is_empty() { 0 } else { room };
     let mut all = Vec::with_capacity(values.len() + room);
-    let value = |vertex: Vertex| other(vertex).unwrap_or(values[vertex.index()]);
+    let value = |vertex: Vertex| other(vertex).unwrap_or_else(|| values[vertex.index()]);
     threads.extend(&mut all, values.len(), watch, value)?;
     Ok(all)
 }
