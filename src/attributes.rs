@@ -311,7 +311,7 @@ fn fill(
 type Blends = (Blend, Option<Blend>);
 
 /// Where a corner's vertex comes from when its sector takes a share of the offset.
-#[inline]
+#[inline(always)]
 fn blends(view: &View, placement: &Placement, sector: Sector, corner: Corner) -> Blends {
     let offset = placement.offset(sector);
     if !offset.is_plain {
@@ -322,6 +322,7 @@ fn blends(view: &View, placement: &Placement, sector: Sector, corner: Corner) ->
 }
 
 /// The same where the corners of a sector may come from different faces or charts.
+#[inline(never)]
 fn blends_of_parts(view: &View, placement: &Placement, sector: Sector, corner: Corner) -> Blends {
     let share = placement.share[sector];
     let in_chart = placement.chart_foot(sector, corner);
@@ -335,7 +336,7 @@ fn blends_of_parts(view: &View, placement: &Placement, sector: Sector, corner: C
 #[inline]
 fn begun_at(view: &View, corner: Corner, (start, blend): ([f64; 2], &Blend)) -> Option<Blend> {
     let [own, next, prev] = [view.vertex_at(corner).0, blend.vertices[1], blend.vertices[2]];
-    let is_other = start == [0.0, 0.0] && own != blend.vertices[0];
+    let is_other = own != blend.vertices[0] && start[0] == 0.0 && start[1] == 0.0;
     is_other.then_some(Blend { vertices: [own, next, prev], ..*blend })
 }
 

@@ -5,12 +5,11 @@ mod parted;
 
 use glam::DVec3;
 
-use crate::breaks::{is_hard, seam_between};
+use crate::breaks::{is_hard, uvs_differ};
 use crate::contacts::{ASKED, Contacts};
 use crate::error::Error;
 use crate::faces::{Faces, is_blurred, long_side};
 use crate::ids::{Corner, Edge, Id, IdVec, Triangle, Vertex};
-use crate::mesh::UV_CHANNELS;
 use crate::report::Reason;
 use crate::selection::Selection;
 use crate::threads::Threads;
@@ -226,12 +225,14 @@ fn obstacle(
 
 /// The UV channels that differ between two half-edges that are twins, as bits.
 pub fn seam_channels(view: &View, side: Corner, other: Corner) -> u8 {
-    let pairs = [(side, other.next()), (side.next(), other)];
-    let differs = |channel: &usize| {
-        pairs.into_iter().any(|(one, other)| seam_between(view, *channel, one, other))
-    };
-    let present = (0..UV_CHANNELS).filter(|&channel| view.mesh.uvs[channel].components > 0);
-    present.filter(differs).fold(0, |channels, channel| channels | 1 << channel)
+    let pairs = [[side, other.next()], [side.next(), other]]
+        .map(|pair| pair.map(|corner| view.vertex_at(corner)));
+    let mut seams = 0;
+    for (channel, uv) in view.mesh.uvs.iter().enumerate().filter(|(_, uv)| uv.components > 0) {
+        let is_seam = pairs.iter().any(|&pair| uvs_differ(uv, pair));
+        seams |= u8::from(is_seam) << channel;
+    }
+    seams
 }
 
 #[cfg(test)]

@@ -1,5 +1,7 @@
 //! Verdicts: what became of each hard edge, measured on the result.
 
+use glam::DVec3;
+
 use crate::chamfers::Chamfers;
 use crate::edges::HardEdge;
 use crate::error::Error;
@@ -33,11 +35,13 @@ pub fn verdicts(
         let segments = if is_open { segments(rounding, edge) } else { 0 };
         let edge = &edges.hard[edge];
         let at = strips::corners(edge).map(|corner| sectors.sector_of[corner]);
-        let (outcome, reason, widths) = outcome(view, (sectors, at), limits, (edge, is_open));
+        let vertices = [edge.sides[0], edge.sides[0].next()].map(|end| view.vertex_at(end));
+        let line = vertices.map(|vertex| view.position(vertex));
+        let (outcome, reason, widths) = outcome(view, (sectors, at), limits, (edge, line, is_open));
         let counting = counting_ends(limits, at, (outcome, reason));
-        let vertices = ends(edge).map(|end| view.vertex_at(end).0);
+        notes.counted.push(counted(edge, line, widths, counting));
+        let vertices = vertices.map(|vertex| vertex.0);
         notes.verdicts.push(EdgeVerdict { vertices, outcome, reason, widths, segments });
-        notes.counted.push(counted(view, edge, widths, counting));
     };
     threads.blocks_then((edges.hard.len(), watch), told, note, |told, notes| {
         let verdicts = notes.verdicts.iter().zip(&notes.counted);
@@ -61,18 +65,13 @@ struct Notes {
     counted: Vec<Counted>,
 }
 
-/// The ends of an edge, on its first side.
-fn ends(edge: &HardEdge) -> [Corner; 2] {
-    [edge.sides[0], edge.sides[0].next()]
-}
-
-/// What became of an edge, why, and how wide it is at its ends. The sectors at it stand in the order of
-/// [`strips::corners`].
+/// What became of an edge from one place to another, why, and how wide it is at its ends. The sectors at it
+/// stand in the order of [`strips::corners`].
 fn outcome(
     view: &View,
     (sectors, at): (&Sectors, [Sector; 4]),
     limits: &Limits,
-    (edge, is_open): (&HardEdge, bool),
+    (edge, line, is_open): (&HardEdge, [DVec3; 2], bool),
 ) -> (Outcome, Reason, [f32; 2]) {
     if let Some(reason) = edge.skipped {
         return (Outcome::Skipped, reason, [0.0; 2]);
@@ -83,7 +82,7 @@ fn outcome(
         return (Outcome::Skipped, reason, [0.0; 2]);
     }
     let outcome = if reason.is_some() { Outcome::Narrowed } else { Outcome::Full };
-    (outcome, reason.unwrap_or(Reason::None), widths(view, limits, (edge, at)))
+    (outcome, reason.unwrap_or(Reason::None), widths(view, limits, (edge, at), line))
 }
 
 /// The least that an end has: one that does not open has no fewer than the other.
@@ -122,39 +121,47 @@ fn unopened(
 fn worst_reason(limits: &Limits, at: [Sector; 4]) -> Option<Reason> {
     // A side is the first edge of the sector where it starts, and the last one where it ends.
     let fronts = [1, 0, 1, 0];
-    let (mut least, mut is_capped) = (None, false);
+    let (mut least, mut least_at, mut is_capped) = (1.0, Sector::NONE, false);
     for (sector, front) in at.into_iter().zip(fronts) {
         let offset = limits.placement.offset(sector);
         let share = limits.placement.share[sector] * offset.fronts[front];
-        let is_least = least.is_none_or(|(least, _)| share < least);
-        if share < 1.0 && is_least && offset.moves() {
-            least = Some((share, sector));
+        if share < least && offset.moves() {
+            (least, least_at) = (share, sector);
         }
         is_capped |= offset.is_capped;
     }
-    let reason = |sector: Sector| match limits.reason[sector] {
-        Reason::None => Reason::NoRoom,
-        reason => reason,
-    };
-    least.map(|(_, sector)| reason(sector)).or(is_capped.then_some(Reason::Miter))
+    if least_at.is_none() {
+        return is_capped.then_some(Reason::Miter);
+    }
+    match limits.reason[least_at] {
+        Reason::None => Some(Reason::NoRoom),
+        reason => Some(reason),
+    }
 }
 
 /// At each end, the mean distance of the two pulled vertices from the line of the old edge.
-fn widths(view: &View, limits: &Limits, (edge, at): (&HardEdge, [Sector; 4])) -> [f32; 2] {
-    let ends = ends(edge);
-    let (from, to, points);
+fn widths(
+    view: &View,
+    limits: &Limits,
+    (edge, at): (&HardEdge, [Sector; 4]),
+    line: [DVec3; 2],
+) -> [f32; 2] {
     if let Some(stored) = &view.stored {
         // Rounded where it is measured, a short edge would be turned, and what is far off it with it.
         let standing = |at: [f32; 3]| stored.to * wide(at);
         let source = |at: Corner| standing(stored.positions[view.vertex_at(at).index()]);
-        [from, to] = ends.map(source);
-        points = strips::corners(edge).map(|corner| standing(limits.placement.stored_at(corner)));
-    } else {
-        [from, to] = ends.map(|end| view.position_at(end));
-        points = at.map(|sector| limits.placement.point[sector]);
+        let line = [edge.sides[0], edge.sides[0].next()].map(source);
+        let points = strips::corners(edge).map(|at| standing(limits.placement.stored_at(at)));
+        return means(line, points);
     }
-    let (along, [b1, a1, a2, b2]) = (unit(to - from), points);
-    let distance = |point: glam::DVec3| (point - from).cross(along).length();
+    means(line, at.map(|sector| limits.placement.point[sector]))
+}
+
+/// At each end of a strip, the mean distance of its two corners from a line.
+#[inline]
+fn means([from, to]: [DVec3; 2], [b1, a1, a2, b2]: [DVec3; 4]) -> [f32; 2] {
+    let along = unit(to - from);
+    let distance = |point: DVec3| (point - from).cross(along).length();
     [(a1, a2), (b1, b2)].map(|(one, two)| ((distance(one) + distance(two)) / 2.0) as f32)
 }
 
@@ -178,15 +185,20 @@ fn counting_ends(
 /// What an edge counts for.
 struct Counted {
     length: f64,
-    /// At each end at which a width was asked for, the share of it that it got.
-    got: [Option<f64>; 2],
+    /// At each end, the share that it got of the width asked for, and whether one was.
+    got: [f64; 2],
+    counting: [bool; 2],
 }
 
-fn counted(view: &View, edge: &HardEdge, widths: [f32; 2], counting: [bool; 2]) -> Counted {
-    let [from, to] = ends(edge).map(|c| view.position_at(c));
-    let share = |end: usize| (f64::from(widths[end]) / edge.widths[end]).min(1.0);
-    let got = [0, 1].map(|end| counting[end].then(|| share(end)));
-    Counted { length: from.distance(to), got }
+fn counted(
+    edge: &HardEdge,
+    [from, to]: [DVec3; 2],
+    widths: [f32; 2],
+    counting: [bool; 2],
+) -> Counted {
+    let share = |end: usize| f64::from(widths[end]) / edge.widths[end];
+    let got = [0, 1].map(|end| if share(end) < 1.0 { share(end) } else { 1.0 });
+    Counted { length: from.distance(to), got, counting }
 }
 
 /// What is told of all edges, in the making.
@@ -199,7 +211,7 @@ struct Sum {
 
 impl Sum {
     #[inline]
-    fn add(&mut self, verdict: &EdgeVerdict, Counted { length, got }: &Counted) {
+    fn add(&mut self, verdict: &EdgeVerdict, Counted { length, got, counting }: &Counted) {
         let totals = &mut self.totals;
         totals.hard_edges += 1;
         match verdict.outcome {
@@ -207,8 +219,7 @@ impl Sum {
             Outcome::Narrowed => totals.narrowed += 1,
             Outcome::Skipped => totals.skipped[verdict.reason] += 1,
         }
-        for share in got {
-            let Some(share) = share else { continue };
+        for (share, _) in got.iter().zip(counting).filter(|(_, counts)| **counts) {
             totals.counted += length;
             self.got += length * share;
         }
@@ -301,8 +312,9 @@ mod tests {
         let edges = &stages.chamfers().edges.hard;
         for edge in edges.iter() {
             let at = strips::corners(edge).map(|corner| stages.sectors.sector_of[corner]);
-            let told = widths(&stages.view, &limits, (edge, at));
             let side = edge.sides[0];
+            let line = [side, side.next()].map(|c| stages.view.position_at(c));
+            let told = widths(&stages.view, &limits, (edge, at), line);
             let [from, to] =
                 [side, side.next()].map(|c| wide(stored[stages.view.vertex_at(c).index()]));
             let pulled = [edge.sides[0], edge.sides[1].next()].map(|corner| {

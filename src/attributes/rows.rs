@@ -70,18 +70,22 @@ impl Column {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     pub fn push(&self, vertices: &mut MeshBuffers, row: &Row) {
+        match self.stream {
+            Stream::Uv(channel) if self.width == 2 => {
+                vertices.uvs[channel].values.extend_from_slice(&row.at::<2>(self.start));
+            }
+            _ => self.push_rarer(vertices, row),
+        }
+    }
+
+    #[inline(never)]
+    fn push_rarer(&self, vertices: &mut MeshBuffers, row: &Row) {
         match self.stream {
             Stream::Tangent => vertices.tangents.push(row.at(self.start)),
             Stream::Color => vertices.colors.push(row.at(self.start)),
-            Stream::Uv(channel) => {
-                let values = &mut vertices.uvs[channel].values;
-                match self.width {
-                    2 => values.extend_from_slice(&row.at::<2>(self.start)),
-                    _ => values.extend_from_slice(row.of(self)),
-                }
-            }
+            Stream::Uv(channel) => vertices.uvs[channel].values.extend_from_slice(row.of(self)),
         }
     }
 
@@ -135,6 +139,11 @@ impl Row {
     }
 
     #[inline]
+    fn put<const WIDTH: usize>(&mut self, start: usize, values: [f32; WIDTH]) {
+        self.0[start..start + WIDTH].copy_from_slice(&values);
+    }
+
+    #[inline]
     pub fn set(&mut self, column: &Column, values: &[f32]) {
         copy_few(values, self.of_mut(column));
     }
@@ -182,22 +191,17 @@ impl Layout {
     }
 
     /// Takes UV channels from another place, and the tangent along with the first of them.
-    #[inline]
+    #[inline(always)]
     pub fn take(&self, view: &View, row: &mut Row, Taken { channels, place }: &Taken) {
-        for column in self.columns.iter().filter(|column| column.is_taken(*channels)) {
+        for column in &self.columns {
+            if !column.is_taken(*channels) {
+                continue;
+            }
             match column.stream {
-                Stream::Tangent => {
-                    row.set(column, &tangent(view, place, wide(row.at(NORMAL))));
+                Stream::Uv(channel) if column.width == 2 => {
+                    row.put(column.start, blended::<2>(view.mesh.uvs[channel].values, place));
                 }
-                Stream::Uv(channel) => {
-                    let values = view.mesh.uvs[channel].values;
-                    match column.width {
-                        2 => row.set(column, &blended::<2>(values, place)),
-                        3 => row.set(column, &blended::<3>(values, place)),
-                        _ => row.set(column, &blended::<4>(values, place)),
-                    }
-                }
-                Stream::Color => {}
+                _ => take_rarer(view, row, column, place),
             }
         }
     }
@@ -208,6 +212,23 @@ impl Layout {
             let [least, greatest] = self.color_range[k];
             blend_value(chart, colors.map(|color| color[k])).clamp(least, greatest)
         })
+    }
+}
+
+/// The same for one column, most of which are two coordinates on a texture.
+#[inline(never)]
+fn take_rarer(view: &View, row: &mut Row, column: &Column, place: &Blend) {
+    match column.stream {
+        Stream::Tangent => row.set(column, &tangent(view, place, wide(row.at(NORMAL)))),
+        Stream::Uv(channel) => {
+            let values = view.mesh.uvs[channel].values;
+            match column.width {
+                2 => row.set(column, &blended::<2>(values, place)),
+                3 => row.set(column, &blended::<3>(values, place)),
+                _ => row.set(column, &blended::<4>(values, place)),
+            }
+        }
+        Stream::Color => {}
     }
 }
 
@@ -260,13 +281,11 @@ pub fn blended<const WIDTH: usize>(values: &[f32], blend: &Blend) -> [f32; WIDTH
 /// Equal values stay equal to the bit, whatever the weights.
 #[inline]
 fn blend_value(blend: &Blend, values: [f32; 3]) -> f32 {
-    if values[0] == values[1] && values[0] == values[2] {
-        return values[0];
-    }
     let terms = [0, 1, 2].map(|k| f64::from(blend.weights[k]) * f64::from(values[k]));
     // Past a triangle with values of all sizes a blend may leave single precision.
-    let blended = terms[0] + terms[1] + terms[2];
-    blended.clamp(f32::MIN.into(), f32::MAX.into()) as f32
+    let blended = (terms[0] + terms[1] + terms[2]).clamp(f32::MIN.into(), f32::MAX.into());
+    let are_equal = values[0] == values[1] && values[0] == values[2];
+    if are_equal { values[0] } else { blended as f32 }
 }
 
 /// Equal values stay equal to the bit, whatever the weights. What has no weight has no say.

@@ -25,15 +25,18 @@ const NEARLY_NOISE: f64 = 0.99;
 pub fn noise(view: &View, topology: &Topology, hard: &[Corner], threads: &Threads) -> Vec<Corner> {
     let half_edges = || hard.iter().flat_map(|&side| [side, topology.twin[side]]);
     // Most meshes have no such end at all.
-    let may_be_noise = |side: Corner| may_be_noise(view, topology, side);
     let has_such = |edge: Edge| {
         let side = hard[edge.index()];
-        may_be_noise(side) || may_be_noise(topology.twin[side])
+        let twin = topology.twin[side];
+        let [one, beyond] = [side, side.next()].map(|corner| view.normal_at(corner));
+        let [other_beyond, other] = [twin, twin.next()].map(|corner| view.normal_at(corner));
+        are_nearly_alike(one, other) || are_nearly_alike(beyond, other_beyond)
     };
     if threads.filter(hard.len(), has_such).is_empty() {
         return Vec::new();
     }
     let end = |side: Corner| end_at(view, topology, side);
+    let may_be_noise = |side: Corner| may_be_noise(view, topology, side);
     let is_by_chance =
         |side: &Corner| may_be_noise(*side) && end(*side).is_some_and(|end| end.is_by_chance(view));
     let mut noise: Vec<Corner> = half_edges().filter(is_by_chance).collect();
@@ -54,14 +57,21 @@ pub fn noise(view: &View, topology: &Topology, hard: &[Corner], threads: &Thread
 }
 
 /// Whether the normals at the start of a half-edge are as near to each other as noise leaves them, or
-/// nearly so: most are not, and this takes no root.
+/// nearly so.
 fn may_be_noise(view: &View, topology: &Topology, side: Corner) -> bool {
     let twin = topology.twin[side];
     twin.is_some() && {
         let [one, other] = [side, twin.next()].map(|corner| view.normal_at(corner));
-        let (cosine, lengths) = (one.dot(other), one.length_squared() * other.length_squared());
-        cosine > 0.0 && cosine * cosine >= NEARLY_NOISE * lengths
+        are_nearly_alike(one, other)
     }
+}
+
+/// The same of two normals: most are not, and this takes no root.
+#[inline]
+fn are_nearly_alike(one: DVec3, other: DVec3) -> bool {
+    let cosine = one.dot(other);
+    let lengths = || one.length_squared() * other.length_squared();
+    cosine > 0.0 && cosine * cosine >= NEARLY_NOISE * lengths()
 }
 
 /// One end of an edge at which its sides have normals of their own.
