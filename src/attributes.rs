@@ -25,7 +25,7 @@ use crate::chamfers::Chamfers;
 use crate::error::Error;
 use crate::ids::{Cluster, Corner, Id, IdVec, Sector, Triangle, Vertex};
 use crate::placement::Placement;
-use crate::report::{Blend, VertexSources};
+use crate::report::Blend;
 use crate::resample::{blended_normal, parts};
 use crate::scale::Space;
 use crate::sectors::Sectors;
@@ -39,6 +39,7 @@ use crate::weld::{Weld, hash_of};
 pub use rows::Taken;
 use rows::{Layout, Row};
 pub use streams::Streams;
+use streams::Columns;
 
 /// The vertices of the result, as far as source triangles use them.
 pub struct Attributes {
@@ -82,23 +83,24 @@ pub fn attributes(
     let take = |moving: &mut Moving, notes: &mut Notes| moving.take(surface, sectors, notes);
     threads.blocks_then((count, watch), &mut moving, note, take)?;
     let Moving { movers, parted, mut vertex_at, .. } = moving;
-    let mut sources = VertexSources::with_room(vertices, count, copies);
-    let source = |vertex: Vertex, sources: &mut VertexSources| {
-        let mover = movers[vertex];
+    let add = |vertex: Vertex, columns: &mut Columns| {
+        let (source, mover) = ((space.source, &layout), movers[vertex]);
         if mover.is_none() {
-            return sources.push_kept(vertex.0);
+            return columns.push_kept(source, vertex);
         }
         let sector = sectors.sector_of[mover];
-        let (on_surface, in_chart) = blends(surface.view, placement, sector, mover);
-        sources.push_moved(on_surface, in_chart);
+        let position = placement.stored(sector).as_vec3().to_array();
+        match is_one(surface.view, placement, sector, mover) {
+            true => columns.push_moved(source, position, blend(surface.view, placement, sector)),
+            false => {
+                let blends = blends(surface.view, placement, sector, mover);
+                columns.push_moved_apart(source, position, blends);
+            }
+        }
     };
-    threads.gather((vertices, watch), &mut sources, source, VertexSources::append)?;
-    let moved = |vertex: Vertex| {
-        let mover = movers[vertex];
-        mover.is_some().then(|| placement.stored_at(mover))
-    };
-    let work = (threads, watch);
-    let mut streams = Streams::new((space.source, layout), sources, moved, copies, work)?;
+    let mut all = Columns::with_room(&space.source.mesh, count, copies);
+    threads.gather((vertices, watch), &mut all, add, Columns::append)?;
+    let mut streams = Streams::new(all, layout);
     streams.look_up(weld);
     add_parted((space, surface), placement, &parted, (&mut streams, &mut vertex_at), watch)?;
     if surface.topology.has_collapsed && has_moved.iter().any(|&has_moved| has_moved) {
@@ -310,34 +312,34 @@ fn fill(
 /// Where a vertex comes from on the surface, and in its chart, if that is something else.
 type Blends = (Blend, Option<Blend>);
 
-/// Where a corner's vertex comes from when its sector takes a share of the offset.
-#[inline(always)]
-fn blends(view: &View, placement: &Placement, sector: Sector, corner: Corner) -> Blends {
-    let offset = placement.offset(sector);
-    if !offset.is_plain {
-        return blends_of_parts(view, placement, sector, corner);
-    }
-    let surface = offset.foot.blend(view, placement.share[sector]);
-    (surface, begun_at(view, corner, (offset.foot.start, &surface)))
-}
-
-/// The same where the corners of a sector may come from different faces or charts.
-#[inline(never)]
-fn blends_of_parts(view: &View, placement: &Placement, sector: Sector, corner: Corner) -> Blends {
-    let share = placement.share[sector];
-    let in_chart = placement.chart_foot(sector, corner);
-    let surface = placement.surface_foot(sector, corner).blend(view, share);
-    let chart = in_chart.blend(view, share);
-    let chart = begun_at(view, corner, (in_chart.start, &chart)).unwrap_or(chart);
-    (surface, (chart != surface).then_some(chart))
-}
-
-/// Where a way begins at a corner's vertex itself, that is the one to begin with: none where it is so.
+/// Whether all that a corner's vertex is comes from one blend: that of its sector.
 #[inline]
-fn begun_at(view: &View, corner: Corner, (start, blend): ([f64; 2], &Blend)) -> Option<Blend> {
-    let [own, next, prev] = [view.vertex_at(corner).0, blend.vertices[1], blend.vertices[2]];
-    let is_other = own != blend.vertices[0] && start[0] == 0.0 && start[1] == 0.0;
-    is_other.then_some(Blend { vertices: [own, next, prev], ..*blend })
+fn is_one(view: &View, placement: &Placement, sector: Sector, corner: Corner) -> bool {
+    let offset = placement.offset(sector);
+    let [own, first] = [corner, offset.foot.corner].map(|at| view.vertex_at(at));
+    offset.is_plain && (own == first || offset.foot.start != [0.0, 0.0])
+}
+
+/// That blend.
+#[inline]
+fn blend(view: &View, placement: &Placement, sector: Sector) -> Blend {
+    placement.offset(sector).foot.blend(view, placement.share[sector])
+}
+
+/// Where a corner's vertex comes from when its sector takes a share of the offset.
+fn blends(view: &View, placement: &Placement, sector: Sector, corner: Corner) -> Blends {
+    let (share, offset) = (placement.share[sector], placement.offset(sector));
+    let feet = if offset.is_plain {
+        [offset.foot; 2]
+    } else {
+        [placement.surface_foot(sector, corner), placement.chart_foot(sector, corner)]
+    };
+    let [surface, mut chart] = feet.map(|foot| foot.blend(view, share));
+    // Where the way begins at the vertex itself, that is the one to begin with.
+    if feet[1].start == [0.0, 0.0] {
+        chart.vertices[0] = view.vertex_at(corner).0;
+    }
+    (surface, (chart != surface).then_some(chart))
 }
 
 /// Moves the corners of collapsed triangles along.

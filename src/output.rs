@@ -99,7 +99,7 @@ impl Made<'_> {
 
     /// A flap belongs to the face that it continues, whatever becomes of chamfers.
     fn add_flap(&mut self, Flap { joints, place }: &Flap) {
-        let space = self.space;
+        let space = &self.space;
         let [across, own, end] = joints.map(|joint| self.attributes.vertex_at[joint]);
         let cluster = self.cluster_at(joints[0]);
         let streams = &mut self.attributes.streams;
@@ -119,7 +119,7 @@ impl Made<'_> {
         parts: Parts,
         chart: Chart,
     ) {
-        let (space, joints) = (self.space, parts.joints);
+        let (source, joints) = (self.space.source, parts.joints);
         self.vertices.clear();
         self.vertices.extend(joints.iter().map(|&joint| self.attributes.vertex_at[joint]));
         chart.taking(joints.len()).for_each(|(point, taken)| {
@@ -130,7 +130,7 @@ impl Made<'_> {
                 TriangleKind::Corner => streams.find_copy(cluster, own, taken),
                 _ => None,
             };
-            let add = || streams.add_copy(space.source, cluster, own, taken);
+            let add = || streams.add_copy(source, cluster, own, taken);
             self.vertices[point] = known.unwrap_or_else(add);
         });
         if let Some(rounded) = rounded {
@@ -139,14 +139,10 @@ impl Made<'_> {
         }
         for (middle, point) in parts.middles.iter().zip(joints.len()..) {
             let (cluster, taken) = (self.cluster_at(joints[0]), chart.taken_at(point));
+            let space = &self.space;
             let at = (space.measured.stored(middle.position), space.normal_back(middle.normal));
             let streams = &mut self.attributes.streams;
-            self.vertices.push(streams.add_between(
-                space.source,
-                cluster,
-                at,
-                (middle.near, taken),
-            ));
+            self.vertices.push(streams.add_between(source, cluster, at, (middle.near, taken)));
         }
     }
 

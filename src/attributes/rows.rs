@@ -4,7 +4,7 @@ use glam::DVec3;
 use smallvec::SmallVec;
 
 use crate::math::unit;
-use crate::mesh::MeshBuffers;
+use crate::mesh::{Mesh, MeshBuffers};
 use crate::report::Blend;
 use crate::resample::{blended_normal, weighted_sum};
 use crate::tolerance::{LEAST_REST, ORTHOGONAL};
@@ -89,6 +89,56 @@ impl Column {
         }
     }
 
+    /// Appends the value of a source vertex.
+    pub fn push_source(&self, vertices: &mut MeshBuffers, (mesh, vertex): (&Mesh, u32)) {
+        match self.stream {
+            Stream::Tangent => vertices.tangents.push(mesh.tangents[vertex as usize]),
+            Stream::Color => vertices.colors.push(mesh.colors[vertex as usize]),
+            Stream::Uv(channel) => {
+                let value = &mesh.uvs[channel].values[self.range(vertex)];
+                vertices.uvs[channel].values.extend_from_slice(value);
+            }
+        }
+    }
+
+    /// Appends a blend, for a vertex with a normal.
+    #[inline(always)]
+    pub fn push_blended(
+        &self,
+        vertices: &mut MeshBuffers,
+        (view, layout): (&View, &Layout),
+        (place, normal): (&Blend, [f32; 3]),
+    ) {
+        match self.stream {
+            Stream::Uv(channel) if self.width == 2 => {
+                let value = blended::<2>(view.mesh.uvs[channel].values, place);
+                vertices.uvs[channel].values.extend_from_slice(&value);
+            }
+            _ => self.push_rarer_blended(vertices, (view, layout), (place, normal)),
+        }
+    }
+
+    #[inline(never)]
+    fn push_rarer_blended(
+        &self,
+        vertices: &mut MeshBuffers,
+        (view, layout): (&View, &Layout),
+        (place, normal): (&Blend, [f32; 3]),
+    ) {
+        match self.stream {
+            Stream::Tangent => vertices.tangents.push(tangent(view, place, wide(normal))),
+            Stream::Color => vertices.colors.push(layout.color(view, place)),
+            Stream::Uv(channel) => {
+                let (from, to) = (view.mesh.uvs[channel].values, &mut vertices.uvs[channel].values);
+                match self.width {
+                    2 => to.extend_from_slice(&blended::<2>(from, place)),
+                    3 => to.extend_from_slice(&blended::<3>(from, place)),
+                    _ => to.extend_from_slice(&blended::<4>(from, place)),
+                }
+            }
+        }
+    }
+
     /// Appends the value of an earlier vertex.
     pub fn push_again(&self, vertices: &mut MeshBuffers, of: u32) {
         match self.stream {
@@ -160,13 +210,20 @@ const FIRST_RARER: usize = 6;
 pub struct Layout {
     /// But for positions and normals.
     pub columns: SmallVec<[Column; 12]>,
+    /// The UV channel that is the only of these, if that has two coordinates.
+    pub only_texture: Option<usize>,
     /// Per colour component, the least and the greatest value that a blend may have.
     color_range: [[f32; 2]; 4],
 }
 
 impl Layout {
     pub fn new(view: &View) -> Layout {
-        Layout { columns: columns(view), color_range: color_range(view.mesh.colors) }
+        let columns = columns(view);
+        let only_texture = match columns[..] {
+            [Column { stream: Stream::Uv(channel), width: 2, .. }] => Some(channel),
+            _ => None,
+        };
+        Layout { columns, only_texture, color_range: color_range(view.mesh.colors) }
     }
 
     /// Whether two rows are equal in every stream.
@@ -281,11 +338,13 @@ pub fn blended<const WIDTH: usize>(values: &[f32], blend: &Blend) -> [f32; WIDTH
 /// Equal values stay equal to the bit, whatever the weights.
 #[inline]
 fn blend_value(blend: &Blend, values: [f32; 3]) -> f32 {
+    if values[0] == values[1] && values[0] == values[2] {
+        return values[0];
+    }
     let terms = [0, 1, 2].map(|k| f64::from(blend.weights[k]) * f64::from(values[k]));
     // Past a triangle with values of all sizes a blend may leave single precision.
-    let blended = (terms[0] + terms[1] + terms[2]).clamp(f32::MIN.into(), f32::MAX.into());
-    let are_equal = values[0] == values[1] && values[0] == values[2];
-    if are_equal { values[0] } else { blended as f32 }
+    let blended = terms[0] + terms[1] + terms[2];
+    blended.clamp(f32::MIN.into(), f32::MAX.into()) as f32
 }
 
 /// Equal values stay equal to the bit, whatever the weights. What has no weight has no say.

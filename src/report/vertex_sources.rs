@@ -167,26 +167,6 @@ impl VertexSources {
         self.continuing.push(Continuing { own, owner, owner_channels: channels.into() });
     }
 
-    /// What a vertex has for the surface; none where it is one of the source as it was, or continues another
-    /// chart.
-    #[inline]
-    pub(crate) fn surface_of(&self, vertex: usize) -> Option<&Blend> {
-        match *self.own.get(vertex.checked_sub(self.kept as usize)?)? {
-            Own::Kept(_) => None,
-            Own::One(blend) | Own::Two(blend) => Some(&self.blends[blend as usize]),
-        }
-    }
-
-    /// The same for the chart.
-    #[inline]
-    pub(crate) fn chart_of(&self, vertex: usize) -> Option<&Blend> {
-        match *self.own.get(vertex.checked_sub(self.kept as usize)?)? {
-            Own::Kept(_) => None,
-            Own::One(blend) => Some(&self.blends[blend as usize]),
-            Own::Two(first) => Some(&self.blends[first as usize + 1]),
-        }
-    }
-
     /// Which vertices were appended as just such a copy.
     pub(crate) fn copies(
         &self,
