@@ -54,6 +54,7 @@ impl Streams {
     }
 
     /// What was appended as a vertex of a cluster like another one, but for what it takes from another chart.
+    #[inline(never)]
     pub fn find_copy(&self, cluster: Cluster, of: u32, taken: &Taken) -> Option<u32> {
         let list = self.index.list_at(cluster, self.vertices.positions[of as usize]);
         let copies = self.sources.copies(of as usize, taken.place, taken.channels);
@@ -61,11 +62,20 @@ impl Streams {
     }
 
     /// A vertex of a cluster like another one, but for what it takes from another chart.
+    #[inline]
     pub fn add_copy(&mut self, view: &View, cluster: Cluster, of: u32, taken: &Taken) -> u32 {
-        if let Some(channel) = self.layout.only_texture.filter(|&only| taken.channels == 1 << only) {
-            let values = view.mesh.uvs[channel].values;
-            return self.add_copy_on_texture((channel, values), cluster, of, taken);
+        match self.layout.only_texture {
+            Some(channel) if taken.channels == 1 << channel => {
+                let values = view.mesh.uvs[channel].values;
+                self.add_copy_on_texture((channel, values), cluster, of, taken)
+            }
+            _ => self.add_copy_of_all(view, cluster, of, taken),
         }
+    }
+
+    /// The same whatever streams the mesh has.
+    #[inline(never)]
+    fn add_copy_of_all(&mut self, view: &View, cluster: Cluster, of: u32, taken: &Taken) -> u32 {
         let own = of as usize;
         let (position, normal) = (self.vertices.positions[own], self.vertices.normals[own]);
         let list = self.index.list_at(cluster, position);
@@ -98,13 +108,18 @@ impl Streams {
         let [u, v] = blended::<2>(values, &taken.place);
         let vertices = &self.vertices;
         let (position, normal) = (vertices.positions[of as usize], vertices.normals[of as usize]);
-        let (normals, uvs) = (&vertices.normals[..], vertices.uvs[channel].values.as_chunks().0);
+        let (positions, normals) = (&vertices.positions[..], &vertices.normals[..]);
+        let uvs = vertices.uvs[channel].values.as_chunks().0;
         let list = self.index.list_at(cluster, position);
+        // Nearly all lie elsewhere on the texture: that is what tells most soon.
         let is_equal = |at: u32| {
             let [other_u, other_v] = uvs[at as usize];
-            u == other_u && v == other_v && is_same(normal, normals[at as usize])
+            u == other_u
+                && v == other_v
+                && is_same(position, positions[at as usize])
+                && is_same(normal, normals[at as usize])
         };
-        if let Some(equal) = self.find_at(list, position, is_equal) {
+        if let Some(equal) = self.index.find(list, is_equal) {
             return equal;
         }
         self.vertices.positions.push(position);

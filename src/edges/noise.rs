@@ -2,8 +2,7 @@
 
 use glam::DVec3;
 
-use crate::ids::{Cluster, Corner, Edge, Id};
-use crate::threads::Threads;
+use crate::ids::{Cluster, Corner};
 use crate::tolerance::{CHORD_TURN, NOISE, NOISE_SHARE};
 use crate::topology::Topology;
 use crate::view::View;
@@ -22,23 +21,10 @@ const NEARLY_NOISE: f64 = 0.99;
 /// ```
 ///
 /// Where another edge is sharp or flat, what differs beside it is its end.
-pub fn noise(view: &View, topology: &Topology, hard: &[Corner], threads: &Threads) -> Vec<Corner> {
+pub fn noise(view: &View, topology: &Topology, hard: &[Corner]) -> Vec<Corner> {
     let half_edges = || hard.iter().flat_map(|&side| [side, topology.twin[side]]);
-    // Most meshes have no such end at all.
-    let has_such = |edge: Edge| {
-        let side = hard[edge.index()];
-        let twin = topology.twin[side];
-        let [one, beyond] = [side, side.next()].map(|corner| view.normal_at(corner));
-        let [other_beyond, other] = [twin, twin.next()].map(|corner| view.normal_at(corner));
-        are_nearly_alike(one, other) || are_nearly_alike(beyond, other_beyond)
-    };
-    if threads.filter(hard.len(), has_such).is_empty() {
-        return Vec::new();
-    }
     let end = |side: Corner| end_at(view, topology, side);
-    let may_be_noise = |side: Corner| may_be_noise(view, topology, side);
-    let is_by_chance =
-        |side: &Corner| may_be_noise(*side) && end(*side).is_some_and(|end| end.is_by_chance(view));
+    let is_by_chance = |side: &Corner| end(*side).is_some_and(|end| end.is_by_chance(view));
     let mut noise: Vec<Corner> = half_edges().filter(is_by_chance).collect();
     if noise.is_empty() {
         return noise;
@@ -56,17 +42,37 @@ pub fn noise(view: &View, topology: &Topology, hard: &[Corner], threads: &Thread
     noise
 }
 
-/// Whether the normals at the start of a half-edge are as near to each other as noise leaves them, or
-/// nearly so.
-fn may_be_noise(view: &View, topology: &Topology, side: Corner) -> bool {
-    let twin = topology.twin[side];
-    twin.is_some() && {
-        let [one, other] = [side, twin.next()].map(|corner| view.normal_at(corner));
-        are_nearly_alike(one, other)
-    }
+/// How the normals of the two sides of an edge differ at its ends.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Ends {
+    /// Not at all.
+    Soft,
+    /// By more than noise at one end, or at both.
+    Hard,
+    /// At one end at least by no more than noise, or little more.
+    MayBeNoise,
 }
 
-/// The same of two normals: most are not, and this takes no root.
+/// The same of two half-edges that are twins.
+#[inline]
+pub fn ends(view: &View, [side, twin]: [Corner; 2]) -> Ends {
+    let end = |one: Corner, other: Corner| {
+        let vertices = [one, other].map(|corner| view.vertex_at(corner));
+        if vertices[0] == vertices[1] {
+            return Ends::Soft;
+        }
+        let [one, other] = vertices.map(|vertex| view.normal(vertex));
+        match view.normals_differ([one, other]) {
+            false => Ends::Soft,
+            true if are_nearly_alike(one, other) => Ends::MayBeNoise,
+            true => Ends::Hard,
+        }
+    };
+    end(side, twin.next()).max(end(side.next(), twin))
+}
+
+/// Whether two normals are as near to each other as noise leaves them, or nearly so: most are not, and this
+/// takes no root.
 #[inline]
 fn are_nearly_alike(one: DVec3, other: DVec3) -> bool {
     let cosine = one.dot(other);
