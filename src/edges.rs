@@ -195,7 +195,8 @@ fn spanned(
         let mut others = [side.next(), side.prev()].into_iter();
         faces.is_line(side.triangle()) && others.all(|other| length(other) < length(*side))
     };
-    let ends = topology.twin.ids().filter(|&side| chamfered_at[side].is_some());
+    let lines = faces.lender.ids().filter(|&triangle| faces.is_line(triangle));
+    let ends = lines.flat_map(Triangle::corners).filter(|&side| chamfered_at[side].is_some());
     let mut spanned: Vec<Corner> = ends.filter(is_long).map(Corner::prev).collect();
     let mut done = 0;
     while done < spanned.len() {

@@ -128,9 +128,11 @@ pub fn sectors(
     };
     each(edges.hard.len(), watch, |edge: Edge| {
         let edge = &edges.hard[edge];
-        for side in edge.sides.into_iter().filter(|_| edge.skipped.is_none()) {
-            add_fan(topology, edges, &mut sectors, side);
-            add_fan(topology, edges, &mut sectors, side.next());
+        if edge.skipped.is_none() {
+            let [one, two] = edge.sides;
+            for corner in [one, one.next(), two, two.next()] {
+                add_fan(topology, edges, &mut sectors, corner);
+            }
         }
     })?;
     for parted in &edges.parted {
@@ -177,13 +179,9 @@ fn add_follower(topology: &Topology, edges: &Edges, sectors: &mut Sectors, hidde
 /// Adds the fan that the corner lies in, if it is not there yet.
 #[inline(always)]
 fn add_fan(topology: &Topology, edges: &Edges, sectors: &mut Sectors, corner: Corner) {
-    if sectors.sector_of[corner].is_none() {
-        add_new_fan(topology, edges, sectors, corner);
+    if sectors.sector_of[corner].is_some() {
+        return;
     }
-}
-
-#[inline(never)]
-fn add_new_fan(topology: &Topology, edges: &Edges, sectors: &mut Sectors, corner: Corner) {
     let mut first = corner;
     while !edges.parts_at_start(first) && topology.twin[first].is_some() {
         first = topology.twin[first].next();

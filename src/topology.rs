@@ -133,11 +133,11 @@ impl Spoke {
 }
 
 fn join_all(view: &View, joined: &mut Topology, watch: &dyn Watch) -> Result<(), Error> {
-    let (starts, mut spokes) = buckets(view, joined, watch)?;
+    let (ends, mut spokes) = buckets(view, joined, watch)?;
     joined.has_collapsed = spokes.len() < view.corner_count();
-    let mut crowds = Vec::new();
+    let (mut crowds, mut start) = (Vec::new(), 0);
     each(joined.clusters, watch, |near: Cluster| {
-        let [mut start, end] = [0, 1].map(|k| starts[near.index() + k] as usize);
+        let end = ends[near.index()] as usize;
         spokes[start..end].sort_unstable();
         let mut bucket = &spokes[start..end];
         while let Some(&first) = bucket.first() {
@@ -199,7 +199,7 @@ impl Parts {
     }
 }
 
-/// All half-edges, sorted by the lower of their two clusters (counting sort).
+/// All half-edges, sorted by the lower of their two clusters (counting sort), and where those of each end.
 fn buckets(
     view: &View,
     joined: &Topology,
@@ -212,29 +212,28 @@ fn buckets(
         let is_whole = a != b && b != c && c != a;
         is_whole.then(|| [(a, b), (b, c), (c, a)].map(|(from, to)| [from.min(to), from.max(to)]))
     };
-    let mut starts = vec![0_u32; joined.clusters + 1];
+    let mut ends = vec![0_u32; joined.clusters];
     each(triangles, watch, |triangle| {
         let Some(sides) = sides(triangle) else { return };
         for [near, _] in sides {
-            starts[near.index()] += 1;
+            ends[near.index()] += 1;
         }
     })?;
     let mut total = 0;
-    for start in &mut starts {
-        total += *start;
-        *start = total;
+    for end in &mut ends {
+        total += std::mem::replace(end, total);
     }
-    // Filled from the back of each bucket: afterwards every start is where its bucket begins.
+    // Filled from where each bucket begins: afterwards that is where it ends.
     let mut spokes = vec![Spoke(0); total as usize];
     each(triangles, watch, |triangle| {
         let Some(sides) = sides(triangle) else { return };
         for (half_edge, [near, far]) in triangle.corners().into_iter().zip(sides) {
-            let start = &mut starts[near.index()];
-            *start -= 1;
-            spokes[*start as usize] = Spoke::new(far, half_edge);
+            let end = &mut ends[near.index()];
+            spokes[*end as usize] = Spoke::new(far, half_edge);
+            *end += 1;
         }
     })?;
-    Ok((starts, spokes))
+    Ok((ends, spokes))
 }
 
 /// Whether as many half-edges of an edge run forth as run back.
