@@ -96,7 +96,8 @@ fn ends(place: [f32; 3], near: f32) -> [[f32; 3]; 2] {
 
 /// The cells from the lowest to the highest of a place.
 fn cells([low, high]: [[f32; 3]; 2]) -> impl Iterator<Item = [f32; 3]> {
-    let is_other = move |k: &usize| (0..3).all(|axis| k >> axis & 1 == 0 || low[axis] != high[axis]);
+    let is_other =
+        move |k: &usize| (0..3).all(|axis| k >> axis & 1 == 0 || low[axis] != high[axis]);
     let corners = (0..8).filter(is_other);
     corners.map(move |k| [0, 1, 2].map(|axis| [low, high][k >> axis & 1][axis]))
 }
@@ -198,8 +199,7 @@ mod tests {
             let at = [step as f32 / 8192.0 - 0.25, 0.3, step as f32 / -1024.0];
             let others = [at.map(|k| k + near), [at[0] + near, at[1], at[2] - near]];
             for other in others {
-                let mut shared =
-                    cells_of(at).filter(|cell| cells_of(other).any(|c| c == *cell));
+                let mut shared = cells_of(at).filter(|cell| cells_of(other).any(|c| c == *cell));
                 assert!(shared.next().is_some(), "{at:?} {other:?}");
             }
         }

@@ -38,8 +38,8 @@ use crate::weld::{Weld, hash_of};
 
 pub use rows::Taken;
 use rows::{Layout, Row};
-pub use streams::Streams;
 use streams::Columns;
+pub use streams::Streams;
 
 /// The vertices of the result, as far as source triangles use them.
 pub struct Attributes {
@@ -85,17 +85,9 @@ pub fn attributes(
     let Moving { movers, parted, mut vertex_at, .. } = moving;
     let add = |vertex: Vertex, columns: &mut Columns| {
         let (source, mover) = ((space.source, &layout), movers[vertex]);
-        if mover.is_none() {
-            return columns.push_kept(source, vertex);
-        }
-        let sector = sectors.sector_of[mover];
-        let position = placement.stored(sector).as_vec3().to_array();
-        match is_one(surface.view, placement, sector, mover) {
-            true => columns.push_moved(source, position, blend(surface.view, placement, sector)),
-            false => {
-                let blends = blends(surface.view, placement, sector, mover);
-                columns.push_moved_apart(source, position, blends);
-            }
+        match mover.is_none() {
+            true => columns.push_kept(source, vertex),
+            false => add_moved(source, (surface.view, sectors), (placement, mover), columns),
         }
     };
     let mut all = Columns::with_room(&space.source.mesh, count, copies);
@@ -266,6 +258,25 @@ impl Notes {
                     || !same_chart(view, other, own_vertex))
         };
         (0..own).find(is_twin)
+    }
+}
+
+/// Adds a source vertex where a corner moves it.
+#[inline(always)]
+fn add_moved(
+    source: (&View, &Layout),
+    (view, sectors): (&View, &Sectors),
+    (placement, mover): (&Placement, Corner),
+    columns: &mut Columns,
+) {
+    let sector = sectors.sector_of[mover];
+    let position = placement.stored(sector).as_vec3().to_array();
+    match is_one(view, placement, sector, mover) {
+        true => columns.push_moved(source, position, blend(view, placement, sector)),
+        false => {
+            let blends = blends(view, placement, sector, mover);
+            columns.push_moved_apart(source, position, blends);
+        }
     }
 }
 

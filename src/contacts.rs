@@ -195,12 +195,14 @@ fn borders(topology: &Topology, faces: &Faces, watch: &dyn Watch) -> Result<Vec<
         let normal = faces.normal[triangle];
         for corner in triangle.corners() {
             let twin = topology.twin[corner];
+            // Where two faces lie back to back, a sheet of two sides ends, as open as any border.
+            let is_rim = || normal.dot(faces.normal[twin.triangle()]) < BACK_TO_BACK_COSINE;
             if twin.is_none() {
-                borders.extend(is_open(topology, &beside, corner).then_some(corner));
-            } else if corner < twin {
-                // Where two faces lie back to back, a sheet of two sides ends, as open as any border.
-                let cosine = normal.dot(faces.normal[twin.triangle()]);
-                rims.extend((cosine < BACK_TO_BACK_COSINE).then_some(corner));
+                if is_open(topology, &beside, corner) {
+                    borders.push(corner);
+                }
+            } else if corner < twin && is_rim() {
+                rims.push(corner);
             }
         }
     })?;

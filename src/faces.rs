@@ -97,7 +97,8 @@ fn measures(view: &View, triangle: Triangle) -> (DVec3, f64) {
     let points = view.triangle(triangle);
     let [a, b, c] = points;
     let longer = |one: f64, other: f64| if one > other { one } else { other };
-    let longest = longer(a.distance_squared(b), longer(b.distance_squared(c), c.distance_squared(a)));
+    let longest =
+        longer(a.distance_squared(b), longer(b.distance_squared(c), c.distance_squared(a)));
     (area_vector(points), longest.sqrt())
 }
 

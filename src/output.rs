@@ -122,17 +122,20 @@ impl Made<'_> {
         let (source, joints) = (self.space.source, parts.joints);
         self.vertices.clear();
         self.vertices.extend(joints.iter().map(|&joint| self.attributes.vertex_at[joint]));
-        chart.taking(joints.len()).for_each(|(point, taken)| {
-            let (cluster, own) = (self.cluster_at(joints[point]), self.vertices[point]);
-            let streams = &mut self.attributes.streams;
-            // A fill often takes what a strip beside it has taken.
-            let known = match kind {
-                TriangleKind::Corner => streams.find_copy(cluster, own, taken),
-                _ => None,
-            };
-            let add = || streams.add_copy(source, cluster, own, taken);
-            self.vertices[point] = known.unwrap_or_else(add);
-        });
+        for taken_in_turn in chart.in_turn() {
+            for (point, taken) in taken_in_turn {
+                let Some(&joint) = joints.get(*point as usize) else { continue };
+                let (cluster, own) = (self.cluster_at(joint), self.vertices[*point as usize]);
+                let streams = &mut self.attributes.streams;
+                // A fill often takes what a strip beside it has taken.
+                let known = match kind {
+                    TriangleKind::Corner => streams.find_copy(cluster, own, taken),
+                    _ => None,
+                };
+                let add = || streams.add_copy(source, cluster, own, taken);
+                self.vertices[*point as usize] = known.unwrap_or_else(add);
+            }
+        }
         if let Some(rounded) = rounded {
             self.find_rounded(rounded, (parts, chart));
             return;

@@ -393,7 +393,11 @@ pub fn blended_normal(view: &View, blend: &Blend) -> DVec3 {
 pub fn stored_normal(view: &View, blend: &Blend) -> [f32; 3] {
     let [a, b, c] = blend.vertices.map(|vertex| view.mesh.normals[vertex as usize]);
     // Most faces are flat: nothing is to be blended.
-    if is_same(a, b) && is_same(a, c) { a } else { blended_normal(view, blend).as_vec3().to_array() }
+    if is_same(a, b) && is_same(a, c) {
+        a
+    } else {
+        blended_normal(view, blend).as_vec3().to_array()
+    }
 }
 
 /// Whether two vectors are equal, without a loop.

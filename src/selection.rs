@@ -87,7 +87,8 @@ impl Selection<'_> {
 
     /// Whether no edge is asked for more or less wide than others, but by its angle.
     fn has_no_factors(&self) -> bool {
-        let masks = [self.submesh_ends.len(), self.listed.len(), self.view.mesh.factors.vertices.len()];
+        let masks =
+            [self.submesh_ends.len(), self.listed.len(), self.view.mesh.factors.vertices.len()];
         masks == [0; 3]
     }
 

@@ -81,7 +81,8 @@ impl Streams {
         let list = self.index.list_at(cluster, position);
         self.row.stand(position, normal);
         self.layout.take(view, &mut self.row, taken);
-        if let Some(equal) = self.find_at(list, position, |at| self.is_copy(at, of, taken.channels)) {
+        if let Some(equal) = self.find_at(list, position, |at| self.is_copy(at, of, taken.channels))
+        {
             return equal;
         }
         self.vertices.positions.push(position);
@@ -301,12 +302,7 @@ impl Columns {
 
     /// Appends a vertex that has moved, all of whose values are those of one blend, just as in a [`Row`].
     #[inline]
-    pub fn push_moved(
-        &mut self,
-        source: (&View, &Layout),
-        position: [f32; 3],
-        blend: Blend,
-    ) {
+    pub fn push_moved(&mut self, source: (&View, &Layout), position: [f32; 3], blend: Blend) {
         self.push_blended(source, position, [&blend; 2]);
         self.sources.push_moved(blend, None);
     }
