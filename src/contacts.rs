@@ -25,7 +25,7 @@ use crate::threads::Threads;
 use crate::tolerance::{BACK_TO_BACK_COSINE, TOUCHING, TOUCHING_STEPS};
 use crate::topology::{Topology, topology};
 use crate::view::{View, view, wide};
-use crate::watch::{Unwatched, Watch, collect, each, sort};
+use crate::watch::{Times, Unwatched, Watch, collect, each, sort};
 use crate::weld::weld;
 
 use crowds::{Crowds, Search, crowds};
@@ -191,7 +191,7 @@ pub fn border_lines(mesh: &Mesh) -> Vec<[DVec3; 2]> {
 fn borders(topology: &Topology, faces: &Faces, watch: &dyn Watch) -> Result<Vec<Corner>, Error> {
     let beside = beside_hidden(topology);
     let (mut borders, mut rims) = (Vec::new(), Vec::new());
-    each(faces.normal.len(), watch, |triangle: Triangle| {
+    each(faces.normal.len(), &Times(3, watch), |triangle: Triangle| {
         let normal = faces.normal[triangle];
         for corner in triangle.corners() {
             let twin = topology.twin[corner];

@@ -373,7 +373,7 @@ mod tests {
     use crate::shapes;
     use crate::stages::stages_of;
 
-    // What moves within its own index is made stream by stream, and what is parted as a row.
+    // What moves within its own index is blended right into the streams, and what is parted as a row.
     #[test]
     fn streams_hold_what_rows_would() {
         for (name, mesh) in shapes::demo_models() {

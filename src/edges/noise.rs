@@ -24,7 +24,10 @@ const NEARLY_NOISE: f64 = 0.99;
 pub fn noise(view: &View, topology: &Topology, hard: &[Corner]) -> Vec<Corner> {
     let half_edges = || hard.iter().flat_map(|&side| [side, topology.twin[side]]);
     let end = |side: Corner| end_at(view, topology, side);
-    let is_by_chance = |side: &Corner| end(*side).is_some_and(|end| end.is_by_chance(view));
+    let is_by_chance = |side: &Corner| {
+        let normals = [*side, topology.twin[*side].next()].map(|corner| view.normal_at(corner));
+        are_nearly_alike(normals) && end(*side).is_some_and(|end| end.is_by_chance(view))
+    };
     let mut noise: Vec<Corner> = half_edges().filter(is_by_chance).collect();
     if noise.is_empty() {
         return noise;
@@ -64,7 +67,7 @@ pub fn ends(view: &View, [side, twin]: [Corner; 2]) -> Ends {
         let [one, other] = vertices.map(|vertex| view.normal(vertex));
         match view.normals_differ([one, other]) {
             false => Ends::Soft,
-            true if are_nearly_alike(one, other) => Ends::MayBeNoise,
+            true if are_nearly_alike([one, other]) => Ends::MayBeNoise,
             true => Ends::Hard,
         }
     };
@@ -74,7 +77,7 @@ pub fn ends(view: &View, [side, twin]: [Corner; 2]) -> Ends {
 /// Whether two normals are as near to each other as noise leaves them, or nearly so: most are not, and this
 /// takes no root.
 #[inline]
-fn are_nearly_alike(one: DVec3, other: DVec3) -> bool {
+fn are_nearly_alike([one, other]: [DVec3; 2]) -> bool {
     let cosine = one.dot(other);
     let lengths = || one.length_squared() * other.length_squared();
     cosine > 0.0 && cosine * cosine >= NEARLY_NOISE * lengths()
