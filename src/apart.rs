@@ -10,6 +10,7 @@ use crate::ids::{Id, IdVec, Ring, Sector, Vertex};
 use crate::mesh::Mesh;
 use crate::placement::Placement;
 use crate::ranks::{Ranks, stepped, steps};
+use crate::resample::is_same;
 use crate::sectors::Sectors;
 use crate::surface::Surface;
 use crate::watch::{Watch, collect, each, sort, stretches};
@@ -38,13 +39,18 @@ pub fn apart(
     watch: &dyn Watch,
 ) -> Result<Option<Ranks>, Error> {
     let near = surface.view.resolution as f32;
+    let nearly_touching = sharing_cells(sectors, placement, near, watch)?;
+    if nearly_touching.is_empty() {
+        return Ok(None);
+    }
     let cluster = |sector: Sector| surface.topology.cluster_at[sectors.fans[sector].first].0;
     let is_open = open_rings(sectors, watch)?;
     let skin = |sector: Sector| {
         let ring = sectors.fans[sector].ring;
         if is_open[ring] { sectors.rings.len() as u32 + cluster(sector) } else { ring.0 }
     };
-    if !may_touch(sectors, placement, &skin, near, watch)? {
+    let skin_of = |ring: Ring| skin(sectors.ring(ring)[0]);
+    if nearly_touching.iter().all(|&[one, other]| skin_of(one) == skin_of(other)) {
         return Ok(None);
     }
     if segments == 1 && !has_met(placement, &skin, near, watch)? {
@@ -81,38 +87,45 @@ fn base(placement: &Placement, sector: Sector) -> [f32; 3] {
 /// counts as near: most vertices reach into no other one then, and few share theirs.
 const CELL: f32 = 61.0;
 
-/// The cells into which what is near a place reaches.
-fn cells(place: [f32; 3], near: f32) -> impl Iterator<Item = [f32; 3]> {
+/// The cells into which what is near a place reaches, from the lowest to the highest: mostly one.
+fn ends(place: [f32; 3], near: f32) -> [[f32; 3]; 2] {
     let share = 1.0 / (CELL * near);
-    let cell = |at: f32| (at * share) as i32 as f32;
     // Twice as far, for rounding.
-    let ends = place.map(|at| [cell(at - 2.0 * near), cell(at + 2.0 * near)]);
-    let is_one = ends.iter().all(|[low, high]| low == high);
-    let is_other =
-        move |k: usize| (0..3).all(|axis| k >> axis & 1 == 0 || ends[axis][0] != ends[axis][1]);
-    let corners = (0..if is_one { 1 } else { 8 }).filter(move |&k| is_one || is_other(k));
-    corners.map(move |k| [0, 1, 2].map(|axis| ends[axis][k >> axis & 1]))
+    [-2.0, 2.0].map(|far| place.map(|at| ((at + far * near) * share) as i32 as f32))
 }
 
-/// Whether some of different skins are in one cell before they move. In most meshes none are, and so
-/// none are near each other.
-fn may_touch(
+/// The cells from the lowest to the highest of a place.
+fn cells([low, high]: [[f32; 3]; 2]) -> impl Iterator<Item = [f32; 3]> {
+    let is_other =
+        move |k: &usize| (0..3).all(|axis| k >> axis & 1 == 0 || low[axis] != high[axis]);
+    let corners = (0..8).filter(is_other);
+    corners.map(move |k| [0, 1, 2].map(|axis| [low, high][k >> axis & 1][axis]))
+}
+
+/// Rings that share a cell before they move. In most meshes none do, and so none are near each other.
+fn sharing_cells(
     sectors: &Sectors,
     placement: &Placement,
-    skin: &dyn Fn(Sector) -> u32,
     near: f32,
     watch: &dyn Watch,
-) -> Result<bool, Error> {
-    let (mut places, mut skins) = (Vec::with_capacity(sectors.rings.len()), Vec::new());
+) -> Result<Vec<[Ring; 2]>, Error> {
+    let (mut places, mut rings) = (Vec::with_capacity(sectors.rings.len()), Vec::new());
     each(sectors.rings.len(), watch, |ring: Ring| {
-        let first = sectors.ring(ring)[0];
-        places.extend(cells(base(placement, first), near));
-        skins.resize(places.len(), skin(first));
+        let ends = ends(base(placement, sectors.ring(ring)[0]), near);
+        if is_same(ends[0], ends[1]) {
+            places.push(ends[0]);
+        } else {
+            places.extend(cells(ends));
+        }
+        rings.resize(places.len(), ring);
     })?;
     let Weld { cluster_of, first_vertex } =
         weld(&Mesh { positions: &places, ..Mesh::default() }, watch)?;
-    let is_shared = |k: usize| skins[first_vertex[cluster_of[Vertex::new(k)]].index()] != skins[k];
-    Ok((0..skins.len()).any(is_shared))
+    if first_vertex.len() == places.len() {
+        return Ok(Vec::new());
+    }
+    let pair = |k: usize| [rings[first_vertex[cluster_of[Vertex::new(k)]].index()], rings[k]];
+    Ok((0..rings.len()).map(pair).filter(|[one, other]| one != other).collect())
 }
 
 /// Whether some of different skins that have moved have met, of those that were near each other before.
@@ -181,15 +194,15 @@ mod tests {
     #[test]
     fn what_is_near_shares_a_cell() {
         let near = 1.0 / 4096.0;
+        let cells_of = |at: [f32; 3]| cells(ends(at, near));
         for step in 0..4000 {
             let at = [step as f32 / 8192.0 - 0.25, 0.3, step as f32 / -1024.0];
             let others = [at.map(|k| k + near), [at[0] + near, at[1], at[2] - near]];
             for other in others {
-                let mut shared =
-                    cells(at, near).filter(|cell| cells(other, near).any(|c| c == *cell));
+                let mut shared = cells_of(at).filter(|cell| cells_of(other).any(|c| c == *cell));
                 assert!(shared.next().is_some(), "{at:?} {other:?}");
             }
         }
-        assert!(cells([0.3; 3], near).all(|cell| cells([0.4; 3], near).all(|c| c != cell)));
+        assert!(cells_of([0.3; 3]).all(|cell| cells_of([0.4; 3]).all(|c| c != cell)));
     }
 }

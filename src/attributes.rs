@@ -25,7 +25,7 @@ use crate::chamfers::Chamfers;
 use crate::error::Error;
 use crate::ids::{Cluster, Corner, Id, IdVec, Sector, Triangle, Vertex};
 use crate::placement::Placement;
-use crate::report::{Blend, VertexSources};
+use crate::report::Blend;
 use crate::resample::{blended_normal, parts};
 use crate::scale::Space;
 use crate::sectors::Sectors;
@@ -38,6 +38,7 @@ use crate::weld::{Weld, hash_of};
 
 pub use rows::Taken;
 use rows::{Layout, Row};
+use streams::Columns;
 pub use streams::Streams;
 
 /// The vertices of the result, as far as source triangles use them.
@@ -69,7 +70,6 @@ pub fn attributes(
     let mut moving = Moving {
         taken: staying(surface, sectors, &has_moved, watch)?,
         movers: IdVec::filled(Corner::NONE, vertices),
-        sources: VertexSources::with_room(vertices, count, copies),
         parted: Vec::new(),
         vertex_at: IdVec::from_vec(vertex_at),
     };
@@ -82,16 +82,20 @@ pub fn attributes(
     };
     let take = |moving: &mut Moving, notes: &mut Notes| moving.take(surface, sectors, notes);
     threads.blocks_then((count, watch), &mut moving, note, take)?;
-    let Moving { movers, sources, parted, mut vertex_at, .. } = moving;
-    let moved = |vertex: Vertex| {
-        let mover = movers[vertex];
-        mover.is_some().then(|| placement.stored_at(mover))
+    let Moving { movers, parted, mut vertex_at, .. } = moving;
+    let add = |vertex: Vertex, columns: &mut Columns| {
+        let (source, mover) = ((space.source, &layout), movers[vertex]);
+        match mover.is_none() {
+            true => columns.push_kept(source, vertex),
+            false => add_moved(source, (surface.view, sectors), (placement, mover), columns),
+        }
     };
-    let work = (threads, watch);
-    let mut streams = Streams::new((space.source, layout), sources, moved, copies, work)?;
+    let mut all = Columns::with_room(&space.source.mesh, count, copies);
+    threads.gather((vertices, watch), &mut all, add, Columns::append)?;
+    let mut streams = Streams::new(all, layout);
     streams.look_up(weld);
     add_parted((space, surface), placement, &parted, (&mut streams, &mut vertex_at), watch)?;
-    if has_moved.iter().any(|&has_moved| has_moved) {
+    if surface.topology.has_collapsed && has_moved.iter().any(|&has_moved| has_moved) {
         close_collapsed(surface.view, surface.topology, &mut vertex_at);
     }
     Ok(Attributes { streams, vertex_at })
@@ -125,7 +129,6 @@ struct Moving {
     taken: IdVec<Vertex, bool>,
     /// `#vertices`: a corner of the sector that moves a source vertex; none where it stays.
     movers: IdVec<Vertex, Corner>,
-    sources: VertexSources,
     parted: Vec<Parted>,
     /// As in the [`Attributes`].
     vertex_at: IdVec<Corner, u32>,
@@ -135,34 +138,32 @@ impl Moving {
     /// Gives each vertex that moves its new place: in its own index if that is free; else it is parted, and
     /// past the source vertices its number among those parted stands for it.
     fn take(&mut self, surface: Surface, sectors: &Sectors, notes: &mut Notes) {
-        let sources = self.taken.len() as u32;
         for place in 0..notes.moved.len() {
-            let (before, own) = notes.moved.split_at_mut(place);
-            let own = &mut own[0];
-            own.output = match before.get(own.twin as usize) {
-                Some(twin) => twin.output,
-                None if self.taken[own.vertex] => {
-                    self.parted.push((own.sector, own.corner));
-                    sources + self.parted.len() as u32 - 1
-                }
-                None => {
-                    self.taken[own.vertex] = true;
-                    self.movers[own.vertex] = own.corner;
-                    let [on_surface, in_chart] = own.blends;
-                    self.sources.set(own.vertex.index(), on_surface, in_chart);
-                    continue;
-                }
-            };
+            let own = &notes.moved[place];
+            if own.twin == NONE && !self.taken[own.vertex] {
+                self.taken[own.vertex] = true;
+                self.movers[own.vertex] = own.corner;
+                continue;
+            }
+            let twin = notes.moved.get(own.twin as usize);
+            let output = twin.map_or_else(|| self.part(own), |twin| twin.output);
             if own.is_alone {
                 let corners = sectors.corners(surface.topology, own.sector);
-                corners.for_each(|corner| self.vertex_at[corner] = own.output);
+                corners.for_each(|corner| self.vertex_at[corner] = output);
             }
+            notes.moved[place].output = output;
         }
         for &(corner, moved) in &notes.corners {
             self.vertex_at[corner] = notes.moved[moved as usize].output;
         }
         notes.moved.clear();
         notes.corners.clear();
+    }
+
+    /// Parts a vertex, and tells what stands for it.
+    fn part(&mut self, own: &Moved) -> u32 {
+        self.parted.push((own.sector, own.corner));
+        (self.taken.len() + self.parted.len() - 1) as u32
     }
 }
 
@@ -186,7 +187,6 @@ struct Moved {
     part: u32,
     /// Whether all corners of the sector have it, in one part.
     is_alone: bool,
-    blends: [Blend; 2],
     /// The place of one that it has become equal to, or none.
     twin: u32,
     /// What stands for it in the result, once that is known.
@@ -203,9 +203,7 @@ impl Notes {
     ) {
         let moved = |corner: Corner, part: u32, is_alone: bool| {
             let vertex = surface.view.vertex_at(corner);
-            let blends = blends(surface.view, placement, sector, corner);
-            let (twin, output) = (NONE, vertex.0);
-            Moved { sector, corner, vertex, part, is_alone, blends, twin, output }
+            Moved { sector, corner, vertex, part, is_alone, twin: NONE, output: vertex.0 }
         };
         if placement.offset(sector).is_plain {
             return self.moved.push(moved(sectors.fans[sector].first, 0, true));
@@ -222,17 +220,24 @@ impl Notes {
             }
         }
         if self.moved.len() - first > 1 {
-            self.find_twins(space, placement, layout, first);
+            self.find_twins((space, surface), placement, layout, first);
         }
     }
 
     /// Tells which vertices of a sector, noted from the first place on, have become equal.
-    fn find_twins(&mut self, space: Space, placement: &Placement, layout: &Layout, first: usize) {
+    fn find_twins(
+        &mut self,
+        (space, surface): (Space, Surface),
+        placement: &Placement,
+        layout: &Layout,
+        first: usize,
+    ) {
         let moved = &self.moved[first..];
         self.rows.clear();
         self.rows.resize(moved.len(), Row::EMPTY);
         for (row, moved) in self.rows.iter_mut().zip(moved) {
-            fill(space, placement, layout, (moved.sector, moved.blends), row);
+            let blends = blends(surface.view, placement, moved.sector, moved.corner);
+            fill(space, placement, layout, (moved.sector, blends), row);
         }
         for own in 1..moved.len() {
             let twin = self.twin_of(space.source, layout, (first, own));
@@ -253,6 +258,25 @@ impl Notes {
                     || !same_chart(view, other, own_vertex))
         };
         (0..own).find(is_twin)
+    }
+}
+
+/// Adds a source vertex where a corner moves it.
+#[inline(always)]
+fn add_moved(
+    source: (&View, &Layout),
+    (view, sectors): (&View, &Sectors),
+    (placement, mover): (&Placement, Corner),
+    columns: &mut Columns,
+) {
+    let sector = sectors.sector_of[mover];
+    let position = placement.stored(sector).as_vec3().to_array();
+    match is_one(view, placement, sector, mover) {
+        true => columns.push_moved(source, position, blend(view, placement, sector)),
+        false => {
+            let blends = blends(view, placement, sector, mover);
+            columns.push_moved_apart(source, position, blends);
+        }
     }
 }
 
@@ -288,33 +312,45 @@ fn fill(
     space: Space,
     placement: &Placement,
     layout: &Layout,
-    (sector, [surface, chart]): (Sector, [Blend; 2]),
+    (sector, (surface, chart)): (Sector, Blends),
     row: &mut Row,
 ) {
     let normal = blended_normal(space.source, &surface);
     let place = (placement.stored(sector), normal);
-    layout.blend(space.source, place, &chart, row);
+    layout.blend(space.source, place, &chart.unwrap_or(surface), row);
 }
 
-/// Where a corner's vertex comes from when its sector takes a share of the offset: on the surface,
-/// and in its chart.
-fn blends(view: &View, placement: &Placement, sector: Sector, corner: Corner) -> [Blend; 2] {
-    let share = placement.share[sector];
+/// Where a vertex comes from on the surface, and in its chart, if that is something else.
+type Blends = (Blend, Option<Blend>);
+
+/// Whether all that a corner's vertex is comes from one blend: that of its sector.
+#[inline]
+fn is_one(view: &View, placement: &Placement, sector: Sector, corner: Corner) -> bool {
     let offset = placement.offset(sector);
-    let (surface, mut chart, start);
-    if offset.is_plain {
-        surface = offset.foot.blend(view, share);
-        (chart, start) = (surface, offset.foot.start);
+    let [own, first] = [corner, offset.foot.corner].map(|at| view.vertex_at(at));
+    offset.is_plain && (own == first || offset.foot.start != [0.0, 0.0])
+}
+
+/// That blend.
+#[inline]
+fn blend(view: &View, placement: &Placement, sector: Sector) -> Blend {
+    placement.offset(sector).foot.blend(view, placement.share[sector])
+}
+
+/// Where a corner's vertex comes from when its sector takes a share of the offset.
+fn blends(view: &View, placement: &Placement, sector: Sector, corner: Corner) -> Blends {
+    let (share, offset) = (placement.share[sector], placement.offset(sector));
+    let feet = if offset.is_plain {
+        [offset.foot; 2]
     } else {
-        let in_chart = placement.chart_foot(sector, corner);
-        surface = placement.surface_foot(sector, corner).blend(view, share);
-        (chart, start) = (in_chart.blend(view, share), in_chart.start);
-    }
+        [placement.surface_foot(sector, corner), placement.chart_foot(sector, corner)]
+    };
+    let [surface, mut chart] = feet.map(|foot| foot.blend(view, share));
     // Where the way begins at the vertex itself, that is the one to begin with.
-    if start == [0.0, 0.0] {
+    if feet[1].start == [0.0, 0.0] {
         chart.vertices[0] = view.vertex_at(corner).0;
     }
-    [surface, chart]
+    (surface, (chart != surface).then_some(chart))
 }
 
 /// Moves the corners of collapsed triangles along.
@@ -379,7 +415,7 @@ const LONG: u32 = 16;
 /// The output vertices of each cluster.
 #[derive(Default)]
 pub struct Index {
-    /// `#clusters + 1`: the first list of each, and the end.
+    /// `#clusters + 1`: the first list of each, and the end. Nothing where each has one.
     lists_of: IdVec<Cluster, u32>,
     /// `#lists`: the vertex that each begins with.
     first: Vec<u32>,
@@ -391,7 +427,7 @@ impl Index {
     /// Lists the source vertices, where they stand now.
     pub fn of_source(weld: &Weld, positions: &[[f32; 3]]) -> Index {
         let lists_of = lists_of(weld);
-        let lists = lists_of.iter().last().map_or(0, |&end| end as usize);
+        let lists = lists_of.iter().last().map_or(weld.first_vertex.len(), |&end| end as usize);
         let mut index = Index { lists_of, first: vec![NONE; lists], next: Vec::new() };
         index.next.resize(weld.cluster_of.len(), NONE);
         // From the last to the first: each list begins with its first vertex.
@@ -403,7 +439,11 @@ impl Index {
     }
 
     /// The list of a cluster for what stands at a position.
+    #[inline]
     pub fn list_at(&self, cluster: Cluster, position: [f32; 3]) -> usize {
+        if self.lists_of.len() == 0 {
+            return cluster.index();
+        }
         let [start, end] = [cluster, Cluster(cluster.0 + 1)].map(|cluster| self.lists_of[cluster]);
         match end - start {
             1 => start as usize,
@@ -412,6 +452,7 @@ impl Index {
     }
 
     /// A vertex of a list that is such.
+    #[inline]
     pub fn find(&self, list: usize, is_such: impl Fn(u32) -> bool) -> Option<u32> {
         let mut listed = self.first[list];
         while listed != NONE && !is_such(listed) {
@@ -421,6 +462,7 @@ impl Index {
     }
 
     /// The same, of those that were added since there were so many vertices: they come first.
+    #[inline]
     pub fn find_since(
         &self,
         first: usize,
@@ -438,6 +480,7 @@ impl Index {
     }
 
     /// Puts the next new vertex at the head of a list, and tells its number.
+    #[inline]
     pub fn add(&mut self, list: usize) -> u32 {
         let vertex = self.next.len() as u32;
         self.next.push(std::mem::replace(&mut self.first[list], vertex));
@@ -445,11 +488,15 @@ impl Index {
     }
 }
 
-/// `#clusters + 1`: a power of two of lists for each.
+/// `#clusters + 1`: a power of two of lists for each. Nothing where none has so many vertices that it needs
+/// more than one.
 fn lists_of(weld: &Weld) -> IdVec<Cluster, u32> {
     let mut lists_of = IdVec::filled(0, weld.first_vertex.len() + 1);
     for cluster in weld.cluster_of.iter() {
         lists_of[*cluster] += 1;
+    }
+    if lists_of.iter().all(|&vertices| vertices < 2 * LONG) {
+        return IdVec::default();
     }
     let mut end = 0;
     for lists in lists_of.iter_mut() {

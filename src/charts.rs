@@ -76,12 +76,11 @@ impl Chart<'_> {
         self.taken.iter().find(|(at, _)| *at as usize == point).map(|(_, taken)| taken)
     }
 
-    /// The joints, of so many, that take something from another chart, in turn.
-    pub fn taking(&self, joints: usize) -> impl Iterator<Item = (usize, &Taken)> {
+    /// What points take from another chart, in turn: from the one that begins on, and then up to it.
+    pub fn in_turn(&self) -> [&[TakenAt]; 2] {
         let first = self.taken.iter().position(|(at, _)| *at as usize >= self.begin);
-        let first = first.unwrap_or(self.taken.len());
-        let in_turn = self.taken[first..].iter().chain(&self.taken[..first]);
-        in_turn.map(|(at, taken)| (*at as usize, taken)).filter(move |(at, _)| *at < joints)
+        let (before, after) = self.taken.split_at(first.unwrap_or(self.taken.len()));
+        [after, before]
     }
 }
 

@@ -15,7 +15,7 @@ use glam::DVec3;
 use crate::bvh::{Aabb, Kin, Rod, Target, Tree};
 use crate::error::Error;
 use crate::faces::{Faces, faces};
-use crate::ids::{Corner, Few};
+use crate::ids::{Corner, Few, Triangle};
 use crate::lines::Lines;
 use crate::math::unit;
 use crate::memory;
@@ -25,7 +25,7 @@ use crate::threads::Threads;
 use crate::tolerance::{BACK_TO_BACK_COSINE, TOUCHING, TOUCHING_STEPS};
 use crate::topology::{Topology, topology};
 use crate::view::{View, view, wide};
-use crate::watch::{Unwatched, Watch, collect, each, sort};
+use crate::watch::{Times, Unwatched, Watch, collect, each, sort};
 use crate::weld::weld;
 
 use crowds::{Crowds, Search, crowds};
@@ -190,31 +190,30 @@ pub fn border_lines(mesh: &Mesh) -> Vec<[DVec3; 2]> {
 /// The half-edges at which a mesh is open: first those without twin, then where sheets end.
 fn borders(topology: &Topology, faces: &Faces, watch: &dyn Watch) -> Result<Vec<Corner>, Error> {
     let beside = beside_hidden(topology);
-    let mut borders = Vec::new();
-    each(topology.twin.len(), watch, |corner| {
-        borders.extend(is_open_border(topology, &beside, corner).then_some(corner));
+    let (mut borders, mut rims) = (Vec::new(), Vec::new());
+    each(faces.normal.len(), &Times(3, watch), |triangle: Triangle| {
+        let normal = faces.normal[triangle];
+        for corner in triangle.corners() {
+            let twin = topology.twin[corner];
+            // Where two faces lie back to back, a sheet of two sides ends, as open as any border.
+            let is_rim = || normal.dot(faces.normal[twin.triangle()]) < BACK_TO_BACK_COSINE;
+            if twin.is_none() {
+                if is_open(topology, &beside, corner) {
+                    borders.push(corner);
+                }
+            } else if corner < twin && is_rim() {
+                rims.push(corner);
+            }
+        }
     })?;
-    each(topology.twin.len(), watch, |corner| {
-        borders.extend(is_sheet_rim(topology, faces, corner).then_some(corner));
-    })?;
+    borders.append(&mut rims);
     Ok(borders)
 }
 
-/// Whether the two faces of an edge lie back to back, of which each edge is told once: where a sheet of
-/// two sides ends, as open as any border.
-fn is_sheet_rim(topology: &Topology, faces: &Faces, corner: Corner) -> bool {
-    let twin = topology.twin[corner];
-    twin.is_some() && corner < twin && {
-        let [one, two] = [corner, twin].map(|side| faces.normal[side.triangle()]);
-        one.dot(two) < BACK_TO_BACK_COSINE
-    }
-}
-
-/// Whether a half-edge has no twin, but for those of hidden faces: these follow what they lie behind,
-/// and so do those beside them.
-fn is_open_border(topology: &Topology, beside: &[Corner], corner: Corner) -> bool {
-    topology.twin[corner].is_none()
-        && !topology.is_collapsed(corner.triangle())
+/// Whether a half-edge without twin is open, but for those of hidden faces: these follow what they lie
+/// behind, and so do those beside them.
+fn is_open(topology: &Topology, beside: &[Corner], corner: Corner) -> bool {
+    !topology.is_collapsed(corner.triangle())
         && !topology.is_hidden(corner)
         && beside.binary_search(&corner).is_err()
 }

@@ -3,13 +3,15 @@
 mod noise;
 mod parted;
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use glam::DVec3;
 
-use crate::breaks::{is_hard, seam_between};
+use crate::breaks::uvs_differ;
 use crate::contacts::{ASKED, Contacts};
 use crate::error::Error;
 use crate::faces::{Faces, is_blurred, long_side};
-use crate::ids::{Corner, Edge, Id, IdVec, Triangle, Vertex};
+use crate::ids::{Corner, Edge, Few, Id, IdVec, Triangle, Vertex};
 use crate::mesh::UV_CHANNELS;
 use crate::report::Reason;
 use crate::selection::Selection;
@@ -20,6 +22,7 @@ use crate::view::View;
 use crate::watch::{Times, Watch};
 use crate::weld::Weld;
 
+use noise::Ends;
 pub use parted::{Parted, parted};
 
 /// A hard edge with two sides.
@@ -115,21 +118,34 @@ pub fn edges(
     selection: &Selection,
     (threads, watch): (&Threads, &dyn Watch),
 ) -> Result<Edges, Error> {
+    let may_be_noise = AtomicBool::new(false);
     let mut sides = threads.filter_watched(view.corner_count(), watch, |corner: Corner| {
         let twin = topology.twin[corner];
-        twin.is_some() && corner < twin && is_hard(view, corner, twin)
+        let ends = (twin.is_some() && corner < twin).then(|| noise::ends(view, [corner, twin]));
+        // Most meshes have no such end at all.
+        if ends == Some(Ends::MayBeNoise) {
+            may_be_noise.store(true, Ordering::Relaxed);
+        }
+        ends.is_some_and(|ends| ends != Ends::Soft)
     })?;
-    let noise = noise::noise(view, topology, &sides, threads);
-    watch.worked(sides.len())?;
-    if !noise.is_empty() {
-        sides.retain(|&side| !is_noise(view, &noise, [side, topology.twin[side]]));
+    if may_be_noise.into_inner() {
+        let noise = noise::noise(view, topology, &sides);
+        watch.worked(sides.len())?;
+        if !noise.is_empty() {
+            sides.retain(|&side| !is_noise(view, &noise, [side, topology.twin[side]]));
+        }
     }
     let ends = |&side: &Corner| [side, side.next()].map(|corner| view.position_at(corner));
+    let channels: Few<usize> = channels(view).collect();
     let near = contacts.near(&sides, |side| (ends(side), 0.0), watch)?;
     let hard = threads.map(sides.len(), &Times(ASKED, watch), |edge: Edge| {
         let side = sides[edge.index()];
         let is_held = || near.may_hold(edge.index()) && contacts.holds(view, topology, faces, side);
-        hard_edge(view, (topology, faces), selection, [side, topology.twin[side]], is_held)
+        let sides = [side, topology.twin[side]];
+        HardEdge {
+            seams: seams_in(channels.iter().copied(), view, sides),
+            ..hard_edge(view, (topology, faces), selection, sides, is_held)
+        }
     })?;
     watch.worked(view.corner_count())?;
     let mut chamfered_at = IdVec::filled(Edge::NONE, view.corner_count());
@@ -151,7 +167,7 @@ fn is_noise(view: &View, noise: &[Corner], sides: [Corner; 2]) -> bool {
     is_soft_at(side, other) && is_soft_at(other, side)
 }
 
-/// What is asked of the edge between two half-edges, and why it is not chamfered if so.
+/// What is asked of the edge between two half-edges, and why it is not chamfered if so; but for its seams.
 fn hard_edge(
     view: &View,
     (topology, faces): (&Topology, &Faces),
@@ -163,8 +179,7 @@ fn hard_edge(
     let skipped = obstacle(view, topology, faces, sides)
         .or(widths.is_none().then_some(Reason::NotSelected))
         .or_else(|| is_held().then_some(Reason::Contact));
-    let seams = seam_channels(view, sides[0], sides[1]);
-    HardEdge { sides, skipped, seams, widths: widths.unwrap_or_default() }
+    HardEdge { sides, skipped, seams: 0, widths: widths.unwrap_or_default() }
 }
 
 /// The corners across from the long sides of lines that reach such a side to a chamfered edge.
@@ -180,7 +195,8 @@ fn spanned(
         let mut others = [side.next(), side.prev()].into_iter();
         faces.is_line(side.triangle()) && others.all(|other| length(other) < length(*side))
     };
-    let ends = topology.twin.ids().filter(|&side| chamfered_at[side].is_some());
+    let lines = faces.lender.ids().filter(|&triangle| faces.is_line(triangle));
+    let ends = lines.flat_map(Triangle::corners).filter(|&side| chamfered_at[side].is_some());
     let mut spanned: Vec<Corner> = ends.filter(is_long).map(Corner::prev).collect();
     let mut done = 0;
     while done < spanned.len() {
@@ -224,14 +240,25 @@ fn obstacle(
     topology.is_contact(side).then_some(Reason::Contact)
 }
 
+/// The UV channels that a mesh has.
+fn channels(view: &View) -> impl Iterator<Item = usize> {
+    (0..UV_CHANNELS).filter(|&channel| view.mesh.uvs[channel].components > 0)
+}
+
 /// The UV channels that differ between two half-edges that are twins, as bits.
 pub fn seam_channels(view: &View, side: Corner, other: Corner) -> u8 {
-    let pairs = [(side, other.next()), (side.next(), other)];
-    let differs = |channel: &usize| {
-        pairs.into_iter().any(|(one, other)| seam_between(view, *channel, one, other))
-    };
-    let present = (0..UV_CHANNELS).filter(|&channel| view.mesh.uvs[channel].components > 0);
-    present.filter(differs).fold(0, |channels, channel| channels | 1 << channel)
+    seams_in(channels(view), view, [side, other])
+}
+
+/// The same of some channels.
+#[inline]
+fn seams_in(channels: impl Iterator<Item = usize>, view: &View, [side, other]: [Corner; 2]) -> u8 {
+    let pairs = [[side, other.next()], [side.next(), other]]
+        .map(|pair| pair.map(|corner| view.vertex_at(corner)));
+    channels.fold(0, |seams, channel| {
+        let is_seam = pairs.iter().any(|&pair| uvs_differ(&view.mesh.uvs[channel], pair));
+        seams | u8::from(is_seam) << channel
+    })
 }
 
 #[cfg(test)]

@@ -95,8 +95,11 @@ pub fn long_side(view: &View, line: Triangle) -> Option<Corner> {
 /// A triangle's area vector, and its longest side.
 fn measures(view: &View, triangle: Triangle) -> (DVec3, f64) {
     let points = view.triangle(triangle);
-    let longest = (0..3).map(|k| points[k].distance(points[(k + 1) % 3])).fold(0.0, f64::max);
-    (area_vector(points), longest)
+    let [a, b, c] = points;
+    let longer = |one: f64, other: f64| if one > other { one } else { other };
+    let longest =
+        longer(a.distance_squared(b), longer(b.distance_squared(c), c.distance_squared(a)));
+    (area_vector(points), longest.sqrt())
 }
 
 /// The half-edge behind a line's longest soft side that has a face with a normal.

@@ -43,7 +43,7 @@ impl Foot {
     #[inline(always)]
     pub fn blend(&self, view: &View, share: f64) -> Blend {
         let [to_next, to_prev] = [0, 1].map(|k| self.start[k] + self.along[k] * share);
-        if to_next.abs().max(to_prev.abs()) > MOST_WEIGHT {
+        if to_next.abs() > MOST_WEIGHT || to_prev.abs() > MOST_WEIGHT {
             return Blend::one(view.vertex_at(self.corner).0);
         }
         let corners = [self.corner, self.corner.next(), self.corner.prev()];

@@ -93,16 +93,13 @@ impl Made<'_> {
         let rounded = self.rounding.and_then(|rounding| rounding.of(patch));
         self.find_vertices((source.kind, rounded), parts, chart);
         let submesh = self.submeshes.of_new(chart.face);
-        let part = &mut self.submeshes.parts[submesh];
-        for triangle in rounded.map_or(parts.triangles, |rounded| rounded.triangles) {
-            let vertices = triangle.map(|place| self.vertices[place as usize]);
-            part.add(vertices, source);
-        }
+        let triangles = rounded.map_or(parts.triangles, |rounded| rounded.triangles);
+        self.submeshes.parts[submesh].add_patch(triangles, &self.vertices, source);
     }
 
     /// A flap belongs to the face that it continues, whatever becomes of chamfers.
     fn add_flap(&mut self, Flap { joints, place }: &Flap) {
-        let space = self.space;
+        let space = &self.space;
         let [across, own, end] = joints.map(|joint| self.attributes.vertex_at[joint]);
         let cluster = self.cluster_at(joints[0]);
         let streams = &mut self.attributes.streams;
@@ -122,17 +119,22 @@ impl Made<'_> {
         parts: Parts,
         chart: Chart,
     ) {
-        let (space, joints) = (self.space, parts.joints);
+        let (source, joints) = (self.space.source, parts.joints);
         self.vertices.clear();
         self.vertices.extend(joints.iter().map(|&joint| self.attributes.vertex_at[joint]));
-        for (point, taken) in chart.taking(joints.len()) {
-            let (cluster, own) = (self.cluster_at(joints[point]), self.vertices[point]);
-            let streams = &mut self.attributes.streams;
-            // A fill often takes what a strip beside it has taken.
-            self.vertices[point] = match kind {
-                TriangleKind::Corner => streams.find_or_add_copy(space.source, cluster, own, taken),
-                _ => streams.add_copy(space.source, cluster, own, taken),
-            };
+        for taken_in_turn in chart.in_turn() {
+            for (point, taken) in taken_in_turn {
+                let Some(&joint) = joints.get(*point as usize) else { continue };
+                let (cluster, own) = (self.cluster_at(joint), self.vertices[*point as usize]);
+                let streams = &mut self.attributes.streams;
+                // A fill often takes what a strip beside it has taken.
+                let known = match kind {
+                    TriangleKind::Corner => streams.find_copy(cluster, own, taken),
+                    _ => None,
+                };
+                let add = || streams.add_copy(source, cluster, own, taken);
+                self.vertices[*point as usize] = known.unwrap_or_else(add);
+            }
         }
         if let Some(rounded) = rounded {
             self.find_rounded(rounded, (parts, chart));
@@ -140,14 +142,10 @@ impl Made<'_> {
         }
         for (middle, point) in parts.middles.iter().zip(joints.len()..) {
             let (cluster, taken) = (self.cluster_at(joints[0]), chart.taken_at(point));
+            let space = &self.space;
             let at = (space.measured.stored(middle.position), space.normal_back(middle.normal));
             let streams = &mut self.attributes.streams;
-            self.vertices.push(streams.add_between(
-                space.source,
-                cluster,
-                at,
-                (middle.near, taken),
-            ));
+            self.vertices.push(streams.add_between(source, cluster, at, (middle.near, taken)));
         }
     }
 
@@ -219,6 +217,13 @@ impl Part {
         self.indices.extend_from_slice(&vertices);
         self.sources.push(source);
     }
+
+    /// Adds triangles over some vertices, by their places among these.
+    fn add_patch(&mut self, triangles: &[[u32; 3]], vertices: &[u32], source: TriangleSource) {
+        let places = triangles.as_flattened().iter();
+        self.indices.extend(places.map(|&place| vertices[place as usize]));
+        self.sources.extend(std::iter::repeat_n(source, triangles.len()));
+    }
 }
 
 /// All triangles, one submesh after the other.
@@ -263,6 +268,9 @@ impl Submeshes {
     }
 
     fn of_source_triangle(&self, triangle: Triangle) -> usize {
+        if let [_, _] = self.starts[..] {
+            return 0;
+        }
         self.starts.partition_point(|&start| start <= triangle.0) - 1
     }
 

@@ -88,12 +88,18 @@ impl<'a> Placement<'a> {
     }
 
     /// Where the sector's vertices are stored, before they are rounded.
-    #[inline]
+    #[inline(always)]
     pub fn stored(&self, sector: Sector) -> DVec3 {
-        let view = self.surface.view;
-        if view.stored.is_none() && self.apart.is_none() {
+        if self.surface.view.stored.is_none() && self.apart.is_none() {
             return self.point[sector];
         }
+        self.stored_elsewhere(sector)
+    }
+
+    /// The same where that is not where they are measured, or they are told apart.
+    #[inline(never)]
+    fn stored_elsewhere(&self, sector: Sector) -> DVec3 {
+        let view = self.surface.view;
         let vertex = view.vertex_at(self.sectors.fans[sector].first);
         let stored = view.stored_from(vertex, self.point[sector]);
         let Some(apart) = self.apart else { return stored };

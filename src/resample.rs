@@ -388,6 +388,24 @@ pub fn blended_normal(view: &View, blend: &Blend) -> DVec3 {
     if mixed == DVec3::ZERO { normals[0] } else { unit(mixed) }
 }
 
+/// The same in single precision, where the mesh is the one that is stored.
+#[inline]
+pub fn stored_normal(view: &View, blend: &Blend) -> [f32; 3] {
+    let [a, b, c] = blend.vertices.map(|vertex| view.mesh.normals[vertex as usize]);
+    // Most faces are flat: nothing is to be blended.
+    if is_same(a, b) && is_same(a, c) {
+        a
+    } else {
+        blended_normal(view, blend).as_vec3().to_array()
+    }
+}
+
+/// Whether two vectors are equal, without a loop.
+#[inline]
+pub fn is_same([x, y, z]: [f32; 3], [other_x, other_y, other_z]: [f32; 3]) -> bool {
+    x == other_x && y == other_y && z == other_z
+}
+
 pub fn weighted_sum(blend: &Blend, values: [DVec3; 3]) -> DVec3 {
     let [a, b, c] = blend.weights.map(f64::from);
     values[0] * a + values[1] * b + values[2] * c

@@ -119,7 +119,8 @@ pub fn sectors(
 ) -> Result<Sectors, Error> {
     let mut sectors = Sectors {
         sector_of: IdVec::filled(Sector::NONE, topology.twin.len()),
-        fans: IdVec::default(),
+        // Where an edge ends among others, its sides have theirs in common with these.
+        fans: IdVec::from_vec(Vec::with_capacity(2 * edges.hard.len())),
         rings: IdVec::default(),
         followers: Vec::new(),
         spanned: Vec::new(),
@@ -127,9 +128,11 @@ pub fn sectors(
     };
     each(edges.hard.len(), watch, |edge: Edge| {
         let edge = &edges.hard[edge];
-        for side in edge.sides.into_iter().filter(|_| edge.skipped.is_none()) {
-            add_fan(topology, edges, &mut sectors, side);
-            add_fan(topology, edges, &mut sectors, side.next());
+        if edge.skipped.is_none() {
+            let [one, two] = edge.sides;
+            for corner in [one, one.next(), two, two.next()] {
+                add_fan(topology, edges, &mut sectors, corner);
+            }
         }
     })?;
     for parted in &edges.parted {
@@ -174,6 +177,7 @@ fn add_follower(topology: &Topology, edges: &Edges, sectors: &mut Sectors, hidde
 }
 
 /// Adds the fan that the corner lies in, if it is not there yet.
+#[inline(always)]
 fn add_fan(topology: &Topology, edges: &Edges, sectors: &mut Sectors, corner: Corner) {
     if sectors.sector_of[corner].is_some() {
         return;
@@ -265,16 +269,22 @@ fn mark_soft_breaks(
 
 fn join_rings(topology: &Topology, sectors: &mut Sectors, watch: &dyn Watch) -> Result<(), Error> {
     let count = sectors.fans.len();
+    let mut has_borders = false;
     each(count, watch, |sector: Sector| {
-        let across = topology.twin[sectors.fans[sector].last.prev()];
+        let fan = &mut sectors.fans[sector];
+        has_borders |= fan.starts_at_border;
+        let across = topology.twin[fan.last.prev()];
         if across.is_some() {
-            sectors.fans[sector].next = sectors.sector_of[across];
+            fan.next = sectors.sector_of[across];
         }
     })?;
     // Open rings first, from their borders; whatever is left then is closed.
     for starts_at_border in [true, false] {
+        if starts_at_border && !has_borders {
+            continue;
+        }
         each(count, watch, |sector: Sector| {
-            let fan = sectors.fans[sector];
+            let fan = &sectors.fans[sector];
             if fan.ring.is_none() && (fan.starts_at_border || !starts_at_border) {
                 add_ring(sectors, sector);
             }
@@ -331,10 +341,14 @@ fn add_ring(sectors: &mut Sectors, first: Sector) {
     let ring = Ring::new(sectors.rings.len());
     let start = sectors.members.len() as u32;
     let mut sector = first;
-    while sector.is_some() && sectors.fans[sector].ring.is_none() {
-        sectors.fans[sector].ring = ring;
+    while sector.is_some() {
+        let fan = &mut sectors.fans[sector];
+        if fan.ring.is_some() {
+            break;
+        }
+        fan.ring = ring;
         sectors.members.push(sector);
-        sector = sectors.fans[sector].next;
+        sector = fan.next;
     }
     let closed = sector.is_some();
     sectors.rings.push(RingRange { start, end: sectors.members.len() as u32, closed });

@@ -75,11 +75,21 @@ impl Selection<'_> {
         if !self.takes_angle(one.dot(two)) || !self.takes_turn(sides[0], one.cross(two)) {
             return None;
         }
+        let width = self.view.width * self.times(one, two);
+        if self.has_no_factors() {
+            return Some([width; 2]);
+        }
         let factor = self.submesh_factor(sides) * self.listed_factor(topology, sides[0])?;
         let ends = self.masked(sides).map(|mask| mask * factor);
         let widest = ends[0].max(ends[1]);
-        let width = self.view.width * self.times(one, two);
         (widest > 0.0).then(|| ends.map(|end| width * end.max(widest * LEAST_TAPER)))
+    }
+
+    /// Whether no edge is asked for more or less wide than others, but by its angle.
+    fn has_no_factors(&self) -> bool {
+        let masks =
+            [self.submesh_ends.len(), self.listed.len(), self.view.mesh.factors.vertices.len()];
+        masks == [0; 3]
     }
 
     fn takes_angle(&self, cosine: f64) -> bool {

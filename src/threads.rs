@@ -100,19 +100,6 @@ impl Threads {
     }
 
     /// Appends the value for each of so many ids.
-    ///
-    /// # Errors
-    /// What `watch` gives.
-    pub fn extend<I: Id + Send, T: Send>(
-        &self,
-        values: &mut Vec<T>,
-        count: usize,
-        watch: &dyn Watch,
-        value: impl Fn(I) -> T + Sync + Send,
-    ) -> Result<(), Error> {
-        self.extend_with(values, count, watch, || (), |(), id| value(id))
-    }
-
     fn extend_with<I: Id + Send, T: Send, S>(
         &self,
         values: &mut Vec<T>,

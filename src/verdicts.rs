@@ -1,5 +1,7 @@
 //! Verdicts: what became of each hard edge, measured on the result.
 
+use glam::DVec3;
+
 use crate::chamfers::Chamfers;
 use crate::edges::HardEdge;
 use crate::error::Error;
@@ -28,18 +30,24 @@ pub fn verdicts(
 ) -> Result<(Vec<EdgeVerdict>, Totals), Error> {
     let Chamfers { edges, sectors } = chamfers;
     let told = &mut Told { verdicts: Vec::with_capacity(edges.hard.len()), sum: Sum::default() };
-    let note = |_: &Told, edge: Edge, notes: &mut Vec<Judged>| {
+    let note = |_: &Told, edge: Edge, notes: &mut Notes| {
         let is_open = !patches.triangles(Patch(edge.0)).is_empty();
         let segments = if is_open { segments(rounding, edge) } else { 0 };
         let edge = &edges.hard[edge];
         let at = strips::corners(edge).map(|corner| sectors.sector_of[corner]);
-        let verdict = verdict(view, (sectors, at), limits, (edge, is_open));
-        let counting = counting_ends(limits, at, &verdict);
-        notes.push(judged(view, edge, EdgeVerdict { segments, ..verdict }, counting));
+        let vertices = [edge.sides[0], edge.sides[0].next()].map(|end| view.vertex_at(end));
+        let line = vertices.map(|vertex| view.position(vertex));
+        let (outcome, reason, widths) = outcome(view, (sectors, at), limits, (edge, line, is_open));
+        let counting = counting_ends(limits, at, (outcome, reason));
+        notes.counted.push(counted(edge, line, widths, counting));
+        let vertices = vertices.map(|vertex| vertex.0);
+        notes.verdicts.push(EdgeVerdict { vertices, outcome, reason, widths, segments });
     };
     threads.blocks_then((edges.hard.len(), watch), told, note, |told, notes| {
-        notes.iter().for_each(|judged| told.sum.add(judged));
-        told.verdicts.extend(notes.drain(..).map(|judged| judged.verdict));
+        let verdicts = notes.verdicts.iter().zip(&notes.counted);
+        verdicts.for_each(|(verdict, counted)| told.sum.add(verdict, counted));
+        told.verdicts.append(&mut notes.verdicts);
+        notes.counted.clear();
     })?;
     Ok((std::mem::take(&mut told.verdicts), told.sum.totals()))
 }
@@ -50,33 +58,31 @@ struct Told {
     sum: Sum,
 }
 
-/// The sectors at an edge stand in the order of [`strips::corners`].
-fn verdict(
+/// The same of some edges, of each of which it is told what it counts for.
+#[derive(Default)]
+struct Notes {
+    verdicts: Vec<EdgeVerdict>,
+    counted: Vec<Counted>,
+}
+
+/// What became of an edge from one place to another, why, and how wide it is at its ends. The sectors at it
+/// stand in the order of [`strips::corners`].
+fn outcome(
     view: &View,
     (sectors, at): (&Sectors, [Sector; 4]),
     limits: &Limits,
-    (edge, is_open): (&HardEdge, bool),
-) -> EdgeVerdict {
-    let ends = [edge.sides[0], edge.sides[0].next()];
-    let left = |reason| (Outcome::Skipped, reason, [0.0; 2]);
-    let (outcome, reason, widths) = match edge.skipped {
-        Some(reason) => left(reason),
-        None => {
-            let reason = worst_reason(limits, at);
-            if !is_open {
-                let is_fine = edge.widest() <= view.resolution;
-                let reason = if is_fine { Some(Reason::TooFine) } else { reason };
-                let reason = reason.unwrap_or(unopened(sectors, at));
-                let is_turned = reason == Reason::Folds && faces_away(view, edge);
-                left(if is_turned { Reason::Winding } else { reason })
-            } else {
-                let outcome = if reason.is_some() { Outcome::Narrowed } else { Outcome::Full };
-                (outcome, reason.unwrap_or(Reason::None), widths(view, limits, (edge, at)))
-            }
-        }
-    };
-    let vertices = ends.map(|end| view.vertex_at(end).0);
-    EdgeVerdict { vertices, outcome, reason, widths, segments: 0 }
+    (edge, line, is_open): (&HardEdge, [DVec3; 2], bool),
+) -> (Outcome, Reason, [f32; 2]) {
+    if let Some(reason) = edge.skipped {
+        return (Outcome::Skipped, reason, [0.0; 2]);
+    }
+    let reason = worst_reason(limits, at);
+    if !is_open {
+        let reason = unopened(view, (sectors, at), (edge, reason));
+        return (Outcome::Skipped, reason, [0.0; 2]);
+    }
+    let outcome = if reason.is_some() { Outcome::Narrowed } else { Outcome::Full };
+    (outcome, reason.unwrap_or(Reason::None), widths(view, limits, (edge, at), line))
 }
 
 /// The least that an end has: one that does not open has no fewer than the other.
@@ -95,12 +101,19 @@ fn faces_away(view: &View, edge: &HardEdge) -> bool {
     })
 }
 
-/// Why an edge did not open though nothing limited it.
-fn unopened(sectors: &Sectors, at: [Sector; 4]) -> Reason {
-    if at.into_iter().any(|sector| sectors.fans[sector].stays_with_rim()) {
-        Reason::Contact
-    } else {
-        Reason::NoEnd
+/// Why an edge did not open, where something may have limited it.
+fn unopened(
+    view: &View,
+    (sectors, at): (&Sectors, [Sector; 4]),
+    (edge, limited): (&HardEdge, Option<Reason>),
+) -> Reason {
+    let stays_with_rim = || at.into_iter().any(|sector| sectors.fans[sector].stays_with_rim());
+    match limited {
+        _ if edge.widest() <= view.resolution => Reason::TooFine,
+        Some(Reason::Folds) if faces_away(view, edge) => Reason::Winding,
+        Some(reason) => reason,
+        None if stays_with_rim() => Reason::Contact,
+        None => Reason::NoEnd,
     }
 }
 
@@ -108,68 +121,84 @@ fn unopened(sectors: &Sectors, at: [Sector; 4]) -> Reason {
 fn worst_reason(limits: &Limits, at: [Sector; 4]) -> Option<Reason> {
     // A side is the first edge of the sector where it starts, and the last one where it ends.
     let fronts = [1, 0, 1, 0];
-    let (mut least, mut is_capped) = (None, false);
+    let (mut least, mut least_at, mut is_capped) = (1.0, Sector::NONE, false);
     for (sector, front) in at.into_iter().zip(fronts) {
         let offset = limits.placement.offset(sector);
         let share = limits.placement.share[sector] * offset.fronts[front];
-        let is_least = least.is_none_or(|(least, _)| share < least);
-        if share < 1.0 && is_least && offset.moves() {
-            least = Some((share, sector));
+        if share < least && offset.moves() {
+            (least, least_at) = (share, sector);
         }
         is_capped |= offset.is_capped;
     }
-    let reason = |sector: Sector| match limits.reason[sector] {
-        Reason::None => Reason::NoRoom,
-        reason => reason,
-    };
-    least.map(|(_, sector)| reason(sector)).or(is_capped.then_some(Reason::Miter))
+    if least_at.is_none() {
+        return is_capped.then_some(Reason::Miter);
+    }
+    match limits.reason[least_at] {
+        Reason::None => Some(Reason::NoRoom),
+        reason => Some(reason),
+    }
 }
 
 /// At each end, the mean distance of the two pulled vertices from the line of the old edge.
-fn widths(view: &View, limits: &Limits, (edge, at): (&HardEdge, [Sector; 4])) -> [f32; 2] {
-    let ends = [edge.sides[0], edge.sides[0].next()];
-    let (from, to, points);
+fn widths(
+    view: &View,
+    limits: &Limits,
+    (edge, at): (&HardEdge, [Sector; 4]),
+    line: [DVec3; 2],
+) -> [f32; 2] {
     if let Some(stored) = &view.stored {
         // Rounded where it is measured, a short edge would be turned, and what is far off it with it.
         let standing = |at: [f32; 3]| stored.to * wide(at);
         let source = |at: Corner| standing(stored.positions[view.vertex_at(at).index()]);
-        [from, to] = ends.map(source);
-        points = strips::corners(edge).map(|corner| standing(limits.placement.stored_at(corner)));
-    } else {
-        [from, to] = ends.map(|end| view.position_at(end));
-        points = at.map(|sector| limits.placement.point[sector]);
+        let line = [edge.sides[0], edge.sides[0].next()].map(source);
+        let points = strips::corners(edge).map(|at| standing(limits.placement.stored_at(at)));
+        return means(line, points);
     }
-    let (along, [b1, a1, a2, b2]) = (unit(to - from), points);
-    let distance = |point: glam::DVec3| (point - from).cross(along).length();
+    means(line, at.map(|sector| limits.placement.point[sector]))
+}
+
+/// At each end of a strip, the mean distance of its two corners from a line.
+#[inline]
+fn means([from, to]: [DVec3; 2], [b1, a1, a2, b2]: [DVec3; 4]) -> [f32; 2] {
+    let along = unit(to - from);
+    let distance = |point: DVec3| (point - from).cross(along).length();
     [(a1, a2), (b1, b2)].map(|(one, two)| ((distance(one) + distance(two)) / 2.0) as f32)
 }
 
 /// The ends of an edge at which a width was asked for: not those at which its chamfer tapers to a
 /// point because it ends there.
-fn counting_ends(limits: &Limits, at: [Sector; 4], verdict: &EdgeVerdict) -> [bool; 2] {
-    if verdict.reason == Reason::NotSelected {
+fn counting_ends(
+    limits: &Limits,
+    at: [Sector; 4],
+    (outcome, reason): (Outcome, Reason),
+) -> [bool; 2] {
+    if reason == Reason::NotSelected {
         return [false; 2];
     }
-    if verdict.outcome == Outcome::Skipped {
+    if outcome == Outcome::Skipped {
         return [true; 2];
     }
     let moves = |k: usize| limits.placement.offset(at[k]).moves();
     [moves(1) || moves(2), moves(0) || moves(3)]
 }
 
-/// A verdict, and what its edge counts for.
-struct Judged {
-    verdict: EdgeVerdict,
+/// What an edge counts for.
+struct Counted {
     length: f64,
-    /// At each end at which a width was asked for, the share of it that it got.
-    got: [Option<f64>; 2],
+    /// At each end, the share that it got of the width asked for, and whether one was.
+    got: [f64; 2],
+    counting: [bool; 2],
 }
 
-fn judged(view: &View, edge: &HardEdge, verdict: EdgeVerdict, counting: [bool; 2]) -> Judged {
-    let [from, to] = [edge.sides[0], edge.sides[0].next()].map(|c| view.position_at(c));
-    let share = |end: usize| (f64::from(verdict.widths[end]) / edge.widths[end]).min(1.0);
-    let got = [0, 1].map(|end| counting[end].then(|| share(end)));
-    Judged { verdict, length: from.distance(to), got }
+fn counted(
+    edge: &HardEdge,
+    [from, to]: [DVec3; 2],
+    widths: [f32; 2],
+    counting: [bool; 2],
+) -> Counted {
+    let share = |end: usize| f64::from(widths[end]) / edge.widths[end];
+    let got = [0, 1].map(|end| if share(end) < 1.0 { share(end) } else { 1.0 });
+    Counted { length: from.distance(to), got, counting }
 }
 
 /// What is told of all edges, in the making.
@@ -181,7 +210,8 @@ struct Sum {
 }
 
 impl Sum {
-    fn add(&mut self, Judged { verdict, length, got }: &Judged) {
+    #[inline]
+    fn add(&mut self, verdict: &EdgeVerdict, Counted { length, got, counting }: &Counted) {
         let totals = &mut self.totals;
         totals.hard_edges += 1;
         match verdict.outcome {
@@ -189,7 +219,7 @@ impl Sum {
             Outcome::Narrowed => totals.narrowed += 1,
             Outcome::Skipped => totals.skipped[verdict.reason] += 1,
         }
-        for share in got.iter().flatten() {
+        for (share, _) in got.iter().zip(counting).filter(|(_, counts)| **counts) {
             totals.counted += length;
             self.got += length * share;
         }
@@ -282,8 +312,9 @@ mod tests {
         let edges = &stages.chamfers().edges.hard;
         for edge in edges.iter() {
             let at = strips::corners(edge).map(|corner| stages.sectors.sector_of[corner]);
-            let told = widths(&stages.view, &limits, (edge, at));
             let side = edge.sides[0];
+            let line = [side, side.next()].map(|c| stages.view.position_at(c));
+            let told = widths(&stages.view, &limits, (edge, at), line);
             let [from, to] =
                 [side, side.next()].map(|c| wide(stored[stages.view.vertex_at(c).index()]));
             let pulled = [edge.sides[0], edge.sides[1].next()].map(|corner| {

@@ -4,7 +4,7 @@ use glam::DVec3;
 use smallvec::SmallVec;
 
 use crate::math::unit;
-use crate::mesh::MeshBuffers;
+use crate::mesh::{Mesh, MeshBuffers};
 use crate::report::Blend;
 use crate::resample::{blended_normal, weighted_sum};
 use crate::tolerance::{LEAST_REST, ORTHOGONAL};
@@ -32,12 +32,12 @@ pub enum Stream {
 }
 
 impl Stream {
-    /// Whether it goes along with some UV channels that go elsewhere: the tangent does with the first.
-    pub fn is_taken(self, channels: Channels) -> bool {
+    /// The UV channels along with which it goes elsewhere: the tangent does with the first.
+    fn channels(self) -> Channels {
         match self {
-            Stream::Tangent => channels & 1 == 1,
-            Stream::Uv(channel) => channels >> channel & 1 == 1,
-            Stream::Color => false,
+            Stream::Tangent => 1,
+            Stream::Uv(channel) => 1 << channel,
+            Stream::Color => 0,
         }
     }
 }
@@ -46,13 +46,22 @@ impl Stream {
 #[derive(Clone, Copy)]
 pub struct Column {
     pub stream: Stream,
+    /// The UV channels that it goes along with, as bits: see [`Stream::channels`].
+    channels: Channels,
     /// Where its values stand in a row, and how many there are.
     pub start: usize,
     pub width: usize,
 }
 
 impl Column {
+    /// Whether it goes along with some UV channels that go elsewhere.
+    #[inline]
+    pub fn is_taken(&self, channels: Channels) -> bool {
+        self.channels & channels != 0
+    }
+
     /// All values of the stream, vertex by vertex.
+    #[inline]
     pub fn values<'a>(&self, vertices: &'a MeshBuffers) -> &'a [f32] {
         match self.stream {
             Stream::Tangent => vertices.tangents.as_flattened(),
@@ -61,15 +70,70 @@ impl Column {
         }
     }
 
+    #[inline(always)]
     pub fn push(&self, vertices: &mut MeshBuffers, row: &Row) {
+        match self.stream {
+            Stream::Uv(channel) if self.width == 2 => {
+                vertices.uvs[channel].values.extend_from_slice(&row.at::<2>(self.start));
+            }
+            _ => self.push_rarer(vertices, row),
+        }
+    }
+
+    #[inline(never)]
+    fn push_rarer(&self, vertices: &mut MeshBuffers, row: &Row) {
         match self.stream {
             Stream::Tangent => vertices.tangents.push(row.at(self.start)),
             Stream::Color => vertices.colors.push(row.at(self.start)),
+            Stream::Uv(channel) => vertices.uvs[channel].values.extend_from_slice(row.of(self)),
+        }
+    }
+
+    /// Appends the value of a source vertex.
+    pub fn push_source(&self, vertices: &mut MeshBuffers, (mesh, vertex): (&Mesh, u32)) {
+        match self.stream {
+            Stream::Tangent => vertices.tangents.push(mesh.tangents[vertex as usize]),
+            Stream::Color => vertices.colors.push(mesh.colors[vertex as usize]),
             Stream::Uv(channel) => {
-                let values = &mut vertices.uvs[channel].values;
+                let value = &mesh.uvs[channel].values[self.range(vertex)];
+                vertices.uvs[channel].values.extend_from_slice(value);
+            }
+        }
+    }
+
+    /// Appends a blend, for a vertex with a normal.
+    #[inline(always)]
+    pub fn push_blended(
+        &self,
+        vertices: &mut MeshBuffers,
+        (view, layout): (&View, &Layout),
+        (place, normal): (&Blend, [f32; 3]),
+    ) {
+        match self.stream {
+            Stream::Uv(channel) if self.width == 2 => {
+                let value = blended::<2>(view.mesh.uvs[channel].values, place);
+                vertices.uvs[channel].values.extend_from_slice(&value);
+            }
+            _ => self.push_rarer_blended(vertices, (view, layout), (place, normal)),
+        }
+    }
+
+    #[inline(never)]
+    fn push_rarer_blended(
+        &self,
+        vertices: &mut MeshBuffers,
+        (view, layout): (&View, &Layout),
+        (place, normal): (&Blend, [f32; 3]),
+    ) {
+        match self.stream {
+            Stream::Tangent => vertices.tangents.push(tangent(view, place, wide(normal))),
+            Stream::Color => vertices.colors.push(layout.color(view, place)),
+            Stream::Uv(channel) => {
+                let (from, to) = (view.mesh.uvs[channel].values, &mut vertices.uvs[channel].values);
                 match self.width {
-                    2 => values.extend_from_slice(&row.at::<2>(self.start)),
-                    _ => values.extend_from_slice(row.of(self)),
+                    2 => to.extend_from_slice(&blended::<2>(from, place)),
+                    3 => to.extend_from_slice(&blended::<3>(from, place)),
+                    _ => to.extend_from_slice(&blended::<4>(from, place)),
                 }
             }
         }
@@ -85,6 +149,7 @@ impl Column {
     }
 
     /// Of one vertex.
+    #[inline]
     pub fn range(&self, vertex: u32) -> std::ops::Range<usize> {
         let first = vertex as usize * self.width;
         first..first + self.width
@@ -108,16 +173,24 @@ impl Row {
         self.0[NORMAL..FIRST_RARER].copy_from_slice(&normal);
     }
 
+    #[inline]
     pub fn of(&self, column: &Column) -> &[f32] {
         &self.0[column.start..column.start + column.width]
     }
 
+    #[inline]
     pub fn at<const WIDTH: usize>(&self, start: usize) -> [f32; WIDTH] {
-        std::array::from_fn(|k| self.0[start + k])
+        let values = &self.0[start..start + WIDTH];
+        std::array::from_fn(|k| values[k])
     }
 
     fn of_mut(&mut self, column: &Column) -> &mut [f32] {
         &mut self.0[column.start..column.start + column.width]
+    }
+
+    #[inline]
+    fn put<const WIDTH: usize>(&mut self, start: usize, values: [f32; WIDTH]) {
+        self.0[start..start + WIDTH].copy_from_slice(&values);
     }
 
     #[inline]
@@ -137,13 +210,20 @@ const FIRST_RARER: usize = 6;
 pub struct Layout {
     /// But for positions and normals.
     pub columns: SmallVec<[Column; 12]>,
+    /// The UV channel that is the only of these, if that has two coordinates.
+    pub only_texture: Option<usize>,
     /// Per colour component, the least and the greatest value that a blend may have.
     color_range: [[f32; 2]; 4],
 }
 
 impl Layout {
     pub fn new(view: &View) -> Layout {
-        Layout { columns: columns(view), color_range: color_range(view.mesh.colors) }
+        let columns = columns(view);
+        let only_texture = match columns[..] {
+            [Column { stream: Stream::Uv(channel), width: 2, .. }] => Some(channel),
+            _ => None,
+        };
+        Layout { columns, only_texture, color_range: color_range(view.mesh.colors) }
     }
 
     /// Whether two rows are equal in every stream.
@@ -168,21 +248,17 @@ impl Layout {
     }
 
     /// Takes UV channels from another place, and the tangent along with the first of them.
+    #[inline(always)]
     pub fn take(&self, view: &View, row: &mut Row, Taken { channels, place }: &Taken) {
-        for column in self.columns.iter().filter(|column| column.stream.is_taken(*channels)) {
+        for column in &self.columns {
+            if !column.is_taken(*channels) {
+                continue;
+            }
             match column.stream {
-                Stream::Tangent => {
-                    row.set(column, &tangent(view, place, wide(row.at(NORMAL))));
+                Stream::Uv(channel) if column.width == 2 => {
+                    row.put(column.start, blended::<2>(view.mesh.uvs[channel].values, place));
                 }
-                Stream::Uv(channel) => {
-                    let values = view.mesh.uvs[channel].values;
-                    match column.width {
-                        2 => row.set(column, &blended::<2>(values, place)),
-                        3 => row.set(column, &blended::<3>(values, place)),
-                        _ => row.set(column, &blended::<4>(values, place)),
-                    }
-                }
-                Stream::Color => {}
+                _ => take_rarer(view, row, column, place),
             }
         }
     }
@@ -193,6 +269,23 @@ impl Layout {
             let [least, greatest] = self.color_range[k];
             blend_value(chart, colors.map(|color| color[k])).clamp(least, greatest)
         })
+    }
+}
+
+/// The same for one column, most of which are two coordinates on a texture.
+#[inline(never)]
+fn take_rarer(view: &View, row: &mut Row, column: &Column, place: &Blend) {
+    match column.stream {
+        Stream::Tangent => row.set(column, &tangent(view, place, wide(row.at(NORMAL)))),
+        Stream::Uv(channel) => {
+            let values = view.mesh.uvs[channel].values;
+            match column.width {
+                2 => row.set(column, &blended::<2>(values, place)),
+                3 => row.set(column, &blended::<3>(values, place)),
+                _ => row.set(column, &blended::<4>(values, place)),
+            }
+        }
+        Stream::Color => {}
     }
 }
 
@@ -208,7 +301,7 @@ fn columns(view: &View) -> SmallVec<[Column; 12]> {
     all.map(|(stream, width)| {
         let start = end;
         end += width;
-        Column { stream, start, width }
+        Column { stream, channels: stream.channels(), start, width }
     })
     .collect()
 }
@@ -235,6 +328,7 @@ pub fn are_equal(one: &[f32], other: &[f32]) -> bool {
 }
 
 /// A blend of the values of a stream that has so many for each vertex.
+#[inline]
 pub fn blended<const WIDTH: usize>(values: &[f32], blend: &Blend) -> [f32; WIDTH] {
     let values = values.as_chunks().0;
     let [a, b, c]: [[f32; WIDTH]; 3] = blend.vertices.map(|vertex| values[vertex as usize]);

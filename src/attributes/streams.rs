@@ -5,20 +5,17 @@
 
 use glam::{DVec2, DVec3};
 
-use super::Index;
 use super::rows::{
-    Column, Layout, NORMAL, POSITION, Row, Stream, Taken, are_equal, blended, mean, mean_tangent,
-    tangent,
+    Channels, Column, Layout, NORMAL, POSITION, Row, Stream, Taken, are_equal, blended, mean,
+    mean_tangent,
 };
-use crate::error::Error;
+use super::{Blends, Index};
 use crate::ids::{Cluster, Id, Vertex};
-use crate::mesh::{MeshBuffers, UV_CHANNELS, Uv, UvBuffer};
+use crate::mesh::{Mesh, MeshBuffers, Uv, UvBuffer};
 use crate::report::{Blend, VertexSource, VertexSources};
-use crate::resample::blended_normal;
+use crate::resample::{is_same, stored_normal};
 use crate::rounding::joined;
-use crate::threads::Threads;
 use crate::view::{View, wide};
-use crate::watch::Watch;
 use crate::weld::Weld;
 
 /// Vertex streams that grow, with the provenance of each vertex.
@@ -34,35 +31,9 @@ pub struct Streams {
 }
 
 impl Streams {
-    /// The streams of the source, with room for some more vertices. `moved` tells where each of them that
-    /// has moved stands, whose values are blended as its source tells: just as in a [`Row`], but stream by
-    /// stream.
-    pub fn new(
-        (view, layout): (&View, Layout),
-        sources: VertexSources,
-        moved: impl Fn(Vertex) -> Option<[f32; 3]> + Sync + Send,
-        room: usize,
-        work: (&Threads, &dyn Watch),
-    ) -> Result<Streams, Error> {
-        let mesh = &view.mesh;
-        let chart = |vertex: Vertex| sources.chart_of(vertex.index());
-        let normal = |vertex: Vertex| {
-            let surface = sources.surface_of(vertex.index())?;
-            Some(blended_normal(view, surface).as_vec3().to_array())
-        };
-        let normals = changed(mesh.normals, room, work, normal)?;
-        let tangent =
-            |vertex: Vertex| Some(tangent(view, chart(vertex)?, wide(normals[vertex.index()])));
-        let color = |vertex: Vertex| Some(layout.color(view, chart(vertex)?));
-        let vertices = MeshBuffers {
-            positions: changed(mesh.positions, room, work, moved)?,
-            tangents: changed(mesh.tangents, room, work, tangent)?,
-            colors: changed(mesh.colors, room, work, color)?,
-            uvs: blended_uvs(&mesh.uvs, room, work, chart)?,
-            normals,
-            ..MeshBuffers::default()
-        };
-        Ok(Streams { vertices, sources, layout, index: Index::default(), row: Row::EMPTY })
+    /// Those of the source vertices.
+    pub fn new(Columns { vertices, sources }: Columns, layout: Layout) -> Streams {
+        Streams { vertices, sources, layout, index: Index::default(), row: Row::EMPTY }
     }
 
     /// A vertex's value in a UV channel.
@@ -78,59 +49,100 @@ impl Streams {
     }
 
     /// A vertex of a cluster that has moved away from others of its source vertex.
-    pub fn add_moved(&mut self, cluster: Cluster, row: &Row, [surface, chart]: [Blend; 2]) -> u32 {
+    pub fn add_moved(&mut self, cluster: Cluster, row: &Row, (surface, chart): Blends) -> u32 {
         self.add(self.list_of(cluster, row), row, |sources| sources.push_moved(surface, chart))
     }
 
-    /// A vertex of a cluster like another one, but for what it takes from another chart, where a patch before
-    /// may have taken just that.
-    pub fn find_or_add_copy(
-        &mut self,
-        view: &View,
-        cluster: Cluster,
-        of: u32,
-        taken: &Taken,
-    ) -> u32 {
+    /// What was appended as a vertex of a cluster like another one, but for what it takes from another chart.
+    #[inline(never)]
+    pub fn find_copy(&self, cluster: Cluster, of: u32, taken: &Taken) -> Option<u32> {
         let list = self.index.list_at(cluster, self.vertices.positions[of as usize]);
         let copies = self.sources.copies(of as usize, taken.place, taken.channels);
-        let copy = self.index.find_since(self.sources.first_continuing(), list, copies);
-        copy.unwrap_or_else(|| self.add_copy(view, cluster, of, taken))
+        self.index.find_since(self.sources.first_continuing(), list, copies)
     }
 
-    /// The same, where that is not likely.
+    /// A vertex of a cluster like another one, but for what it takes from another chart.
+    #[inline]
     pub fn add_copy(&mut self, view: &View, cluster: Cluster, of: u32, taken: &Taken) -> u32 {
+        match self.layout.only_texture {
+            Some(channel) if taken.channels == 1 << channel => {
+                let values = view.mesh.uvs[channel].values;
+                self.add_copy_on_texture((channel, values), cluster, of, taken)
+            }
+            _ => self.add_copy_of_all(view, cluster, of, taken),
+        }
+    }
+
+    /// The same whatever streams the mesh has.
+    #[inline(never)]
+    fn add_copy_of_all(&mut self, view: &View, cluster: Cluster, of: u32, taken: &Taken) -> u32 {
         let own = of as usize;
         let (position, normal) = (self.vertices.positions[own], self.vertices.normals[own]);
         let list = self.index.list_at(cluster, position);
-        let row = &mut self.row;
-        row.stand(position, normal);
-        self.layout.take(view, row, taken);
-        // All but what it takes is read where the other has it.
-        let value = |column: &Column| match column.stream.is_taken(taken.channels) {
-            true => row.of(column),
-            false => &column.values(&self.vertices)[column.range(of)],
-        };
-        let is_equal = |listed: u32| {
-            let is_equal = |column: &Column| {
-                are_equal(&column.values(&self.vertices)[column.range(listed)], value(column))
-            };
-            position == self.vertices.positions[listed as usize]
-                && normal == self.vertices.normals[listed as usize]
-                && self.layout.columns.iter().all(is_equal)
-        };
-        if let Some(equal) = self.index.find(list, is_equal) {
+        self.row.stand(position, normal);
+        self.layout.take(view, &mut self.row, taken);
+        if let Some(equal) = self.find_at(list, position, |at| self.is_copy(at, of, taken.channels))
+        {
             return equal;
         }
         self.vertices.positions.push(position);
         self.vertices.normals.push(normal);
         for column in &self.layout.columns {
-            match column.stream.is_taken(taken.channels) {
+            match column.is_taken(taken.channels) {
                 true => column.push(&mut self.vertices, &self.row),
                 false => column.push_again(&mut self.vertices, of),
             }
         }
         self.sources.push_copy(own, taken.place, taken.channels);
         self.index.add(list)
+    }
+
+    /// The same where a mesh has nothing but one texture, as most do, which is taken.
+    #[inline(never)]
+    fn add_copy_on_texture(
+        &mut self,
+        (channel, values): (usize, &[f32]),
+        cluster: Cluster,
+        of: u32,
+        taken: &Taken,
+    ) -> u32 {
+        let [u, v] = blended::<2>(values, &taken.place);
+        let vertices = &self.vertices;
+        let (position, normal) = (vertices.positions[of as usize], vertices.normals[of as usize]);
+        let (positions, normals) = (&vertices.positions[..], &vertices.normals[..]);
+        let uvs = vertices.uvs[channel].values.as_chunks().0;
+        let list = self.index.list_at(cluster, position);
+        // Nearly all lie elsewhere on the texture: that is what tells most soon.
+        let is_equal = |at: u32| {
+            let [other_u, other_v] = uvs[at as usize];
+            u == other_u
+                && v == other_v
+                && is_same(position, positions[at as usize])
+                && is_same(normal, normals[at as usize])
+        };
+        if let Some(equal) = self.index.find(list, is_equal) {
+            return equal;
+        }
+        self.vertices.positions.push(position);
+        self.vertices.normals.push(normal);
+        self.vertices.uvs[channel].values.extend_from_slice(&[u, v]);
+        self.sources.push_copy(of as usize, taken.place, taken.channels);
+        self.index.add(list)
+    }
+
+    /// Whether a vertex is equal to another one but for some channels, and in these to the row.
+    fn is_copy(&self, vertex: u32, of: u32, channels: Channels) -> bool {
+        let normals = &self.vertices.normals;
+        let is_equal = |column: &Column| {
+            let values = column.values(&self.vertices);
+            let wanted = match column.is_taken(channels) {
+                true => self.row.of(column),
+                false => &values[column.range(of)],
+            };
+            are_equal(&values[column.range(vertex)], wanted)
+        };
+        is_same(normals[of as usize], normals[vertex as usize])
+            && self.layout.columns.iter().all(is_equal)
     }
 
     /// A vertex of a cluster with a normal of its own, at a place near a blend, with what it takes
@@ -229,13 +241,21 @@ impl Streams {
 
     /// The vertex of a list that has a row.
     fn find(&self, list: usize, row: &Row) -> Option<u32> {
-        let [x, y, z] = row.at(POSITION);
-        // Most that came from one cluster stand elsewhere.
-        let stands_there = |vertex: u32| {
-            let [at_x, at_y, at_z] = self.vertices.positions[vertex as usize];
-            at_x == x && at_y == y && at_z == z
-        };
-        self.index.find(list, |listed| stands_there(listed) && self.has(listed, row))
+        self.find_at(list, row.at(POSITION), |vertex| self.has(vertex, row))
+    }
+
+    /// A vertex of a list that stands at a position and is such. Most that came from one cluster stand
+    /// elsewhere.
+    #[inline]
+    fn find_at(
+        &self,
+        list: usize,
+        position: [f32; 3],
+        is_such: impl Fn(u32) -> bool,
+    ) -> Option<u32> {
+        let positions = &self.vertices.positions[..];
+        let stands_there = |vertex: u32| is_same(positions[vertex as usize], position);
+        self.index.find(list, |listed| stands_there(listed) && is_such(listed))
     }
 
     /// Whether a vertex that stands at a row's position has the row.
@@ -255,48 +275,94 @@ impl Streams {
     }
 }
 
-/// A copy of a stream with room for some more, in which some values are others; an absent stream stays
-/// absent.
-fn changed<T: Copy + Send + Sync>(
-    values: &[T],
-    room: usize,
-    (threads, watch): (&Threads, &dyn Watch),
-    other: impl Fn(Vertex) -> Option<T> + Sync + Send,
-) -> Result<Vec<T>, Error> {
-    let room = if values.is_empty() { 0 } else { room };
-    let mut all = Vec::with_capacity(values.len() + room);
-    let value = |vertex: Vertex| other(vertex).unwrap_or(values[vertex.index()]);
-    threads.extend(&mut all, values.len(), watch, value)?;
-    Ok(all)
+/// Source vertices, as they were or moved, with where they come from.
+#[derive(Default)]
+pub struct Columns {
+    vertices: MeshBuffers,
+    sources: VertexSources,
 }
 
-/// All UV channels, blended where a vertex has a chart to be blended in.
-fn blended_uvs<'a>(
-    uvs: &[Uv; UV_CHANNELS],
-    room: usize,
-    work: (&Threads, &dyn Watch),
-    chart: impl Fn(Vertex) -> Option<&'a Blend> + Sync + Send,
-) -> Result<[UvBuffer; UV_CHANNELS], Error> {
-    let mut all: [UvBuffer; UV_CHANNELS] = Default::default();
-    for (all, uv) in all.iter_mut().zip(uvs) {
-        let values = match uv.components {
-            2 => blended_uv::<2>(uv.values, room, work, &chart)?,
-            3 => blended_uv::<3>(uv.values, room, work, &chart)?,
-            _ => blended_uv::<4>(uv.values, room, work, &chart)?,
-        };
-        *all = UvBuffer { components: uv.components, values };
+impl Columns {
+    /// None yet, with room for all of a mesh, of which some will move, and for copies of some.
+    pub fn with_room(mesh: &Mesh, moved: usize, copies: usize) -> Columns {
+        let sources = VertexSources::with_room(mesh.positions.len(), moved, copies);
+        Columns { vertices: with_room(mesh, copies), sources }
     }
-    Ok(all)
+
+    /// Appends a vertex as it was.
+    pub fn push_kept(&mut self, (view, layout): (&View, &Layout), vertex: Vertex) {
+        let (mesh, place) = (&view.mesh, vertex.index());
+        self.vertices.positions.push(mesh.positions[place]);
+        self.vertices.normals.push(mesh.normals[place]);
+        for column in &layout.columns {
+            column.push_source(&mut self.vertices, (mesh, vertex.0));
+        }
+        self.sources.push_kept(vertex.0);
+    }
+
+    /// Appends a vertex that has moved, all of whose values are those of one blend, just as in a [`Row`].
+    #[inline]
+    pub fn push_moved(&mut self, source: (&View, &Layout), position: [f32; 3], blend: Blend) {
+        self.push_blended(source, position, [&blend; 2]);
+        self.sources.push_moved(blend, None);
+    }
+
+    /// The same where its chart may be something else than its surface.
+    #[inline(never)]
+    pub fn push_moved_apart(
+        &mut self,
+        source: (&View, &Layout),
+        position: [f32; 3],
+        (surface, chart): Blends,
+    ) {
+        self.push_blended(source, position, [&surface, chart.as_ref().unwrap_or(&surface)]);
+        self.sources.push_moved(surface, chart);
+    }
+
+    #[inline(always)]
+    fn push_blended(
+        &mut self,
+        (view, layout): (&View, &Layout),
+        position: [f32; 3],
+        [surface, chart]: [&Blend; 2],
+    ) {
+        let normal = stored_normal(view, surface);
+        self.vertices.positions.push(position);
+        self.vertices.normals.push(normal);
+        for column in &layout.columns {
+            column.push_blended(&mut self.vertices, (view, layout), (chart, normal));
+        }
+    }
+
+    /// Appends others, and takes them away from there.
+    pub fn append(&mut self, others: &mut Columns) {
+        let Columns { vertices: all, sources } = self;
+        let some = &mut others.vertices;
+        all.positions.append(&mut some.positions);
+        all.normals.append(&mut some.normals);
+        all.tangents.append(&mut some.tangents);
+        all.colors.append(&mut some.colors);
+        for (all, some) in all.uvs.iter_mut().zip(&mut some.uvs) {
+            all.values.append(&mut some.values);
+        }
+        sources.append(&mut others.sources);
+    }
 }
 
-fn blended_uv<'a, const WIDTH: usize>(
-    values: &[f32],
-    room: usize,
-    work: (&Threads, &dyn Watch),
-    chart: impl Fn(Vertex) -> Option<&'a Blend> + Sync + Send,
-) -> Result<Vec<f32>, Error> {
-    let blended = |vertex: Vertex| Some(blended::<WIDTH>(values, chart(vertex)?));
-    Ok(changed(values.as_chunks().0, room, work, blended)?.into_flattened())
+/// The streams that a mesh has, empty, with room for its vertices and some more.
+fn with_room(mesh: &Mesh, room: usize) -> MeshBuffers {
+    let room_for = |values: usize| if values == 0 { 0 } else { mesh.positions.len() + room };
+    MeshBuffers {
+        positions: Vec::with_capacity(room_for(mesh.positions.len())),
+        normals: Vec::with_capacity(room_for(mesh.normals.len())),
+        tangents: Vec::with_capacity(room_for(mesh.tangents.len())),
+        colors: Vec::with_capacity(room_for(mesh.colors.len())),
+        uvs: mesh.uvs.map(|Uv { components, values }| UvBuffer {
+            components,
+            values: Vec::with_capacity(components as usize * room_for(values.len())),
+        }),
+        ..MeshBuffers::default()
+    }
 }
 
 #[cfg(test)]
@@ -307,7 +373,7 @@ mod tests {
     use crate::shapes;
     use crate::stages::stages_of;
 
-    // What moves within its own index is made stream by stream, and what is parted as a row.
+    // What moves within its own index is blended right into the streams, and what is parted as a row.
     #[test]
     fn streams_hold_what_rows_would() {
         for (name, mesh) in shapes::demo_models() {

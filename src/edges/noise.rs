@@ -2,8 +2,7 @@
 
 use glam::DVec3;
 
-use crate::ids::{Cluster, Corner, Edge, Id};
-use crate::threads::Threads;
+use crate::ids::{Cluster, Corner};
 use crate::tolerance::{CHORD_TURN, NOISE, NOISE_SHARE};
 use crate::topology::Topology;
 use crate::view::View;
@@ -22,20 +21,13 @@ const NEARLY_NOISE: f64 = 0.99;
 /// ```
 ///
 /// Where another edge is sharp or flat, what differs beside it is its end.
-pub fn noise(view: &View, topology: &Topology, hard: &[Corner], threads: &Threads) -> Vec<Corner> {
+pub fn noise(view: &View, topology: &Topology, hard: &[Corner]) -> Vec<Corner> {
     let half_edges = || hard.iter().flat_map(|&side| [side, topology.twin[side]]);
-    // Most meshes have no such end at all.
-    let may_be_noise = |side: Corner| may_be_noise(view, topology, side);
-    let has_such = |edge: Edge| {
-        let side = hard[edge.index()];
-        may_be_noise(side) || may_be_noise(topology.twin[side])
-    };
-    if threads.filter(hard.len(), has_such).is_empty() {
-        return Vec::new();
-    }
     let end = |side: Corner| end_at(view, topology, side);
-    let is_by_chance =
-        |side: &Corner| may_be_noise(*side) && end(*side).is_some_and(|end| end.is_by_chance(view));
+    let is_by_chance = |side: &Corner| {
+        let normals = [*side, topology.twin[*side].next()].map(|corner| view.normal_at(corner));
+        are_nearly_alike(normals) && end(*side).is_some_and(|end| end.is_by_chance(view))
+    };
     let mut noise: Vec<Corner> = half_edges().filter(is_by_chance).collect();
     if noise.is_empty() {
         return noise;
@@ -53,15 +45,42 @@ pub fn noise(view: &View, topology: &Topology, hard: &[Corner], threads: &Thread
     noise
 }
 
-/// Whether the normals at the start of a half-edge are as near to each other as noise leaves them, or
-/// nearly so: most are not, and this takes no root.
-fn may_be_noise(view: &View, topology: &Topology, side: Corner) -> bool {
-    let twin = topology.twin[side];
-    twin.is_some() && {
-        let [one, other] = [side, twin.next()].map(|corner| view.normal_at(corner));
-        let (cosine, lengths) = (one.dot(other), one.length_squared() * other.length_squared());
-        cosine > 0.0 && cosine * cosine >= NEARLY_NOISE * lengths
-    }
+/// How the normals of the two sides of an edge differ at its ends.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Ends {
+    /// Not at all.
+    Soft,
+    /// By more than noise at one end, or at both.
+    Hard,
+    /// At one end at least by no more than noise, or little more.
+    MayBeNoise,
+}
+
+/// The same of two half-edges that are twins.
+#[inline]
+pub fn ends(view: &View, [side, twin]: [Corner; 2]) -> Ends {
+    let end = |one: Corner, other: Corner| {
+        let vertices = [one, other].map(|corner| view.vertex_at(corner));
+        if vertices[0] == vertices[1] {
+            return Ends::Soft;
+        }
+        let [one, other] = vertices.map(|vertex| view.normal(vertex));
+        match view.normals_differ([one, other]) {
+            false => Ends::Soft,
+            true if are_nearly_alike([one, other]) => Ends::MayBeNoise,
+            true => Ends::Hard,
+        }
+    };
+    end(side, twin.next()).max(end(side.next(), twin))
+}
+
+/// Whether two normals are as near to each other as noise leaves them, or nearly so: most are not, and this
+/// takes no root.
+#[inline]
+fn are_nearly_alike([one, other]: [DVec3; 2]) -> bool {
+    let cosine = one.dot(other);
+    let lengths = || one.length_squared() * other.length_squared();
+    cosine > 0.0 && cosine * cosine >= NEARLY_NOISE * lengths()
 }
 
 /// One end of an edge at which its sides have normals of their own.

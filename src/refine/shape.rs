@@ -65,6 +65,7 @@ fn topology(fine: &View, refined: &Refined, coarse: &Topology, weld: &Weld) -> O
     }
     let corners = || refined.pieces.iter().flat_map(|piece| piece.triangle.corners());
     corners().for_each(|corner| all.cluster_at[corner] = cluster(corner));
+    all.has_collapsed |= refined.pieces.iter().any(|piece| all.is_collapsed(piece.triangle));
     let mut new: Vec<([Cluster; 2], Corner)> = Vec::new();
     for corner in corners() {
         match refined.whole_of(corner) {

@@ -57,11 +57,13 @@ pub fn splits(
     offsets: &IdVec<Sector, Offset>,
     watch: &dyn Watch,
 ) -> Result<Vec<Split>, Error> {
-    let mut splits = Vec::new();
-    let (mut all, mut stake) = (0.0, 0.0);
+    let (mut splits, mut stake) = (Vec::new(), 0.0);
+    let all_move = offsets.iter().all(Offset::moves);
     each(shape.edges.hard.len(), watch, |edge| {
+        if !may_need_vertices(shape, (offsets, all_move), edge) {
+            return;
+        }
         let edge = EdgeOf { view, shape, offsets, edge, length: length(view, shape, edge) };
-        all += edge.length;
         let found = edge.places();
         if !found.at.is_empty() && found.at.len() <= MOST_VERTICES && edge.is_plain() {
             stake += found.stake;
@@ -69,7 +71,12 @@ pub fn splits(
             splits.push(Split { sides: edge.sides(), at });
         }
     })?;
-    if splits.is_empty() || stake < LEAST_STAKE * all {
+    if splits.is_empty() {
+        return Ok(splits);
+    }
+    let mut all = 0.0;
+    each(shape.edges.hard.len(), watch, |edge| all += length(view, shape, edge))?;
+    if stake < LEAST_STAKE * all {
         return Ok(Vec::new());
     }
     // Other half-edges that lie there would need the vertices too.
@@ -78,6 +85,21 @@ pub fn splits(
     let is_alone = |side: &Corner| crowded.binary_search(side).is_err();
     splits.retain(|split| split.sides.iter().all(is_alone));
     Ok(splits)
+}
+
+/// Whether something may rest on an edge, or one of its offsets is none: nearly all edges need no look at
+/// more than that.
+fn may_need_vertices(
+    shape: &Shape,
+    (offsets, all_move): (&IdVec<Sector, Offset>, bool),
+    edge: Edge,
+) -> bool {
+    let hard = &shape.edges.hard[edge];
+    let stays = |corner: Corner| !offsets[shape.sectors.sector_of[corner]].moves();
+    match hard.skipped {
+        Some(reason) => reason == Reason::Contact,
+        None => !all_move && strips::corners(hard).into_iter().any(stays),
+    }
 }
 
 fn length(view: &View, shape: &Shape, edge: Edge) -> f64 {

@@ -31,6 +31,17 @@ enum Own {
     Two(u32),
 }
 
+impl Own {
+    /// The same where so many blends come before.
+    fn behind(self, first: u32) -> Own {
+        match self {
+            Own::Kept(source) => Own::Kept(source),
+            Own::One(place) => Own::One(first + place),
+            Own::Two(place) => Own::Two(first + place),
+        }
+    }
+}
+
 /// A vertex that may continue another chart.
 #[derive(Clone, Copy, Debug)]
 struct Continuing {
@@ -79,12 +90,12 @@ impl VertexSources {
         VertexSources { kept: vertices as u32, ..VertexSources::default() }
     }
 
-    /// Those of a mesh as it was, of whose vertices some will move, and some will be copied.
+    /// None yet, and room for those of a mesh of whose vertices some will move, and some will be copied.
     pub(crate) fn with_room(vertices: usize, moved: usize, copies: usize) -> VertexSources {
         VertexSources {
             blends: Vec::with_capacity(moved),
             kept: 0,
-            own: (0..vertices as u32).map(Own::Kept).collect(),
+            own: Vec::with_capacity(vertices),
             continuing: Vec::with_capacity(copies),
         }
     }
@@ -113,8 +124,7 @@ impl VertexSources {
         let blend = |blend: Blend| Blend { vertices: blend.vertices.map(&at), ..blend };
         let own = |own: Own| match own {
             Own::Kept(source) => Own::Kept(at(source)),
-            Own::One(place) => Own::One(first + place),
-            Own::Two(place) => Own::Two(first + place),
+            own => own.behind(first),
         };
         (0..kept).for_each(|vertex| self.own[at(vertex as u32) as usize] = own(part.own(vertex)));
         self.own.extend((kept..part.first_continuing()).map(|vertex| own(part.own(vertex))));
@@ -126,34 +136,32 @@ impl VertexSources {
         self.blends.extend(part.blends.into_iter().map(blend));
     }
 
-    /// Appends a vertex that continues no other chart, before any that does.
-    pub(crate) fn push_moved(&mut self, surface: Blend, chart: Blend) {
+    /// Appends a source vertex as it was, before any that continues another chart.
+    #[inline]
+    pub(crate) fn push_kept(&mut self, source: u32) {
+        self.own.push(Own::Kept(source));
+    }
+
+    /// Appends a vertex that continues no other chart, before any that does. Its chart may be that of the
+    /// surface.
+    #[inline]
+    pub(crate) fn push_moved(&mut self, surface: Blend, chart: Option<Blend>) {
         let own = self.put(surface, chart);
         self.own.push(own);
     }
 
+    /// Appends others, of which none continue another chart either, and takes them away from there.
+    pub(crate) fn append(&mut self, others: &mut VertexSources) {
+        let first = self.blends.len() as u32;
+        self.own.extend(others.own.drain(..).map(|own| own.behind(first)));
+        self.blends.append(&mut others.blends);
+    }
+
     /// Appends a vertex that comes from where an earlier one does, but for some channels.
+    #[inline]
     pub(crate) fn push_copy(&mut self, vertex: usize, owner: Blend, channels: u8) {
         let own = self.own(vertex);
         self.continuing.push(Continuing { own, owner, owner_channels: channels.into() });
-    }
-
-    /// What a vertex has for the surface; none where it is one of the source as it was, or continues another
-    /// chart.
-    pub(crate) fn surface_of(&self, vertex: usize) -> Option<&Blend> {
-        match *self.own.get(vertex.checked_sub(self.kept as usize)?)? {
-            Own::Kept(_) => None,
-            Own::One(blend) | Own::Two(blend) => Some(&self.blends[blend as usize]),
-        }
-    }
-
-    /// The same for the chart.
-    pub(crate) fn chart_of(&self, vertex: usize) -> Option<&Blend> {
-        match *self.own.get(vertex.checked_sub(self.kept as usize)?)? {
-            Own::Kept(_) => None,
-            Own::One(blend) => Some(&self.blends[blend as usize]),
-            Own::Two(first) => Some(&self.blends[first as usize + 1]),
-        }
     }
 
     /// Which vertices were appended as just such a copy.
@@ -175,13 +183,8 @@ impl VertexSources {
     /// Appends a vertex.
     pub(crate) fn push(&mut self, source: VertexSource) {
         let VertexSource { surface, chart, owner, owner_channels } = source;
-        let own = self.put(surface, chart);
+        let own = self.put(surface, (chart != surface).then_some(chart));
         self.continuing.push(Continuing { own, owner, owner_channels });
-    }
-
-    /// Sets what a vertex comes from that continues no other chart.
-    pub(crate) fn set(&mut self, vertex: usize, surface: Blend, chart: Blend) {
-        self.own[vertex - self.kept as usize] = self.put(surface, chart);
     }
 
     /// Puts other blends in the place of all.
@@ -200,16 +203,16 @@ impl VertexSources {
         self.continuing.iter_mut().for_each(|one| one.owner = with(one.owner));
     }
 
-    fn put(&mut self, surface: Blend, chart: Blend) -> Own {
+    #[inline]
+    fn put(&mut self, surface: Blend, chart: Option<Blend>) -> Own {
         let first = self.blends.len() as u32;
         self.blends.push(surface);
-        if chart == surface {
-            return Own::One(first);
-        }
+        let Some(chart) = chart else { return Own::One(first) };
         self.blends.push(chart);
         Own::Two(first)
     }
 
+    #[inline]
     fn own(&self, vertex: usize) -> Own {
         let (kept, first_continuing) = (self.kept as usize, self.first_continuing());
         match () {
@@ -220,6 +223,7 @@ impl VertexSources {
     }
 
     /// The first vertex that may continue another chart.
+    #[inline]
     pub(crate) fn first_continuing(&self) -> usize {
         self.kept as usize + self.own.len()
     }
@@ -252,7 +256,8 @@ mod tests {
     #[test]
     fn a_copy_shares_all_but_its_owner() {
         let mut sources = VertexSources::with_room(2, 1, 1);
-        sources.set(1, HALF, Blend::one(1));
+        sources.push_kept(0);
+        sources.push_moved(HALF, Some(Blend::one(1)));
         sources.push_copy(1, Blend::one(7), 0b10);
         let copy =
             VertexSource { owner: Blend::one(7), owner_channels: 0b10, ..own(HALF, Blend::one(1)) };
@@ -270,7 +275,8 @@ mod tests {
     #[test]
     fn all_blends_can_be_replaced() {
         let mut sources = VertexSources::with_room(2, 1, 1);
-        sources.set(0, HALF, Blend::one(1));
+        sources.push_moved(HALF, Some(Blend::one(1)));
+        sources.push_kept(1);
         sources.push_copy(1, Blend::one(1), 0b10);
         sources.replace(|blend| if blend == Blend::one(1) { Blend::one(5) } else { blend });
         let one = |source: VertexSource| [source.surface, source.chart, source.owner];
