@@ -61,6 +61,8 @@ impl<'a> Joined<'a> {
     pub fn new(view: &'a View<'a>, blocks: &'a Blocks) -> Result<Joined<'a>, Error> {
         let (vertices, corners) = (view.mesh.positions.len(), view.corner_count());
         memory::ask(memory::of_joined(&view.mesh, vertices, corners / 3))?;
+        let mut vertex_sources = VertexSources::with_room(vertices, 0, 0);
+        (0..vertices as u32).for_each(|vertex| vertex_sources.push_kept(vertex));
         Ok(Joined {
             view,
             blocks,
@@ -68,7 +70,7 @@ impl<'a> Joined<'a> {
             triangles_done: 0,
             streams: zeros(view, vertices),
             moved: zeros(view, 0),
-            vertex_sources: VertexSources::with_room(vertices, 0, 0),
+            vertex_sources,
             submeshes: Vec::new(),
             told: Chamfered {
                 width: view.width as f32,
@@ -136,7 +138,7 @@ impl<'a> Joined<'a> {
         self.put_triangles(block, &result, (own, &numbers));
         self.put_told(&result, own);
         self.vertex_sources
-            .append(result.vertex_sources, own.len(), |vertex| own[vertex as usize].0);
+            .append_part(result.vertex_sources, own.len(), |vertex| own[vertex as usize].0);
         Ok(())
     }
 

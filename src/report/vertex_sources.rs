@@ -119,7 +119,12 @@ impl VertexSources {
 
     /// Appends those of a part of a mesh, in terms of the source vertices that `at` tells of those of the
     /// part, which are so many: these are set where they are, and what is new stands behind.
-    pub(crate) fn append(&mut self, part: VertexSources, kept: usize, at: impl Fn(u32) -> u32) {
+    pub(crate) fn append_part(
+        &mut self,
+        part: VertexSources,
+        kept: usize,
+        at: impl Fn(u32) -> u32,
+    ) {
         let first = self.blends.len() as u32;
         let blend = |blend: Blend| Blend { vertices: blend.vertices.map(&at), ..blend };
         let own = |own: Own| match own {
