@@ -27,11 +27,14 @@ fn differ(view: &View, side: Corner, other: Corner, differ: impl Fn([DVec3; 2]) 
 }
 
 /// Whether two corners at one position differ in a UV channel.
+#[inline]
 pub fn seam_between(view: &View, channel: usize, one: Corner, other: Corner) -> bool {
     let (one, other) = (view.vertex_at(one), view.vertex_at(other));
-    if one == other {
-        return false;
-    }
+    one != other && uvs_differ(view, channel, [one, other])
+}
+
+#[inline(never)]
+fn uvs_differ(view: &View, channel: usize, [one, other]: [Vertex; 2]) -> bool {
     let uv = &view.mesh.uvs[channel];
     let mut values = uv_at(uv, one.index()).iter().zip(uv_at(uv, other.index()));
     values.any(|(&a, &b)| (a - b).abs() > EQUAL_UV * a.abs().max(1.0))
