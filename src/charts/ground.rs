@@ -3,9 +3,9 @@
 //! And density: how much texture a triangle shows for its area.
 
 use std::cell::LazyCell;
+use std::ops::Deref;
 
 use glam::DVec2;
-use smallvec::smallvec;
 
 use crate::breaks::seam_between;
 use crate::ids::{Corner, Few, Id, Triangle};
@@ -78,19 +78,19 @@ impl Face {
 
     /// The same where its bounds are known, and most points are far away.
     fn is_below_within(&self, bounds: [DVec2; 2], point: DVec2, near: f64) -> bool {
-        let (sign, square) = (1.0_f64.copysign(self.area), near * near);
-        let mut is_outside = self.area == 0.0;
-        for side in 0..3 {
-            let turn = self.turn(side, point) * sign;
-            if turn < 0.0 {
-                is_outside = true;
-                // What is that far beyond a side's line is so from all of the triangle.
-                if turn * turn > square * self.sides[side].length_squared() * SURELY_FARTHER {
-                    return false;
-                }
-            }
+        if self.area == 0.0 {
+            return self.is_beside_within(bounds, point, near);
         }
-        !is_outside || self.is_beside_within(bounds, point, near)
+        let sign = 1.0_f64.copysign(self.area);
+        let turn = |side: usize| self.turn(side, point) * sign;
+        let Some((side, turn)) =
+            (0..3).map(|side| (side, turn(side))).find(|(_, turn)| *turn < 0.0)
+        else {
+            return true;
+        };
+        // What is far beyond a side's line is so from all of the triangle.
+        let square = near * near * self.sides[side].length_squared();
+        turn * turn <= square * SURELY_FARTHER && self.is_beside_within(bounds, point, near)
     }
 
     /// Whether a point is as near to one of its sides.
@@ -212,16 +212,23 @@ impl<'a> Ground<'a> {
             || unsure.iter().all(|&point| own.is_below(point, near()))
             || self.corners.len() == 1 && self.lie_around(points)
             || {
-                let beside = self.beside();
-                triangles.iter().all(|triangle| self.covers_one(&beside, corners(triangle)))
+                let (nearest, beside) = (self.nearest(), LazyCell::new(|| self.beside()));
+                let covers = |triangle| self.covers_one((&nearest, &beside), corners(triangle));
+                triangles.iter().all(covers)
             }
     }
 
-    /// The same for one triangle, where it is known what is beside the first half-edge.
-    fn covers_one(&self, beside: &[[DVec2; 3]], triangle: [DVec2; 3]) -> bool {
+    /// The same for one triangle, where it is known what is nearest to the first half-edge, and beside that.
+    fn covers_one(
+        &self,
+        (nearest, beside): (&[[DVec2; 3]], &impl Deref<Target = Few<[DVec2; 3]>>),
+        triangle: [DVec2; 3],
+    ) -> bool {
         let mut samples = Samples::new(triangle);
         let (own, near) = (self.triangle(), samples.near);
-        if beside.iter().any(|face| samples.lie_on(*face)) {
+        if nearest.iter().any(|face| samples.lie_on(*face))
+            || beside.iter().any(|face| samples.lie_on(*face))
+        {
             return true;
         }
         let mut lie_on = |face: Triangle| samples.lie_on(self.points(face));
@@ -283,29 +290,38 @@ impl<'a> Ground<'a> {
         false
     }
 
-    /// The own triangle, that beyond the first half-edge, and those around the corners that are next to
-    /// these two: most chamfers lie there, and are soon found so.
+    /// The own triangle and that of the chart beyond the first half-edge: what does not lie on the one lies
+    /// mostly on the other, and is soon found so.
+    fn nearest(&self) -> Few<[DVec2; 3]> {
+        let mut nearest = Few::new();
+        nearest.push(self.points(self.triangle()));
+        self.add_beyond(self.corners[0], &mut nearest);
+        nearest
+    }
+
+    /// Those next to these two around the corners: there lies most of what is left.
     fn beside(&self) -> Few<[DVec2; 3]> {
         let (side, is_edge) = (self.corners[0], self.corners.len() > 1);
-        let mut beside = smallvec![self.points(self.triangle())];
-        let mut add_beyond = |side: Corner| {
-            let runs_on = self.runs_on(side);
-            if runs_on {
-                beside.push(self.points(self.surface.topology.twin[side].triangle()));
-            }
-            runs_on
-        };
         let twin = self.surface.topology.twin[side];
-        let across = if add_beyond(side) { Some([twin.next(), twin.prev()]) } else { None };
-        for [around_first, around_second] in
-            [Some([side.prev(), side.next()]), across].into_iter().flatten()
-        {
-            add_beyond(around_first);
+        let mut beside = Few::new();
+        self.add_beyond(side.prev(), &mut beside);
+        if is_edge {
+            self.add_beyond(side.next(), &mut beside);
+        }
+        if self.runs_on(side) {
+            self.add_beyond(twin.next(), &mut beside);
             if is_edge {
-                add_beyond(around_second);
+                self.add_beyond(twin.prev(), &mut beside);
             }
         }
         beside
+    }
+
+    /// Adds the triangle of the chart beyond a half-edge.
+    fn add_beyond(&self, side: Corner, faces: &mut Few<[DVec2; 3]>) {
+        if self.runs_on(side) {
+            faces.push(self.points(self.surface.topology.twin[side].triangle()));
+        }
     }
 
     /// The triangles of the chart that reach below one on the texture, as far as they follow on each
