@@ -27,6 +27,7 @@ fn differ(view: &View, side: Corner, other: Corner, differ: impl Fn([DVec3; 2]) 
 }
 
 /// Whether two corners at one position differ in a UV channel.
+#[inline]
 pub fn seam_between(view: &View, channel: usize, one: Corner, other: Corner) -> bool {
     uvs_differ(&view.mesh.uvs[channel], [one, other].map(|corner| view.vertex_at(corner)))
 }

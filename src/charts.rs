@@ -18,13 +18,14 @@ mod fit;
 mod ground;
 mod owners;
 mod strip_map;
+mod sure;
 
 use glam::DVec2;
 
 use crate::attributes::{Attributes, Taken};
 use crate::chamfers::Chamfers;
 use crate::error::Error;
-use crate::ids::{Few, Id, Patch, Triangle};
+use crate::ids::{Corner, Few, Id, Patch, Triangle};
 use crate::mesh::UV_CHANNELS;
 use crate::patches::Patches;
 use crate::placement::Placement;
@@ -38,6 +39,7 @@ use fill_map::lay_fill;
 use ground::uv_point;
 use owners::owners;
 use strip_map::lay_strip;
+use sure::{OneChannel, lay_sure_fill};
 
 /// The charts that all patches lie in.
 #[derive(Default)]
@@ -98,7 +100,9 @@ pub fn charts(
     (threads, watch): (&Threads, &dyn Watch),
 ) -> Result<Charts, Error> {
     let channels: Few<usize> = channels_of(surface.view).collect();
-    let given = Given { surface, chamfers, placement, attributes, channels: &channels };
+    let one_channel = OneChannel::new(surface.view, attributes, &channels);
+    let given =
+        Given { surface, chamfers, placement, attributes, channels: &channels, one_channel };
     let owners = owners(&given, patches, (threads, watch))?;
     let lay = |patch: Patch, charts: &mut Charts| {
         let triangles = patches.triangles(patch);
@@ -110,8 +114,10 @@ pub fn charts(
                     (lay_strip(&given, (edge, triangles), owner, &mut charts.taken), 0)
                 }
                 Err(ring) => {
-                    let fill = (ring, patches.parts(patch));
-                    lay_fill(&given, &owners, fill, &mut charts.taken)
+                    let taken = &mut charts.taken;
+                    lay_sure_fill(&given, &owners, ring, taken).unwrap_or_else(|| {
+                        lay_fill(&given, &owners, (ring, patches.parts(patch)), taken)
+                    })
                 }
             };
         }
@@ -135,6 +141,15 @@ struct Given<'a> {
     attributes: &'a Attributes,
     /// The UV channels that the mesh has.
     channels: &'a [usize],
+    /// Where it has but one.
+    one_channel: Option<OneChannel<'a>>,
+}
+
+impl Given<'_> {
+    /// Where the output vertex of a corner lies on the texture.
+    fn own_uv(&self, corner: Corner, channel: usize) -> DVec2 {
+        self.attributes.streams.uv(self.attributes.vertex_at[corner], channel)
+    }
 }
 
 impl Charts {
@@ -208,12 +223,7 @@ pub enum Wings {
 }
 
 /// The bands of a strip's one side, best first; then those of the other.
-pub const BANDS: [Way; 4] = [
-    Way::Band(Spread::Far),
-    Way::Band(Spread::Near),
-    Way::Band(Spread::Whole),
-    Way::Band(Spread::Narrow),
-];
+pub const BANDS: [Spread; 4] = [Spread::Far, Spread::Near, Spread::Whole, Spread::Narrow];
 
 /// What is left for a strip where no band fits: each on one side, and then on the other.
 pub const BESIDE_BANDS: [Way; 4] = [Way::Inside, Way::Abreast, Way::Flat, Way::Roomiest];

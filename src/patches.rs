@@ -68,7 +68,7 @@ pub fn patches(
             let corners = strips::corners(edge);
             let triangles = cut(corners.map(|corner| placement.position_at(corner))).triangles();
             if !triangles.is_empty() {
-                strips.joints.extend(corners);
+                strips.joints.extend_from_slice(&corners);
                 strips.triangles.extend(triangles.iter().map(as_places));
             }
         }
@@ -157,9 +157,9 @@ impl Patches {
     ) {
         // Limits end with fills that are valid, or with rings that did not move.
         if let [a, b, c] = *sectors {
-            let points = [a, b, c].map(|sector| placement.point[sector]);
+            let points = [placement.point[a], placement.point[b], placement.point[c]];
             if is_open(points) {
-                self.joints.extend([a, b, c].map(first));
+                self.joints.extend_from_slice(&[first(a), first(b), first(c)]);
                 self.triangles.push([0, 1, 2]);
             }
             return;

@@ -70,6 +70,7 @@ pub fn quad(placement: &Placement, edge: &HardEdge) -> Quad {
 }
 
 /// Cuts the strip by the diagonal that folds less.
+#[inline]
 pub fn cut(points: [DVec3; 4]) -> Cut {
     let [b1, a1, a2, b2] = points;
     match (a1 == a2, b1 == b2) {
@@ -91,6 +92,7 @@ pub fn cut(points: [DVec3; 4]) -> Cut {
 }
 
 /// How much more a strip folds along the diagonal from b1, as a difference of cosines.
+#[inline(never)]
 fn folds_more_from_b1([b1, a1, a2, b2]: [DVec3; 4]) -> f64 {
     fold([b1, a1, b2], [a1, a2, b2]) - fold([b1, a1, a2], [b1, a2, b2])
 }

@@ -10,6 +10,10 @@ use crate::tolerance::{
     LEAST_AREA, LEAST_AREA_SHARE, LEAST_FACING_COSINE, LEAST_SLENDERNESS, LEAST_UPRIGHT_COSINE,
 };
 
+/// The square of no side is this many times the sum of the two others' squares, whatever rounding does:
+/// twice is the most.
+const MOST_OF_SIDES: f64 = 2.1;
+
 /// Whether a source triangle that is hardly more than a line may become the new one: it may open,
 /// but not fold over its neighbours, which lie in a plane of this normal.
 pub fn stays_line(old: [DVec3; 3], new: [DVec3; 3], normal: DVec3, resolution: f64) -> bool {
@@ -53,6 +57,7 @@ fn keeps_direction(old: [DVec3; 3], new: [DVec3; 3]) -> bool {
 
 /// Whether a new triangle has area and faces the way its vertex normals point. `resolution` is
 /// the least height that counts.
+#[inline(always)]
 pub fn faces_out(points: [DVec3; 3], normals: [DVec3; 3], resolution: f64) -> bool {
     let area = area_vector(points);
     faces(area, normals[0] + normals[1] + normals[2]) && has_area(points, area, resolution)
@@ -68,6 +73,7 @@ pub fn facing(points: [DVec3; 3], normals: [DVec3; 3], resolution: f64) -> Optio
 
 /// Whether a triangle faces along a normal. Squares all over: this is asked for every new
 /// triangle, and roots take longest.
+#[inline(always)]
 fn faces(area: DVec3, normal: DVec3) -> bool {
     let along = area.dot(normal);
     let least = LEAST_FACING_COSINE * LEAST_FACING_COSINE;
@@ -75,10 +81,18 @@ fn faces(area: DVec3, normal: DVec3) -> bool {
 }
 
 /// Whether a triangle is more than a line.
+#[inline(always)]
 fn has_area(points: [DVec3; 3], area: DVec3, resolution: f64) -> bool {
-    let longest = longest_square(points);
-    let height = (longest * (LEAST_SLENDERNESS * LEAST_SLENDERNESS)).max(resolution * resolution);
-    area.length_squared() > longest * height
+    let is_larger = |longest: f64| {
+        let slender = longest * (LEAST_SLENDERNESS * LEAST_SLENDERNESS);
+        let height =
+            if slender > resolution * resolution { slender } else { resolution * resolution };
+        area.length_squared() > longest * height
+    };
+    // Most triangles are large enough for far longer sides.
+    let [a, b, c] = points;
+    is_larger(MOST_OF_SIDES * ((b - a).length_squared() + (c - a).length_squared()))
+        || is_larger(longest_square(points))
 }
 
 fn longest_side(points: [DVec3; 3]) -> f64 {
@@ -87,7 +101,7 @@ fn longest_side(points: [DVec3; 3]) -> f64 {
 
 fn longest_square([a, b, c]: [DVec3; 3]) -> f64 {
     let squares = [(b - a), (c - b), (a - c)].map(|side| side.length_squared());
-    squares.into_iter().fold(0.0, f64::max)
+    squares[0].max(squares[1]).max(squares[2])
 }
 
 #[cfg(test)]

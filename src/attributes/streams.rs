@@ -37,6 +37,7 @@ impl Streams {
     }
 
     /// A vertex's value in a UV channel.
+    #[inline]
     pub fn uv(&self, vertex: u32, channel: usize) -> DVec2 {
         let uv = &self.vertices.uvs[channel];
         let first = vertex as usize * uv.components as usize;

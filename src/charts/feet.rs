@@ -5,10 +5,10 @@ use glam::DVec3;
 use super::{Given, Spread, Way, Wings};
 use crate::breaks::seam_between;
 use crate::foot::locate;
-use crate::ids::{Corner, Edge, Few, Sector};
+use crate::ids::{Corner, Few, Sector};
 use crate::math::{area_vector, unit};
 use crate::report::Blend;
-use crate::sectors::Sectors;
+use crate::sectors::{Fan, Sectors};
 use crate::surface::Surface;
 use crate::view::View;
 
@@ -64,7 +64,6 @@ pub fn feet_at(surface: Surface, end: &End, way: Way) -> [Option<Blend>; 2] {
 }
 
 /// Where one far corner of a strip lands on its owner's band.
-#[inline(always)]
 pub fn band_foot(surface: Surface, end: &End, spread: Spread) -> Option<Blend> {
     let share = match spread {
         Spread::Far | Spread::Narrow => share_of(end.edge, end.far),
@@ -106,12 +105,14 @@ fn abreast(surface: Surface, end: &End) -> Option<[Blend; 2]> {
 }
 
 /// Where the foot of the perpendicular from a pulled vertex divides an edge: 0 to 1, or beyond.
-fn share_of([from, to]: [DVec3; 2], pulled: DVec3) -> f64 {
+#[inline(always)]
+pub fn share_of([from, to]: [DVec3; 2], pulled: DVec3) -> f64 {
     (pulled - from).dot(to - from) / (to - from).length_squared()
 }
 
 /// The place at a share of a half-edge.
-fn on_edge(view: &View, half_edge: Corner, share: f64) -> Blend {
+#[inline(always)]
+pub fn on_edge(view: &View, half_edge: Corner, share: f64) -> Blend {
     let [from, to] = [half_edge, half_edge.next()].map(|corner| view.vertex_at(corner).0);
     let share = share.clamp(0.0, 1.0);
     match [1.0 - share, share].map(|weight| weight as f32) {
@@ -162,16 +163,17 @@ pub struct Lay {
 /// the old corner. The other vertices lie on a bow from foot to foot that bends towards the old
 /// corner, so that no three of them are in line.
 ///
-/// `below` knows where far corners of strips lie below themselves, at either end of a half-edge.
+/// `below` is where far corners of strips are known to lie below themselves: see [`feet_of_wings`].
 pub fn kite(
     given: &Given,
     sectors: &[Sector],
     (owner, wings, middles): (usize, Wings, usize),
-    below: impl Fn((Edge, Corner), usize) -> Option<Blend>,
+    below: [Option<Blend>; 2],
     lay: &mut Lay,
 ) {
     let Given { surface, chamfers, placement, .. } = *given;
     let sector = sectors[owner];
+    let below = if wings == Wings::Far { below } else { [None; 2] };
     let [behind, before] = feet_of_wings(given, (sector, wings), below);
     let fan = &chamfers.sectors.fans[sector];
     let corner = Blend::one(surface.view.vertex_at(fan.first).0);
@@ -208,47 +210,49 @@ fn on_others(
 }
 
 /// The feet on a sector's last and first edge; the old corner itself where the last one lies in
-/// another chart.
+/// another chart. Of some it is known where they are, first of that on the first edge.
+#[inline(always)]
 pub fn feet_of_wings(
     given: &Given,
     (sector, wings): (Sector, Wings),
-    below: impl Fn((Edge, Corner), usize) -> Option<Blend>,
+    [before, behind]: [Option<Blend>; 2],
 ) -> [Blend; 2] {
-    let Given { surface, chamfers, placement, .. } = *given;
-    let view = surface.view;
-    let fan = &chamfers.sectors.fans[sector];
-    let corner = surface.view.vertex_at(fan.first).0;
-    let foot = |half_edge: Corner| {
-        let edge = chamfers.edges.chamfered_at[half_edge];
-        let is_out = half_edge == fan.first;
-        match wings {
-            Wings::Far if edge.is_some() => {
-                if let Some(foot) = below((edge, half_edge), usize::from(!is_out)) {
-                    return foot;
-                }
-                let [one, two] = chamfers.edges.hard[edge].sides;
-                let other = if one == half_edge { two } else { one };
-                let across = if is_out { other.next() } else { other };
-                let far = placement.point[chamfers.sectors.sector_of[across]];
-                on_edge(surface.view, half_edge, share_of(ends(view, half_edge), far))
-            }
-            _ => {
-                let reach = if let Wings::Near(reach) = wings { reach } else { 1.0 };
-                let share = share_of(ends(view, half_edge), placement.point[sector]);
-                let reached = if is_out { reach * share } else { 1.0 - reach * (1.0 - share) };
-                on_edge(surface.view, half_edge, reached)
-            }
-        }
-    };
-    let before = foot(fan.first);
-    let one_chart = given.channels.iter().all(|&k| !is_broken(view, chamfers.sectors, sector, k));
-    if !one_chart {
+    let view = given.surface.view;
+    let fan = &given.chamfers.sectors.fans[sector];
+    let corner = view.vertex_at(fan.first).0;
+    let foot = |half_edge, is_out| foot_of_wing(given, (sector, wings), (half_edge, is_out));
+    let before = before.unwrap_or_else(|| foot(fan.first, true));
+    if given.channels.iter().any(|&channel| is_broken(view, fan, channel)) {
         return [Blend::one(corner), before];
     }
-    let last = surface.view.vertex_at(fan.last).0;
-    let behind = foot(fan.last.prev());
-    let vertices = behind.vertices.map(|v| if v == last { corner } else { v });
-    [Blend { vertices, ..behind }, before]
+    let mut behind = behind.unwrap_or_else(|| foot(fan.last.prev(), false));
+    let last = view.vertex_at(fan.last).0;
+    if last != corner {
+        behind.vertices = behind.vertices.map(|v| if v == last { corner } else { v });
+    }
+    [behind, before]
+}
+
+/// The foot on the half-edge out of a sector's corner, or on that back to it.
+#[inline(never)]
+fn foot_of_wing(
+    given: &Given,
+    (sector, wings): (Sector, Wings),
+    (half_edge, is_out): (Corner, bool),
+) -> Blend {
+    let Given { surface: Surface { view, .. }, chamfers, placement, .. } = *given;
+    let edge = chamfers.edges.chamfered_at[half_edge];
+    if wings == Wings::Far && edge.is_some() {
+        let [one, two] = chamfers.edges.hard[edge].sides;
+        let other = if one == half_edge { two } else { one };
+        let across = if is_out { other.next() } else { other };
+        let far = placement.point[chamfers.sectors.sector_of[across]];
+        return on_edge(view, half_edge, share_of(ends(view, half_edge), far));
+    }
+    let reach = if let Wings::Near(reach) = wings { reach } else { 1.0 };
+    let share = share_of(ends(view, half_edge), placement.point[sector]);
+    let reached = if is_out { reach * share } else { 1.0 - reach * (1.0 - share) };
+    on_edge(view, half_edge, reached)
 }
 
 /// A place to lay a chamfer flat.
@@ -331,8 +335,8 @@ pub fn is_pair(sectors: &Sectors, sector: Sector) -> bool {
 }
 
 /// Whether a seam of a channel runs through a sector.
-pub fn is_broken(view: &View, sectors: &Sectors, sector: Sector, channel: usize) -> bool {
-    let fan = &sectors.fans[sector];
+#[inline]
+pub fn is_broken(view: &View, fan: &Fan, channel: usize) -> bool {
     fan.first != fan.last && seam_between(view, channel, fan.first, fan.last)
 }
 

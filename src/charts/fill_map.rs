@@ -5,16 +5,17 @@ use std::cmp::Reverse;
 
 use glam::{DVec2, DVec3};
 
-use super::feet::{Frame, Lay, Room, feet_of_wings, flat_lay, is_broken, kite};
-use super::fit::{Facing, Lie, MOST_STRETCH, misfit};
+use super::feet::{Frame, Lay, Room, flat_lay, is_broken, kite};
+use super::fit::{Facing, Lie, MOST_STRETCH, fits, misfit};
 use super::ground::{Ground, density};
-use super::owners::Owners;
-use super::{FILL_WAYS, Given, TakenAt, Way, Wings, place_of};
+use super::owners::{Owners, Spoke};
+use super::{FILL_WAYS, Given, TakenAt, Way, place_of};
 use crate::attributes::Taken;
-use crate::ids::{Corner, Edge, Few, Ring, Sector, Triangle};
+use crate::ids::{Corner, Few, Ring, Sector, Triangle};
 use crate::math::{area_vector, unit};
 use crate::patches::Parts;
 use crate::report::Blend;
+use crate::surface::Surface;
 
 /// So many places of a ring are tried as owners: where more meet, as at the tip of a huge cone, it
 /// would take the square of their number.
@@ -47,14 +48,9 @@ pub fn lay_fill(
     taken: &mut Vec<TakenAt>,
 ) -> (Triangle, usize) {
     let sectors = given.chamfers.sectors.ring(ring);
-    let point = |sector: Sector| given.placement.point[sector];
-    if let (&[a, b, c], []) = (sectors, fill.middles) {
-        let points = [point(a), point(b), point(c)];
-        let map = FillMap::new((given, owners), (sectors, fill), &points);
-        return map.lay_triangle(taken).unwrap_or_else(|| map.lay_into_chart(taken));
-    }
+    let point = |sector: &Sector| given.placement.point[*sector];
     let mut points: Few<DVec3> = Few::new();
-    points.extend(sectors.iter().map(|&sector| point(sector)));
+    points.extend(sectors.iter().map(point));
     points.extend(fill.middles.iter().map(|middle| middle.position));
     FillMap::new((given, owners), (sectors, fill), &points).lay_into_chart(taken)
 }
@@ -68,31 +64,6 @@ impl<'a> FillMap<'a> {
         FillMap { given, owners, sectors, fill, points, frame: OnceCell::new() }
     }
 
-    /// As [`FillMap::lay_into_chart`], for three points around a corner at which the only channel has
-    /// seams: nearly always the first way fits the first owner. None where it does not.
-    fn lay_triangle(&self, taken: &mut Vec<TakenAt>) -> Option<(Triangle, usize)> {
-        let &[channel] = self.given.channels else { return None };
-        if !self.has_more_seams(channel, self.allowed_seams()) {
-            return None;
-        }
-        let owner = self.first_owner();
-        let wings = (self.sectors[owner], Wings::Far);
-        let feet = feet_of_wings(self.given, wings, |side, end| self.foot_below(side, end));
-        let places = [1, 2].map(|step| (owner + step) % 3);
-        let mut uvs = [self.own_uv(owner, channel); 3];
-        for (&place, foot) in places.iter().zip(&feet) {
-            uvs[place] = place_of(self.given.surface.view, channel, foot);
-        }
-        if self.misfit_on(channel, owner, Facing::AsFace, &uvs) > MOST_STRETCH {
-            return None;
-        }
-        let in_turn = if places[0] < places[1] { [0, 1] } else { [1, 0] };
-        for k in in_turn {
-            taken.push((places[k] as u32, Taken { channels: 1 << channel, place: feet[k] }));
-        }
-        Some((self.first(owner).triangle(), owner))
-    }
-
     /// The first way, and the first owner in rank, that fits in all channels that cannot run on; or
     /// else those that fit best.
     fn lay_into_chart(&self, taken: &mut Vec<TakenAt>) -> (Triangle, usize) {
@@ -100,7 +71,10 @@ impl<'a> FillMap<'a> {
         let all = self.given.channels.iter();
         let channels = all.filter(broken).fold(0, |channels, k| channels | 1 << k);
         if channels == 0 {
-            return (self.first(self.first_owner()).triangle(), 0);
+            return (
+                self.first(first_owner(self.given, self.owners, self.sectors).0).triangle(),
+                0,
+            );
         }
         let mut lay = Lay::default();
         let owner = self.best_lay(channels, &mut lay);
@@ -114,7 +88,7 @@ impl<'a> FillMap<'a> {
 
     /// Lays the fill for the best owner, which it gives.
     fn best_lay(&self, channels: u8, lay: &mut Lay) -> usize {
-        let first = self.first_owner();
+        let first = first_owner(self.given, self.owners, self.sectors).0;
         let mut best = (self.lay(channels, FILL_WAYS[0], first, lay), FILL_WAYS[0], first);
         if best.0 <= MOST_STRETCH {
             return first;
@@ -133,21 +107,6 @@ impl<'a> FillMap<'a> {
         let (_, way, owner) = best;
         self.lay(channels, way, owner, lay);
         owner
-    }
-
-    /// The first of the ring's places in rank.
-    fn first_owner(&self) -> usize {
-        let mut best = (Rank::default(), 0);
-        for place in 0..self.sectors.len() {
-            let rank = self.rank(place);
-            if rank > best.0 {
-                best = (rank, place);
-            }
-            if best.0 == BEST_RANK {
-                break;
-            }
-        }
-        best.1
     }
 
     /// The places of the ring that are tried as owners, the best first.
@@ -169,16 +128,17 @@ impl<'a> FillMap<'a> {
         match way {
             Way::Kite(wings) => {
                 let middles = self.fill.middles.len();
-                let below = |side, end| self.foot_below(side, end);
+                let spokes = self.owners.spokes(self.given.chamfers, self.sectors[owner]);
+                let below = self.owners.feet_below(&spokes);
                 kite(self.given, self.sectors, (owner, wings, middles), below, lay);
             }
             _ => *lay = self.flat(Room { corner: self.first(owner), scale: 1.0 }),
         }
     }
 
-    /// See [`Owners::foot_below`].
-    fn foot_below(&self, side: (Edge, Corner), end: usize) -> Option<Blend> {
-        self.owners.foot_below(self.given.chamfers.edges, side, end)
+    fn rank(&self, place: usize) -> Rank {
+        let spokes = self.owners.spokes(self.given.chamfers, self.sectors[place]);
+        rank(self.given, self.sectors[place], &spokes)
     }
 
     fn flat(&self, room: Room) -> Lay {
@@ -196,8 +156,7 @@ impl<'a> FillMap<'a> {
 
     /// Where the output vertex of a sector lies on the texture.
     fn own_uv(&self, place: usize, channel: usize) -> DVec2 {
-        let attributes = self.given.attributes;
-        attributes.streams.uv(attributes.vertex_at[self.first(place)], channel)
+        self.given.own_uv(self.first(place), channel)
     }
 
     /// How badly the fill lies on its owner's texture: see [`misfit`].
@@ -211,13 +170,16 @@ impl<'a> FillMap<'a> {
         uvs.extend(
             lay.middles.iter().map(|middle| place_of(self.given.surface.view, channel, middle)),
         );
-        self.misfit_on(channel, owner, Facing::AsFace, &uvs)
+        let (surface, at) = (self.given.surface, [self.first(owner)]);
+        let ground = Ground::new(surface, channel, &at);
+        misfit(surface.view, at[0], Facing::AsFace, channel, &ground, &self.lie(&uvs))
     }
 
     /// Whether it fits where its vertices are in their own charts, and these are one around the
     /// corner.
     fn fits_as_it_is(&self, channel: usize) -> bool {
-        if self.has_more_seams(channel, self.allowed_seams()) {
+        let allowed = allowed_seams(self.given, self.sectors, self.fill.middles.len());
+        if has_more_seams(self.given, self.sectors, (channel, allowed)) {
             return false;
         }
         let places = 0..self.sectors.len();
@@ -225,8 +187,8 @@ impl<'a> FillMap<'a> {
         let middles = self.fill.middles.iter();
         uvs.extend(middles.map(|middle| place_of(self.given.surface.view, channel, &middle.near)));
         let facing = self.facing(channel);
-        let on = |owner: usize| self.misfit_on(channel, owner, facing, &uvs);
-        (0..self.sectors.len().min(MOST_OWNERS)).any(|owner| on(owner) <= MOST_STRETCH)
+        let mut owners = 0..self.sectors.len().min(MOST_OWNERS);
+        owners.any(|owner| self.fits_on(channel, owner, facing, &uvs))
     }
 
     /// How the fill may lie between the faces around the corner.
@@ -241,92 +203,83 @@ impl<'a> FillMap<'a> {
         if turns.all(|turn| turn == first) { Facing::AsFace } else { Facing::Either }
     }
 
-    fn misfit_on(&self, channel: usize, owner: usize, facing: Facing, uvs: &[DVec2]) -> f64 {
-        let corners = [self.first(owner)];
-        let ground = Ground::new(self.given.surface, channel, &corners);
-        let lie = Lie { triangles: self.fill.triangles, points: self.points, uvs, unsure: uvs };
-        misfit(self.given.surface.view, corners[0], facing, channel, &ground, &lie)
+    /// Whether it lies well enough on its owner's texture.
+    fn fits_on(&self, channel: usize, owner: usize, facing: Facing, uvs: &[DVec2]) -> bool {
+        let (surface, at) = (self.given.surface, [self.first(owner)]);
+        fits(surface.view, facing, &Ground::new(surface, channel, &at), &self.lie(uvs))
     }
 
-    /// One seam unfolds the faces around a closed ring; around an open one the border does.
-    fn allowed_seams(&self) -> usize {
-        let ring = self.given.chamfers.sectors.fans[self.sectors[0]].ring;
-        usize::from(self.given.chamfers.sectors.rings[ring].closed && self.fill.middles.is_empty())
-    }
-
-    /// Whether a channel breaks more often around the ring than so many times, at edges and within sectors.
-    fn has_more_seams(&self, channel: usize, allowed: usize) -> bool {
-        let Given { surface, chamfers, .. } = *self.given;
-        let is_at_edge = |sector: Sector| {
-            let edge = chamfers.edges.chamfered_at[chamfers.sectors.fans[sector].last.prev()];
-            edge.is_some() && chamfers.edges.hard[edge].seams >> channel & 1 == 1
-        };
-        let mut seams = 0;
-        self.sectors.iter().any(|&sector| {
-            let is_within = is_broken(surface.view, chamfers.sectors, sector, channel);
-            seams += usize::from(is_at_edge(sector)) + usize::from(is_within);
-            seams > allowed
-        })
-    }
-
-    /// How good an owner a sector is.
-    fn rank(&self, place: usize) -> Rank {
-        let Given { surface, chamfers, .. } = *self.given;
-        let sector = self.sectors[place];
-        let fan = &chamfers.sectors.fans[sector];
-        let owns = |side: &Corner| {
-            let edge: Edge = chamfers.edges.chamfered_at[*side];
-            edge.is_some() && chamfers.edges.hard[edge].sides[self.owners.of(edge)] == *side
-        };
-        let owned = [fan.first, fan.last.prev()].iter().filter(|side| owns(side)).count();
-        let at = self.given.placement.base(sector);
-        let first = surface.view.position_at(fan.first.next()) - at;
-        let last = surface.view.position_at(fan.last.prev()) - at;
-        let is_convex = first.cross(last).dot(surface.faces.normal[fan.first.triangle()]) > 0.0;
-        (self.given.placement.has_moved(sector), is_convex, owned)
+    fn lie<'b>(&'b self, uvs: &'b [DVec2]) -> Lie<'b> {
+        Lie { triangles: self.fill.triangles, points: self.points, uvs, unsure: uvs }
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::super::{channels_of, owners::owners};
-    use super::*;
-    use crate::shapes;
-    use crate::stages::stages_of;
-    use crate::watch::{Unwatched, Watch};
+/// One seam unfolds the faces around a closed ring; around an open one, and with vertices in the middle,
+/// the border does.
+#[inline(always)]
+pub fn allowed_seams(given: &Given, sectors: &[Sector], middles: usize) -> usize {
+    let ring = given.chamfers.sectors.fans[sectors[0]].ring;
+    usize::from(given.chamfers.sectors.rings[ring].closed && middles == 0)
+}
 
-    #[test]
-    fn a_triangle_is_laid_as_any_other_fill() {
-        let mut laid = 0;
-        let cube = ("cube", shapes::cube(1.0));
-        for (name, mesh) in shapes::demo_models().into_iter().chain([cube]) {
-            let stages = stages_of(&mesh, 0.01);
-            let placement = stages.placement();
-            let (patches, attributes) = (stages.patches(&placement), stages.attributes(&placement));
-            let channels: Few<usize> = channels_of(&stages.view).collect();
-            let given = Given {
-                surface: stages.surface(),
-                chamfers: stages.chamfers(),
-                placement: &placement,
-                attributes: &attributes,
-                channels: &channels,
-            };
-            let work = (&stages.threads, &Unwatched as &dyn Watch);
-            let owners = &owners(&given, &patches, work).unwrap();
-            for ring in stages.sectors.rings.ids() {
-                let (sectors, fill) = (stages.sectors.ring(ring), patches.fill(ring));
-                if sectors.len() != 3 || fill.triangles.is_empty() {
-                    continue;
-                }
-                let points: Few<DVec3> = sectors.iter().map(|&at| placement.point[at]).collect();
-                let map = FillMap::new((&given, owners), (sectors, fill), &points);
-                let (mut quickly, mut taken) = (Vec::new(), Vec::new());
-                let Some(face) = map.lay_triangle(&mut quickly) else { continue };
-                assert_eq!(face, map.lay_into_chart(&mut taken), "{name}");
-                assert_eq!(quickly, taken, "{name}");
-                laid += 1;
-            }
+/// Whether a channel breaks more often around a ring than so many times, at edges and within sectors.
+#[inline(always)]
+pub fn has_more_seams(
+    given: &Given,
+    sectors: &[Sector],
+    (channel, allowed): (usize, usize),
+) -> bool {
+    let Given { surface, chamfers, .. } = *given;
+    let mut seams = 0;
+    for &sector in sectors {
+        let fan = &chamfers.sectors.fans[sector];
+        let edge = chamfers.edges.chamfered_at[fan.last.prev()];
+        let is_at_edge = edge.is_some() && chamfers.edges.hard[edge].seams >> channel & 1 == 1;
+        seams += usize::from(is_at_edge) + usize::from(is_broken(surface.view, fan, channel));
+        if seams > allowed {
+            return true;
         }
-        assert!(laid > 8, "those of the cube and more, but {laid}");
     }
+    false
+}
+
+/// The first of a ring's places in rank, and what is beside it.
+#[inline(always)]
+pub fn first_owner(given: &Given, owners: &Owners, sectors: &[Sector]) -> (usize, [Spoke; 2]) {
+    // Nearly always that is as good as can be.
+    let spokes = owners.spokes(given.chamfers, sectors[0]);
+    let rank = rank(given, sectors[0], &spokes);
+    if rank == BEST_RANK { (0, spokes) } else { better_owner(given, owners, sectors, rank) }
+}
+
+#[inline(never)]
+fn better_owner(
+    given: &Given,
+    owners: &Owners,
+    sectors: &[Sector],
+    first: Rank,
+) -> (usize, [Spoke; 2]) {
+    let mut best = (first, 0);
+    for (place, &sector) in sectors.iter().enumerate().skip(1) {
+        let rank = rank(given, sector, &owners.spokes(given.chamfers, sector));
+        if rank > best.0 {
+            best = (rank, place);
+        }
+        if best.0 == BEST_RANK {
+            break;
+        }
+    }
+    (best.1, owners.spokes(given.chamfers, sectors[best.1]))
+}
+
+/// How good an owner a sector is.
+#[inline(always)]
+fn rank(given: &Given, sector: Sector, [out, back]: &[Spoke; 2]) -> Rank {
+    let Surface { view, faces, .. } = given.surface;
+    let owned = usize::from(out.is_owned) + usize::from(back.is_owned);
+    let at = view.position_at(out.half_edge);
+    let ahead = view.position_at(out.half_edge.next()) - at;
+    let behind = view.position_at(back.half_edge) - at;
+    let is_convex = ahead.cross(behind).dot(faces.normal[out.half_edge.triangle()]) > 0.0;
+    (given.placement.point[sector] != at, is_convex, owned)
 }

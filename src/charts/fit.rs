@@ -3,8 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::feet::Room;
-use super::ground::Ground;
-use super::ground::{density, density_of, texture_area};
+use super::ground::{Face, Ground, density, density_of, texture_area};
 use crate::ids::Corner;
 use crate::math::area_vector;
 use crate::view::View;
@@ -12,6 +11,9 @@ use crate::view::View;
 /// A chamfer that lies this many times denser or thinner on the texture than the face that it
 /// continues looks smeared or noisy: then another way to map it is tried.
 pub const MOST_STRETCH: f64 = 3.9;
+
+/// Less than that by far more than rounding.
+const SURELY_NO_STRETCH: f64 = 3.8;
 
 /// Past the end of its chart a chamfer shows what belongs elsewhere, which is worse than any
 /// stretch that can still be looked at.
@@ -68,7 +70,7 @@ pub fn misfit(
     lie: &Lie,
 ) -> f64 {
     let own = ground.own();
-    let density = match ground.is_at(face.triangle()) {
+    let density = match face.triangle() == ground.triangle() {
         true => density_of(view, face.triangle(), &own),
         false => density(view, face.triangle(), channel),
     };
@@ -77,6 +79,49 @@ pub fn misfit(
         return stretch * BEYOND;
     }
     stretch
+}
+
+/// Whether a chamfer lies no worse than [`MOST_STRETCH`] on the texture of the face where the ground
+/// begins: see [`misfit`], which takes longer, as it tells how badly.
+pub fn fits(view: &View, facing: Facing, ground: &Ground, lie: &Lie) -> bool {
+    let own = ground.own();
+    let measure = Measure::new(view.triangle(ground.triangle()), &own);
+    let is_alike = |triangle: &[u32; 3]| {
+        let places = triangle.map(|place| place as usize);
+        measure.is_surely_alike(places.map(|k| lie.points[k]), places.map(|k| lie.uvs[k]))
+    };
+    let density = || density_of(view, ground.triangle(), &own);
+    (lie.triangles.iter().all(is_alike)
+        || stretch(density(), facing, view.resolution, lie) <= MOST_STRETCH)
+        && ground.covers(&own, (lie.triangles, lie.uvs), lie.unsure)
+}
+
+/// What triangles are measured by that continue a face.
+pub struct Measure {
+    /// The face's area, and that on the texture, each twice.
+    area: f64,
+    flat: f64,
+    /// 1 or -1: whether it is mirrored there.
+    turn: f64,
+}
+
+impl Measure {
+    /// Of a face in space and on the texture.
+    #[inline(always)]
+    pub fn new(points: [DVec3; 3], face: &Face) -> Measure {
+        let area = area_vector(points).length();
+        Measure { area, flat: face.area.abs(), turn: 1.0_f64.copysign(face.area) }
+    }
+
+    /// Whether a triangle is the same way round on the texture as the face, and not much denser or thinner:
+    /// then its [`stretch`] is no more than it may be, or is not told at all. As nothing is divided here,
+    /// nothing need be told apart from zero.
+    #[inline(always)]
+    pub fn is_surely_alike(&self, points: [DVec3; 3], uvs: [DVec2; 3]) -> bool {
+        let flat = texture_area(uvs) * self.turn * self.area;
+        let expected = self.flat * area_vector(points).length();
+        flat < expected * SURELY_NO_STRETCH && expected < flat * SURELY_NO_STRETCH
+    }
 }
 
 /// Where the ground has the most room to lay a chamfer of a face flat, as dense as the face.

@@ -2,10 +2,13 @@
 //!
 //! And density: how much texture a triangle shows for its area.
 
+use std::cell::LazyCell;
+use std::ops::Deref;
+
 use glam::DVec2;
 
 use crate::breaks::seam_between;
-use crate::ids::{Corner, Id, Triangle};
+use crate::ids::{Corner, Few, Id, Triangle};
 use crate::math::area_vector;
 use crate::mesh::Uv;
 use crate::surface::Surface;
@@ -18,6 +21,9 @@ const SAMPLES: usize = 7;
 
 const THIRD: f64 = 1.0 / 3.0;
 
+/// The square of a distance that is this many times another one's is more, whatever rounding does.
+const SURELY_FARTHER: f64 = 1.1;
+
 /// A chamfer may lie on so many triangles of a chart, and of those around a corner on so many from
 /// it on either way: more would take long to find.
 const MOST_FACES: usize = 64;
@@ -28,18 +34,20 @@ pub struct Face {
     points: [DVec2; 3],
     /// From each point to the next.
     sides: [DVec2; 3],
-    /// Twice its area.
-    area: f64,
+    /// Twice its area, negative where it is mirrored.
+    pub area: f64,
 }
 
 impl Face {
-    fn new(points: [DVec2; 3]) -> Face {
+    #[inline(always)]
+    pub fn new(points: [DVec2; 3]) -> Face {
         let [a, b, c] = points;
         Face { points, sides: [b - a, c - b, a - c], area: texture_area(points) }
     }
 
     /// Whether a point is on it, with no margin.
-    fn holds(&self, point: DVec2) -> bool {
+    #[inline(always)]
+    pub fn holds(&self, point: DVec2) -> bool {
         let sign = 1.0_f64.copysign(self.area);
         self.area != 0.0 && (0..3).all(|side| self.turn(side, point) * sign >= 0.0)
     }
@@ -68,9 +76,30 @@ impl Face {
         self.holds(point) || self.is_beside(point, near)
     }
 
+    /// The same where its bounds are known, and most points are far away.
+    fn is_below_within(&self, bounds: [DVec2; 2], point: DVec2, near: f64) -> bool {
+        if self.area == 0.0 {
+            return self.is_beside_within(bounds, point, near);
+        }
+        let sign = 1.0_f64.copysign(self.area);
+        let turn = |side: usize| self.turn(side, point) * sign;
+        let Some((side, turn)) =
+            (0..3).map(|side| (side, turn(side))).find(|(_, turn)| *turn < 0.0)
+        else {
+            return true;
+        };
+        // What is far beyond a side's line is so from all of the triangle.
+        let square = near * near * self.sides[side].length_squared();
+        turn * turn <= square * SURELY_FARTHER && self.is_beside_within(bounds, point, near)
+    }
+
     /// Whether a point is as near to one of its sides.
     fn is_beside(&self, point: DVec2, near: f64) -> bool {
-        let [low, high] = bounds(self.points);
+        self.is_beside_within(bounds(self.points), point, near)
+    }
+
+    /// The same where its bounds are known.
+    fn is_beside_within(&self, [low, high]: [DVec2; 2], point: DVec2, near: f64) -> bool {
         let outside = (low - point).max(point - high).max_element();
         outside <= near
             && (0..3).any(|k| {
@@ -90,6 +119,8 @@ struct Samples {
     /// The corners first.
     points: [DVec2; SAMPLES],
     is_left: [bool; SAMPLES],
+    /// Those of all of them.
+    bounds: [DVec2; 2],
     /// So near counts as on it.
     near: f64,
 }
@@ -100,21 +131,31 @@ impl Samples {
         let middle = |one: DVec2, other: DVec2| one * 0.5 + other * 0.5;
         let points =
             [a, b, c, middle(a, b), middle(b, c), middle(a, c), a * THIRD + b * THIRD + c * THIRD];
-        Samples { points, is_left: [true; SAMPLES], near: nearness(triangle) }
+        let (bounds, near) = (bounds(triangle), nearness(triangle));
+        Samples { points, is_left: [true; SAMPLES], bounds, near }
     }
 
     /// Whether the triangle lies on a face, or all places lie on this one or one that was asked before.
-    fn lie_on(&mut self, face: &Face) -> bool {
-        let below = [0, 1, 2].map(|k| face.is_below(self.points[k], self.near));
-        if below == [true; 3] {
-            return true;
+    fn lie_on(&mut self, points: [DVec2; 3]) -> bool {
+        let within @ [low, high] = bounds(points);
+        // Of most faces around a corner all are farther away than rounding can tell.
+        let apart = (self.bounds[0] - high).max(low - self.bounds[1]).max_element();
+        if apart > self.near + (high - low).max_element() * TEXTURE_ROUNDING {
+            return false;
         }
+        let face = Face::new(points);
+        let is_below = |at| face.is_below_within(within, at, self.near);
+        let mut is_whole = true;
         for k in 0..SAMPLES {
-            if !self.is_left[k] {
-                continue;
+            // A corner is asked for as long as all of them may lie on this one.
+            if self.is_left[k] || is_whole && k < 3 {
+                let is_on = is_below(self.points[k]);
+                self.is_left[k] &= !is_on;
+                is_whole &= is_on;
             }
-            let is_below = || face.is_below(self.points[k], self.near);
-            self.is_left[k] = !below.get(k).copied().unwrap_or_else(is_below);
+            if is_whole && k == 2 {
+                return true;
+            }
         }
         self.is_left == [false; SAMPLES]
     }
@@ -135,53 +176,64 @@ impl<'a> Ground<'a> {
     }
 
     /// The triangle at the first of its corners.
-    pub fn own(&self) -> Face {
-        self.face(self.corners[0].triangle())
+    pub fn triangle(&self) -> Triangle {
+        self.corners[0].triangle()
     }
 
-    /// Whether that is this one.
-    pub fn is_at(&self, triangle: Triangle) -> bool {
-        self.corners[0].triangle() == triangle
+    /// How that lies on the texture.
+    pub fn own(&self) -> Face {
+        self.face(self.triangle())
     }
 
     /// Whether some triangles on the texture, of which each is three places in the points, lie on it. Of
     /// some of the points it is not known whether they lie on its own triangle, which is known.
-    pub fn covers(
+    pub fn covers(&self, own: &Face, lie: (&[[u32; 3]], &[DVec2]), unsure: &[DVec2]) -> bool {
+        // Most chamfers lie on the triangle that they are cut off from, and most of their points right on it.
+        unsure.iter().all(|&point| own.holds(point)) || self.covers_past(*own, lie, unsure)
+    }
+
+    /// The same where the own triangle is not enough. That is taken by value: so it is copied here alone.
+    #[inline(never)]
+    pub fn covers_past(
         &self,
-        own: &Face,
+        own: Face,
         (triangles, points): (&[[u32; 3]], &[DVec2]),
         unsure: &[DVec2],
     ) -> bool {
         let corners = |triangle: &[u32; 3]| triangle.map(|place| points[place as usize]);
-        // Most chamfers lie on the triangle that they are cut off from, and most of their points right on it.
-        if unsure.iter().all(|&point| own.holds(point)) {
-            return true;
-        }
-        let near = || {
+        let near = LazyCell::new(|| {
             let nears = triangles.iter().map(|triangle| nearness(corners(triangle)));
             nears.fold(f64::INFINITY, f64::min)
-        };
+        });
+        let near = || *near;
         let at = self.corners[0];
         // Most of the others lie on it and on the one before it around the corner.
-        [at.prev(), at].into_iter().any(|side| self.lie_on_two(own, side, (unsure, &near)))
+        [at.prev(), at].into_iter().any(|side| self.lie_on_two(&own, side, (unsure, &near)))
             || unsure.iter().all(|&point| own.is_below(point, near()))
             || self.corners.len() == 1 && self.lie_around(points)
-            || triangles.iter().all(|triangle| self.covers_one(own, corners(triangle)))
+            || {
+                let (nearest, beside) = (self.nearest(), LazyCell::new(|| self.beside()));
+                let covers = |triangle| self.covers_one((&nearest, &beside), corners(triangle));
+                triangles.iter().all(covers)
+            }
     }
 
-    /// The same for one triangle, where the face at the first corner is known.
-    fn covers_one(&self, own: &Face, triangle: [DVec2; 3]) -> bool {
+    /// The same for one triangle, where it is known what is nearest to the first half-edge, and beside that.
+    fn covers_one(
+        &self,
+        (nearest, beside): (&[[DVec2; 3]], &impl Deref<Target = Few<[DVec2; 3]>>),
+        triangle: [DVec2; 3],
+    ) -> bool {
         let mut samples = Samples::new(triangle);
-        let own_triangle = self.corners[0].triangle();
-        samples.lie_on(own)
-            || self.across().is_some_and(|across| samples.lie_on(&self.face(across)))
-            || self.any_corner(|corner| {
-                corner.triangle() != own_triangle && samples.lie_on(&self.face(corner.triangle()))
-            })
-            || self
-                .below(triangle, samples.near)
-                .into_iter()
-                .any(|face| samples.lie_on(&self.face(face)))
+        let (own, near) = (self.triangle(), samples.near);
+        if nearest.iter().any(|face| samples.lie_on(*face))
+            || beside.iter().any(|face| samples.lie_on(*face))
+        {
+            return true;
+        }
+        let mut lie_on = |face: Triangle| samples.lie_on(self.points(face));
+        self.any_corner(|corner| corner.triangle() != own && lie_on(corner.triangle()))
+            || self.below(triangle, near).into_iter().any(lie_on)
     }
 
     /// Whether some points lie on the own triangle and on that beyond one of its sides, or as near to them,
@@ -238,11 +290,38 @@ impl<'a> Ground<'a> {
         false
     }
 
-    /// The triangle of the chart beyond the first half-edge: what does not lie on the own one lies mostly
-    /// there, and is soon found so.
-    fn across(&self) -> Option<Triangle> {
-        let side = self.corners[0];
-        self.runs_on(side).then(|| self.surface.topology.twin[side].triangle())
+    /// The own triangle and that of the chart beyond the first half-edge: what does not lie on the one lies
+    /// mostly on the other, and is soon found so.
+    fn nearest(&self) -> Few<[DVec2; 3]> {
+        let mut nearest = Few::new();
+        nearest.push(self.points(self.triangle()));
+        self.add_beyond(self.corners[0], &mut nearest);
+        nearest
+    }
+
+    /// Those next to these two around the corners: there lies most of what is left.
+    fn beside(&self) -> Few<[DVec2; 3]> {
+        let (side, is_edge) = (self.corners[0], self.corners.len() > 1);
+        let twin = self.surface.topology.twin[side];
+        let mut beside = Few::new();
+        self.add_beyond(side.prev(), &mut beside);
+        if is_edge {
+            self.add_beyond(side.next(), &mut beside);
+        }
+        if self.runs_on(side) {
+            self.add_beyond(twin.next(), &mut beside);
+            if is_edge {
+                self.add_beyond(twin.prev(), &mut beside);
+            }
+        }
+        beside
+    }
+
+    /// Adds the triangle of the chart beyond a half-edge.
+    fn add_beyond(&self, side: Corner, faces: &mut Few<[DVec2; 3]>) {
+        if self.runs_on(side) {
+            faces.push(self.points(self.surface.topology.twin[side].triangle()));
+        }
     }
 
     /// The triangles of the chart that reach below one on the texture, as far as they follow on each
@@ -260,7 +339,7 @@ impl<'a> Ground<'a> {
         let area = |face: &Triangle| texture_area(self.points(*face)).abs();
         let near_by = self.spread(|_| true);
         let roomiest = near_by.into_iter().max_by(|one, other| area(one).total_cmp(&area(other)));
-        roomiest.unwrap_or(self.corners[0].triangle())
+        roomiest.unwrap_or(self.triangle())
     }
 
     /// The triangles of the chart that are such, as far as they follow on those around the corners.
@@ -288,24 +367,31 @@ impl<'a> Ground<'a> {
     /// Whether the corner of one of them is such.
     fn any_corner(&self, mut is_such: impl FnMut(Corner) -> bool) -> bool {
         let is_such = &mut is_such;
-        self.corners.iter().any(|&at| self.any_ahead(at, is_such) || self.any_behind(at, is_such))
+        self.corners.iter().any(|&at| match self.any_ahead(at, is_such) {
+            Ahead::Found => true,
+            Ahead::All => false,
+            Ahead::Some => self.any_behind(at, is_such),
+        })
     }
 
     /// Whether one of the corners from one on, counter-clockwise around its vertex up to the
     /// chart's end, is such.
-    fn any_ahead(&self, at: Corner, is_such: &mut impl FnMut(Corner) -> bool) -> bool {
+    fn any_ahead(&self, at: Corner, is_such: &mut impl FnMut(Corner) -> bool) -> Ahead {
         let mut corner = at;
         for _ in 0..MOST_FACES {
             if is_such(corner) {
-                return true;
+                return Ahead::Found;
             }
             let side = corner.prev();
             corner = self.surface.topology.twin[side];
-            if corner == at || !self.runs_on(side) {
+            if corner == at {
+                return Ahead::All;
+            }
+            if !self.runs_on(side) {
                 break;
             }
         }
-        false
+        Ahead::Some
     }
 
     /// As [`Ground::any_ahead`], of the corners before one, clockwise.
@@ -343,6 +429,15 @@ impl<'a> Ground<'a> {
     }
 }
 
+/// What comes of asking the corners around a vertex, one way round.
+enum Ahead {
+    Found,
+    /// None of those all around is such.
+    All,
+    /// None of some, up to the chart's end.
+    Some,
+}
+
 /// How near to the ground a triangle counts as on it.
 fn nearness(triangle: [DVec2; 3]) -> f64 {
     longest_square(triangle).sqrt() * TEXTURE_MARGIN + size(triangle) * TEXTURE_ROUNDING
@@ -354,10 +449,10 @@ fn bounds([a, b, c]: [DVec2; 3]) -> [DVec2; 2] {
 }
 
 /// Two components of a vertex in a UV channel: what lies on the texture.
+#[inline]
 pub fn uv_point(uv: &Uv, vertex: u32) -> DVec2 {
     let first = vertex as usize * uv.components as usize;
-    let [v, u] = [first + 1, first].map(|place| f64::from(uv.values[place]));
-    DVec2::new(u, v)
+    DVec2::new(f64::from(uv.values[first]), f64::from(uv.values[first + 1]))
 }
 
 /// UV area over surface area of a source triangle, negative where it is mirrored; 0 where it has
@@ -375,6 +470,7 @@ pub fn density_of(view: &View, triangle: Triangle, face: &Face) -> f64 {
 }
 
 /// Twice the area on the texture.
+#[inline]
 pub fn texture_area([a, b, c]: [DVec2; 3]) -> f64 {
     (b - a).perp_dot(c - a)
 }

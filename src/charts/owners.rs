@@ -2,11 +2,12 @@
 
 use super::feet::is_pair;
 use super::strip_map::{Band, StripMap};
-use super::{Given, Spread, Way};
+use super::sure::sure_band;
+use super::{Given, Spread};
 use crate::chamfers::Chamfers;
 use crate::edges::Edges;
 use crate::error::Error;
-use crate::ids::{Corner, Edge, IdVec, Patch, Triangle};
+use crate::ids::{Corner, Edge, IdVec, Patch, Sector, Triangle};
 use crate::patches::Patches;
 use crate::report::Blend;
 use crate::surface::Surface;
@@ -27,18 +28,43 @@ impl Owners {
         self.side[edge].into()
     }
 
-    /// Where the strip of an edge has its far corner, at the start or at the end of one of the edge's
-    /// half-edges, if it belongs to that side and lies below itself there.
-    pub fn foot_below(
-        &self,
-        edges: &Edges,
-        (edge, half_edge): (Edge, Corner),
-        end: usize,
-    ) -> Option<Blend> {
-        let is_own = edges.hard[edge].sides[self.of(edge)] == half_edge;
-        let below = self.band[edge].filter(|band| is_own && band.way == Way::Band(Spread::Far));
-        below.and_then(|band| band.far[end])
+    /// What is beside a sector.
+    #[inline(always)]
+    pub fn spokes(&self, chamfers: Chamfers, sector: Sector) -> [Spoke; 2] {
+        let fan = &chamfers.sectors.fans[sector];
+        let edges = chamfers.edges;
+        [self.spoke(edges, fan.first), self.spoke(edges, fan.last.prev())]
     }
+
+    #[inline(always)]
+    fn spoke(&self, edges: &Edges, half_edge: Corner) -> Spoke {
+        let edge = edges.chamfered_at[half_edge];
+        let is_owned = edge.is_some() && edges.hard[edge].sides[self.of(edge)] == half_edge;
+        Spoke { half_edge, edge, is_owned }
+    }
+
+    /// Where the strips of a sector's two edges have their far corners, if they belong to its side and
+    /// lie below themselves there.
+    #[inline(always)]
+    pub fn feet_below(&self, [out, back]: &[Spoke; 2]) -> [Option<Blend>; 2] {
+        [self.foot_below(out, 0), self.foot_below(back, 1)]
+    }
+
+    #[inline(always)]
+    fn foot_below(&self, spoke: &Spoke, end: usize) -> Option<Blend> {
+        let band = if spoke.is_owned { self.band[spoke.edge].as_ref()? } else { return None };
+        if band.spread == Spread::Far { band.far[end] } else { None }
+    }
+}
+
+/// One of the two half-edges that a sector lies between: out of its corner, or back to it.
+#[derive(Clone, Copy)]
+pub struct Spoke {
+    pub half_edge: Corner,
+    /// None where it is not chamfered.
+    pub edge: Edge,
+    /// Whether the chamfer there has this side for its owner.
+    pub is_owned: bool,
 }
 
 /// No side yet.
@@ -55,14 +81,15 @@ pub fn owners(
     patches: &Patches,
     (threads, watch): (&Threads, &dyn Watch),
 ) -> Result<Owners, Error> {
-    let Given { surface, chamfers, placement, attributes, .. } = *given;
+    let Given { surface, chamfers, .. } = *given;
     let band = |edge: Edge, side: u8| {
         let hard = &chamfers.edges.hard[edge];
         if hard.skipped.is_some() || hard.seams == 0 {
             return Some(Band::ANY);
         }
         let triangles = patches.triangles(Patch(edge.0));
-        StripMap::new(surface, placement, attributes, hard, triangles).band(side.into())
+        let any_band = || StripMap::new(given, hard, triangles).band(side.into());
+        sure_band(given, (hard, triangles), side.into()).or_else(any_band)
     };
     let region = regions(surface, chamfers.edges, watch)?;
     let side = sides_in_order(chamfers, &region);
