@@ -53,6 +53,7 @@ fn keeps_direction(old: [DVec3; 3], new: [DVec3; 3]) -> bool {
 
 /// Whether a new triangle has area and faces the way its vertex normals point. `resolution` is
 /// the least height that counts.
+#[inline(always)]
 pub fn faces_out(points: [DVec3; 3], normals: [DVec3; 3], resolution: f64) -> bool {
     let area = area_vector(points);
     faces(area, normals[0] + normals[1] + normals[2]) && has_area(points, area, resolution)
