@@ -69,6 +69,8 @@ pub struct Offset {
     /// Whether the sector's corners are of one vertex, all on faces that have a plane and no hard edge
     /// between them: then all streams are read at the foot.
     pub is_plain: bool,
+    /// Whether these faces are in one plane, too.
+    pub is_even: bool,
 }
 
 impl Offset {
@@ -81,6 +83,7 @@ impl Offset {
             is_capped: false,
             fronts: [1.0; 2],
             is_plain: false,
+            is_even: false,
         }
     }
 
@@ -226,11 +229,11 @@ fn offset(
     (spread, is_even): (&[Blade], bool),
 ) -> Offset {
     let is_plain = is_even || is_plain(surface, fan, spread);
-    let stays = || Offset { is_plain, ..Offset::none(fan.first) };
+    let stays = || Offset { is_plain, is_even, ..Offset::none(fan.first) };
     let Some(course) = course(surface, edges, fan, (spread, is_even)) else { return stays() };
     let Some((vector, foot)) = place(surface, (spread, is_even), &course) else { return stays() };
-    let Course { blade, is_capped, .. } = course;
-    Offset { vector, within: blade.corner, foot, is_capped, fronts: [1.0; 2], is_plain }
+    let (Course { blade, is_capped, .. }, fronts) = (course, [1.0; 2]);
+    Offset { vector, within: blade.corner, foot, is_capped, fronts, is_plain, is_even }
 }
 
 /// Whether a fan has one vertex, and a plane on every face.

@@ -223,7 +223,7 @@ impl Rims<'_> {
             && !fan.is_broken
             && is_chamfered(fan.first)
             && is_chamfered(fan.last.prev())
-            && is_one_face(self.surface, self.chamfers.sectors, sector)
+            && is_one_face(self.surface, self.chamfers.sectors, (sector, &self.offsets[sector]))
     }
 
     /// The run that begins at a side which vanishes; none where the whole rim does, or the edges beside the
