@@ -449,7 +449,7 @@ impl Moving {
             return (linear < -self.slack).then_some(from);
         }
         // Where even what both terms take together leaves some, there is no root before share 1.
-        let taken = smaller(linear, 0.0) + smaller(square, 0.0);
+        let taken = linear.min(0.0) + square.min(0.0);
         if spare + taken > self.slack {
             return None;
         }
