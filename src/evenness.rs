@@ -105,9 +105,11 @@ impl Leveling<'_> {
     fn seeds(&mut self, watch: &dyn Watch) -> Result<BinaryHeap<Narrow>, Error> {
         let mut seeds = BinaryHeap::new();
         for stretch in stretches(self.room.fronts.len(), watch) {
-            let moves = |sector: &Sector| self.given.offsets[*sector].moves();
-            for sector in stretch?.map(Sector::new).filter(moves) {
-                seeds.extend([0, 1].into_iter().filter_map(|which| self.seed((sector, which))));
+            for sector in stretch?.map(Sector::new) {
+                // Most are as wide as asked.
+                if self.room.fronts[sector] != [1.0; 2] && self.given.offsets[sector].moves() {
+                    seeds.extend([0, 1].into_iter().filter_map(|which| self.seed((sector, which))));
+                }
             }
         }
         Ok(seeds)

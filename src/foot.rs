@@ -71,24 +71,23 @@ pub fn locate(view: &View, corner: Corner, from: DVec3, vector: DVec3) -> Option
 
 /// The same where the corner's arms are known, and the way to the point.
 #[inline(always)]
-pub fn locate_by(
-    [to_next, to_prev]: Arms,
-    corner: Corner,
-    start: DVec3,
-    vector: DVec3,
-) -> Option<Foot> {
-    let normal = to_next.cross(to_prev);
-    let square = normal.length_squared();
-    let weight = |part: DVec3| {
-        let weight = part.dot(normal) / square;
-        if weight.abs() < LEAST_WEIGHT { 0.0 } else { weight }
-    };
-    let in_edges = |way: DVec3| [weight(way.cross(to_prev)), weight(to_next.cross(way))];
+pub fn locate_by(arms: Arms, corner: Corner, start: DVec3, vector: DVec3) -> Option<Foot> {
     // Nearly all ways begin at the corner.
-    let start = if start == DVec3::ZERO { [0.0; 2] } else { in_edges(start) };
-    let along = in_edges(vector);
+    let start = if start == DVec3::ZERO { [0.0; 2] } else { in_edges(arms, start) };
+    let along = in_edges(arms, vector);
     let is_finite = |way: [f64; 2]| way[0].is_finite() && way[1].is_finite();
     (is_finite(start) && is_finite(along)).then_some(Foot { corner, start, along })
+}
+
+/// A way in the plane of a corner's arms, in terms of these; what is none is not finite.
+#[inline(always)]
+pub fn in_edges([to_next, to_prev]: Arms, way: DVec3) -> [f64; 2] {
+    let normal = to_next.cross(to_prev);
+    let square = normal.length_squared();
+    [way.cross(to_prev), to_next.cross(way)].map(|part| {
+        let weight = part.dot(normal) / square;
+        if weight.abs() < LEAST_WEIGHT { 0.0 } else { weight }
+    })
 }
 
 #[cfg(test)]

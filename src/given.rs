@@ -29,7 +29,7 @@ pub struct Given<'a> {
     pub rests: &'a Rests,
     /// `#clusters`: see [`deep`].
     pub deep: &'a IdVec<Cluster, bool>,
-    /// `#triangles`: see [`crate::room::Room`]; none of them as long as that is not known.
+    /// `#triangles`: see [`crate::room::plenty`]; of some that have it may not be known.
     pub plenty: &'a IdVec<Triangle, bool>,
     pub threads: &'a Threads,
 }

@@ -104,7 +104,7 @@ fn bounded<'a>(
     watch: &dyn Watch,
 ) -> Result<Limits<'a>, Error> {
     let reason = |sector: Sector| {
-        let is_narrow = given.offsets[sector].moves() && shares[sector] < 1.0;
+        let is_narrow = shares[sector] < 1.0 && given.offsets[sector].moves();
         if is_narrow { Reason::NoRoom } else { Reason::None }
     };
     Ok(Limits {

@@ -19,6 +19,7 @@ impl Turn {
     pub const ZERO: Turn = Turn { half_turns: 0, cos: 1.0, sin: 0.0 };
 
     /// The angle (0 to pi) between two directions of any length; zero if one has no length.
+    #[inline]
     pub fn between(a: DVec3, b: DVec3) -> Turn {
         let cos = a.dot(b);
         let sin = a.cross(b).length();
@@ -26,11 +27,13 @@ impl Turn {
     }
 
     /// The angle (0 to pi) by which a direction in the upper half of a plane turns from ahead.
+    #[inline]
     pub fn toward(ahead: f64, aside: f64) -> Turn {
         Turn::below_half(ahead, aside, ahead.hypot(aside))
     }
 
     /// The angle (0 to pi) of a direction of some length in the upper half of a plane.
+    #[inline]
     fn below_half(ahead: f64, aside: f64, length: f64) -> Turn {
         let (cos, sin) = (ahead / length, aside / length);
         if length > 0.0 && sin == 0.0 && cos < 0.0 {
@@ -43,6 +46,7 @@ impl Turn {
     }
 
     /// The sum of two angles.
+    #[inline]
     pub fn plus(self, other: Turn) -> Turn {
         let mut sum = self.rotated(other.cos, other.sin);
         sum.half_turns += other.half_turns;
@@ -50,6 +54,7 @@ impl Turn {
     }
 
     /// The difference to a smaller angle.
+    #[inline]
     pub fn minus(self, smaller: Turn) -> Turn {
         let cos = self.cos * smaller.cos + self.sin * smaller.sin;
         let sin = self.sin * smaller.cos - self.cos * smaller.sin;
@@ -61,19 +66,23 @@ impl Turn {
         }
     }
 
+    #[inline]
     pub fn half(self) -> Turn {
-        let (mut cos, mut sin) =
-            (((1.0 + self.cos) / 2.0).max(0.0).sqrt(), ((1.0 - self.cos) / 2.0).max(0.0).sqrt());
-        if self.half_turns % 2 == 1 {
-            (cos, sin) = (-sin, cos);
+        let [cos, sin] =
+            [1.0 + self.cos, 1.0 - self.cos].map(|twice| (twice / 2.0).max(0.0).sqrt());
+        let half_turns = self.half_turns / 2;
+        if self.half_turns.is_multiple_of(2) {
+            return Turn { half_turns, cos, sin };
         }
-        Turn { half_turns: self.half_turns / 2, cos: 1.0, sin: 0.0 }.rotated(cos, sin)
+        Turn { half_turns, cos: 1.0, sin: 0.0 }.rotated(-sin, cos)
     }
 
+    #[inline]
     pub fn sin(self) -> f64 {
         if self.half_turns.is_multiple_of(2) { self.sin } else { -self.sin }
     }
 
+    #[inline]
     pub fn cos(self) -> f64 {
         if self.half_turns.is_multiple_of(2) { self.cos } else { -self.cos }
     }
@@ -84,6 +93,7 @@ impl Turn {
     }
 
     /// Adds an angle of at most pi, given by its cosine and sine.
+    #[inline]
     fn rotated(self, cos: f64, sin: f64) -> Turn {
         let new_cos = self.cos * cos - self.sin * sin;
         let new_sin = self.sin * cos + self.cos * sin;

@@ -37,7 +37,7 @@ use crate::watch::{Times, Watch};
 pub use along::go_along;
 pub use fronts::{is_one_face, narrow, narrow_all, parts};
 use large::{MANY_CORNERS, offset_of_large};
-use place::{Way, place};
+use place::place;
 pub use turned::turned;
 
 /// No vertex moves farther than this many widths: between edges that meet at less than 39 degrees
@@ -69,6 +69,8 @@ pub struct Offset {
     /// Whether the sector's corners are of one vertex, all on faces that have a plane and no hard edge
     /// between them: then all streams are read at the foot.
     pub is_plain: bool,
+    /// Whether these faces are in one plane, too.
+    pub is_even: bool,
 }
 
 impl Offset {
@@ -81,6 +83,7 @@ impl Offset {
             is_capped: false,
             fronts: [1.0; 2],
             is_plain: false,
+            is_even: false,
         }
     }
 
@@ -125,32 +128,31 @@ pub fn offsets(
     known: Option<&Known>,
     (threads, watch): (&Threads, &dyn Watch),
 ) -> Result<IdVec<Sector, Offset>, Error> {
-    let (Surface { view, topology, faces }, Chamfers { sectors, .. }) = (surface, chamfers);
+    let (Surface { topology, .. }, Chamfers { sectors, .. }) = (surface, chamfers);
     let count = sectors.fans.len();
     let slow = &Times(STEPS_OF_SECTOR, watch);
     let large = Mutex::new(Vec::new());
-    let mut offsets = threads.map_with(count, slow, Vec::new, |spread, sector| {
-        if let Some(offset) = known.and_then(|known| known.of(topology, sectors, sector)) {
-            return offset;
-        }
-        let fan = &sectors.fans[sector];
-        spread.clear();
-        for corner in sectors.corners(topology, sector) {
-            if spread.len() == MANY_CORNERS {
+    let mut offsets = threads.map_with(
+        count,
+        slow,
+        Vec::new,
+        #[inline(always)]
+        |spread, sector| {
+            if let Some(offset) = known.and_then(|known| known.of(topology, sectors, sector)) {
+                return offset;
+            }
+            let fan = &sectors.fans[sector];
+            let Some(is_even) = unfold(surface, fan, (spread, MANY_CORNERS)) else {
                 large.lock().unwrap_or_else(PoisonError::into_inner).push(sector);
                 return Offset::none(fan.first);
-            }
-            spread.push(blade(view, corner, spread.last()));
-        }
-        let is_even = is_even(view, faces, fan, spread);
-        let course = course(surface, chamfers.edges, fan, (spread, is_even));
-        let way = course.as_ref().and_then(|course| place(surface, (spread, is_even), course));
-        told(fan, course, way, is_even || is_plain(surface, fan, spread))
-    })?;
+            };
+            offset(surface, chamfers.edges, fan, (spread, is_even))
+        },
+    )?;
     for sector in large.into_inner().unwrap_or_else(PoisonError::into_inner) {
         offsets[sector] = offset_of_large(surface, chamfers, sector, watch)?;
     }
-    go_along(surface, sectors, &mut offsets, watch)?;
+    go_along(surface, sectors, (&mut offsets, None), watch)?;
     Ok(offsets)
 }
 
@@ -160,10 +162,15 @@ struct Blade {
     arms: Arms,
     /// The angle from the fan's first edge to the corner's first edge.
     start: Turn,
-    /// The angle of the corner.
-    angle: Turn,
     /// The angle from the fan's first edge to the corner's last edge.
     end: Turn,
+}
+
+impl Blade {
+    /// The angle of the corner.
+    fn angle(&self) -> Turn {
+        Turn::between(self.arms[0], self.arms[1])
+    }
 }
 
 /// A corner of a fan, unfolded next to the one before it.
@@ -172,42 +179,65 @@ fn blade(view: &View, corner: Corner, before: Option<&Blade>) -> Blade {
     let arms = arms(view, corner);
     let angle = Turn::between(arms[0], arms[1]);
     match before {
-        None => Blade { corner, arms, start: Turn::ZERO, angle, end: angle },
-        Some(&Blade { end: start, .. }) => {
-            Blade { corner, arms, start, angle, end: start.plus(angle) }
-        }
+        None => Blade { corner, arms, start: Turn::ZERO, end: angle },
+        Some(&Blade { end: start, .. }) => Blade { corner, arms, start, end: start.plus(angle) },
     }
+}
+
+/// Unfolds the corners of a fan, and tells whether it is one flat face with one texture, as most are:
+/// nothing in it bends, or parts. None if there are more than so many.
+#[inline(always)]
+fn unfold(
+    Surface { view, topology, faces }: Surface,
+    fan: &Fan,
+    (spread, most): (&mut Vec<Blade>, usize),
+) -> Option<bool> {
+    let (mut corner, face) = (fan.first, fan.first.triangle());
+    let (vertex, normal) = (view.vertex_at(corner), faces.normal[face]);
+    let (at, mut arms) = (view.position(vertex), arms(view, corner));
+    let (mut start, mut end) = (Turn::ZERO, Turn::between(arms[0], arms[1]));
+    let mut is_even = !fan.is_broken && normal != DVec3::ZERO && !faces.is_line(face);
+    spread.clear();
+    spread.push(Blade { corner, arms, start, end });
+    while corner != fan.last {
+        if spread.len() == most {
+            return None;
+        }
+        let before = corner.prev();
+        corner = topology.twin[before];
+        is_even = is_even
+            && view.vertex_at(corner) == vertex
+            && view.vertex_at(corner.next()) == view.vertex_at(before)
+            && faces.normal[corner.triangle()] == normal
+            && !faces.is_line(corner.triangle());
+        arms = match is_even {
+            true => [arms[1], view.position_at(corner.prev()) - at],
+            false => self::arms(view, corner),
+        };
+        (start, end) = (end, end.plus(Turn::between(arms[0], arms[1])));
+        spread.push(Blade { corner, arms, start, end });
+    }
+    Some(is_even)
 }
 
 /// Where the vertex of a fan goes, or that it stays.
-#[inline]
-fn told(fan: &Fan, course: Option<Course>, way: Option<Way>, is_plain: bool) -> Offset {
-    match (course, way) {
-        (Some(Course { corner, is_capped, .. }), Some((vector, foot))) => {
-            Offset { vector, within: corner, foot, is_capped, fronts: [1.0; 2], is_plain }
-        }
-        _ => Offset { is_plain, ..Offset::none(fan.first) },
-    }
-}
-
-/// Whether a fan is one flat face with one texture, as most are: nothing in it bends, or parts.
-fn is_even(view: &View, faces: &Faces, fan: &Fan, spread: &[Blade]) -> bool {
-    let Some((first, rest)) = spread.split_first() else { return false };
-    let face = first.corner.triangle();
-    let (vertex, normal) = (view.vertex_at(first.corner), faces.normal[face]);
-    let mut before = first.corner;
-    let mut goes_on = |blade: &Blade| {
-        let corner = blade.corner;
-        let far = [corner.next(), std::mem::replace(&mut before, corner).prev()];
-        view.vertex_at(corner) == vertex
-            && view.vertex_at(far[0]) == view.vertex_at(far[1])
-            && faces.normal[corner.triangle()] == normal
-            && !faces.is_line(corner.triangle())
-    };
-    !fan.is_broken && normal != DVec3::ZERO && !faces.is_line(face) && rest.iter().all(&mut goes_on)
+#[inline(always)]
+fn offset(
+    surface: Surface,
+    edges: &Edges,
+    fan: &Fan,
+    (spread, is_even): (&[Blade], bool),
+) -> Offset {
+    let is_plain = is_even || is_plain(surface, fan, spread);
+    let stays = || Offset { is_plain, is_even, ..Offset::none(fan.first) };
+    let Some(course) = course(surface, edges, fan, (spread, is_even)) else { return stays() };
+    let Some((vector, foot)) = place(surface, (spread, is_even), &course) else { return stays() };
+    let (Course { blade, is_capped, .. }, fronts) = (course, [1.0; 2]);
+    Offset { vector, within: blade.corner, foot, is_capped, fronts, is_plain, is_even }
 }
 
 /// Whether a fan has one vertex, and a plane on every face.
+#[inline(never)]
 fn is_plain(Surface { view, faces, .. }: Surface, fan: &Fan, spread: &[Blade]) -> bool {
     let vertex = view.vertex_at(spread[0].corner);
     !fan.is_broken
@@ -220,8 +250,8 @@ fn is_plain(Surface { view, faces, .. }: Surface, fan: &Fan, spread: &[Blade]) -
 }
 
 /// A way to go: an angle inside one corner, and a distance.
-struct Course {
-    corner: Corner,
+struct Course<'a> {
+    blade: &'a Blade,
     /// From the corner's first edge.
     angle: Turn,
     distance: f64,
@@ -229,23 +259,46 @@ struct Course {
 }
 
 /// The widths asked for at a fan's first and at its last edge; at a border, that of the other.
+#[inline(always)]
 fn widths(edges: &Edges, fan: &Fan) -> [f64; 2] {
+    let (first, last) = (fan.first, fan.last.prev());
     let Edges { hard, chamfered_at, .. } = edges;
-    let sides = [fan.first, fan.last.prev()];
-    let [first, last] = sides.map(|side| chamfered_at[side]);
+    let (one, other) = (chamfered_at[first], chamfered_at[last]);
     // The last half-edge ends here: the other side of its edge starts here.
-    let first = first.is_some().then(|| hard[first].width_at_start(sides[0]));
-    let last = last.is_some().then(|| hard[last].width_at_end(sides[1]));
-    let any = first.or(last).unwrap_or_default();
-    [first.unwrap_or(any), last.unwrap_or(any)]
+    match (one.is_some(), other.is_some()) {
+        (true, true) => [hard[one].width_at_start(first), hard[other].width_at_end(last)],
+        (true, false) => [hard[one].width_at_start(first); 2],
+        (false, true) => [hard[other].width_at_end(last); 2],
+        (false, false) => [0.0; 2],
+    }
 }
 
-fn course(
+#[inline(always)]
+fn course<'a>(
     surface: Surface,
     edges: &Edges,
     fan: &Fan,
-    (spread, is_even): (&[Blade], bool),
-) -> Option<Course> {
+    (spread, is_even): (&'a [Blade], bool),
+) -> Option<Course<'a>> {
+    let topology = surface.topology;
+    let is_between_edges = !fan.starts_at_border
+        && !fan.ends_at_border()
+        && topology.twin[fan.first] != fan.last.prev();
+    // So nearly all are.
+    if is_even && is_between_edges && topology.contacts.is_empty() && edges.parted.is_empty() {
+        return meet(spread.last()?.end, spread, widths(edges, fan));
+    }
+    course_beside_others(surface, edges, fan, (spread, is_even))
+}
+
+/// The same beside borders, contacts and edges that stay hard, and where the fan bends.
+#[inline(never)]
+fn course_beside_others<'a>(
+    surface: Surface,
+    edges: &Edges,
+    fan: &Fan,
+    (spread, is_even): (&'a [Blade], bool),
+) -> Option<Course<'a>> {
     let (Surface { view, topology, faces }, widths) = (surface, widths(edges, fan));
     let (first, last) = (spread.first()?, spread.last()?);
     let total = last.end;
@@ -260,8 +313,8 @@ fn course(
         (true, false) | (false, true) if fan.borders_meet => None,
         // At a border the vertex has to stay on it, which no hard edge inside the fan allows.
         (true, false) | (false, true) if !is_even && crease(view, faces, spread).is_hard() => None,
-        (true, false) => slide(first.corner, Turn::ZERO, &[(total, widths[1])]),
-        (false, true) => slide(last.corner, last.angle, &[(total, widths[0])]),
+        (true, false) => slide(first, Turn::ZERO, &[(total, widths[1])]),
+        (false, true) => slide(last, last.angle(), &[(total, widths[0])]),
         // One edge on both sides: it ends here, and its chamfer tapers to a point.
         (false, false) if topology.twin[fan.first] == fan.last.prev() => None,
         (false, false) if is_even => meet(total, spread, widths),
@@ -286,22 +339,21 @@ fn is_parted(topology: &Topology, edges: &Edges, fan: &Fan) -> bool {
 }
 
 /// Along the edge that stays hard: the fan's first one, or the one that it goes on behind.
-fn slide_parted(
+fn slide_parted<'a>(
     surface: Surface,
     edges: &Edges,
-    (fan, spread): (&Fan, &[Blade]),
+    (fan, spread): (&Fan, &'a [Blade]),
     [first, last]: [f64; 2],
-) -> Option<Course> {
+) -> Option<Course<'a>> {
     let Some(parted) = edges.parted_at(fan.first) else {
         let Crease::Hard(blade) = crease(surface.view, surface.faces, spread) else { return None };
-        return slide(blade.corner, Turn::ZERO, &[(blade.start, first)]);
+        return slide(blade, Turn::ZERO, &[(blade.start, first)]);
     };
+    let (blade, whole) = (spread.first()?, spread.last()?);
     if edges.chamfered_at[fan.last.prev()].is_some() {
-        let whole = spread.last()?;
-        return slide(fan.first, Turn::ZERO, &[(whole.end, last)]);
+        return slide(blade, Turn::ZERO, &[(whole.end, last)]);
     }
-    let (corner, distance) = (fan.first, parted.width);
-    Some(Course { corner, angle: Turn::ZERO, distance, is_capped: false })
+    Some(Course { blade, angle: Turn::ZERO, distance: parted.width, is_capped: false })
 }
 
 /// Whether solids touch along an edge inside the fan.
@@ -312,10 +364,15 @@ fn holds_contact(topology: &Topology, spread: &[Blade]) -> bool {
 
 /// To the place that is as far from both edges as asked; half way between them where that is too
 /// far away, as where edges of unlike widths run straight on.
-fn meet(total: Turn, spread: &[Blade], [first, last]: [f64; 2]) -> Option<Course> {
-    if first == last {
-        return bisect(total, spread, first);
-    }
+#[inline(always)]
+fn meet(total: Turn, spread: &[Blade], widths: [f64; 2]) -> Option<Course<'_>> {
+    let [first, last] = widths;
+    if first == last { bisect(total, spread, first) } else { meet_apart(total, spread, widths) }
+}
+
+/// The same where the widths are unlike.
+#[inline(never)]
+fn meet_apart(total: Turn, spread: &[Blade], [first, last]: [f64; 2]) -> Option<Course<'_>> {
     // From the first edge: so far ahead along it, where it is `first` away.
     let ahead = (last + first * total.cos()) / total.sin();
     let (distance, angle) = (ahead.hypot(first), Turn::toward(ahead, first));
@@ -324,7 +381,7 @@ fn meet(total: Turn, spread: &[Blade], [first, last]: [f64; 2]) -> Option<Course
     match blade.filter(|_| is_near) {
         Some(blade) => {
             let angle = angle.minus(blade.start);
-            Some(Course { corner: blade.corner, angle, distance, is_capped: false })
+            Some(Course { blade, angle, distance, is_capped: false })
         }
         None => {
             let between = bisect(total, spread, (first + last) / 2.0)?;
@@ -335,13 +392,13 @@ fn meet(total: Turn, spread: &[Blade], [first, last]: [f64; 2]) -> Option<Course
 
 /// Along the direction at half the fan's angle.
 #[inline(always)]
-fn bisect(total: Turn, spread: &[Blade], width: f64) -> Option<Course> {
+fn bisect(total: Turn, spread: &[Blade], width: f64) -> Option<Course<'_>> {
     let half = total.half();
     let blade = spread.iter().find(|blade| half <= blade.end)?;
     let sine = half.sin();
     let distance = (width / sine).min(width * MITER_LIMIT);
     (sine > 0.0).then(|| Course {
-        corner: blade.corner,
+        blade,
         angle: half.minus(blade.start),
         distance,
         is_capped: sine * MITER_LIMIT < 1.0,
@@ -349,7 +406,7 @@ fn bisect(total: Turn, spread: &[Blade], width: f64) -> Option<Course> {
 }
 
 /// Along an edge of the fan, by the distance that fits the angles to the chamfered edges best.
-fn slide(corner: Corner, angle: Turn, to_chamfered: &[(Turn, f64)]) -> Option<Course> {
+fn slide<'a>(blade: &'a Blade, angle: Turn, to_chamfered: &[(Turn, f64)]) -> Option<Course<'a>> {
     let sines = || to_chamfered.iter().map(|(turn, _)| turn.sin());
     let may_slide = to_chamfered.iter().all(|(turn, _)| turn.is_convex())
         && sines().any(|sine| sine >= LEAST_SLIDE_SINE);
@@ -361,7 +418,7 @@ fn slide(corner: Corner, angle: Turn, to_chamfered: &[(Turn, f64)]) -> Option<Co
     let asked = to_chamfered.iter().map(|(turn, width)| width / widest * turn.sin());
     let best = asked.sum::<f64>() / sines().map(|sine| sine * sine).sum::<f64>();
     may_slide.then(|| Course {
-        corner,
+        blade,
         angle,
         distance: widest * best.min(MITER_LIMIT),
         is_capped: best > MITER_LIMIT,
@@ -369,14 +426,19 @@ fn slide(corner: Corner, angle: Turn, to_chamfered: &[(Turn, f64)]) -> Option<Co
 }
 
 /// Along an edge in the middle of the fan.
-fn slide_inside(total: Turn, blade: &Blade, [first, last]: [f64; 2]) -> Option<Course> {
+fn slide_inside(total: Turn, blade: &Blade, [first, last]: [f64; 2]) -> Option<Course<'_>> {
     let to_chamfered = [(blade.start, first), (total.minus(blade.start), last)];
-    slide(blade.corner, Turn::ZERO, &to_chamfered)
+    slide(blade, Turn::ZERO, &to_chamfered)
 }
 
 /// Along the texture seam inside a fan that leads most nearly to the middle, so that the vertices
 /// of both charts stay in their own; none where that would narrow the chamfer.
-fn slide_on_seam(view: &View, total: Turn, spread: &[Blade], widths: [f64; 2]) -> Option<Course> {
+fn slide_on_seam<'a>(
+    view: &View,
+    total: Turn,
+    spread: &'a [Blade],
+    widths: [f64; 2],
+) -> Option<Course<'a>> {
     let sines = |blade: &Blade| [blade.start.sin(), total.minus(blade.start).sin()];
     let balance = |blade: &Blade| {
         let [one, other] = sines(blade);

@@ -33,7 +33,7 @@ use crate::refine::{
 };
 use crate::report::{Chamfered, EdgeVerdict, Totals};
 use crate::rests::{Most, Rests, rests};
-use crate::room::{Room, room};
+use crate::room::{plenty, room};
 use crate::rounding::{Given as Rounds, Lessen, Rounding, Rows, Search, Triangles, rounding};
 use crate::scale::{Scale, Space};
 use crate::scene::{Placed, chamfer_scene};
@@ -498,10 +498,12 @@ fn make(
     let mut ask = || done(None);
     let watch = Caller::new(&mut ask);
     let deep = &deep(topology, chamfers.sectors, &watch)?;
-    let (none, nowhere, plenty) = (&Rests::default(), &IdVec::default(), &IdVec::default());
-    let vanishing = &vanishing(surface, chamfers, &mut offsets, (threads, &watch))?;
+    let (none, nowhere, unknown) = (&Rests::default(), &IdVec::default(), &IdVec::default());
+    let work = (threads, &watch as &dyn Watch);
+    let mut plenty = self::plenty(surface, chamfers.sectors, &offsets, work)?;
+    let vanishing = &vanishing(surface, chamfers, (&mut offsets, &mut plenty), work)?;
     if !vanishing.runs.is_empty() {
-        go_along(surface, chamfers.sectors, &mut offsets, &watch)?;
+        go_along(surface, chamfers.sectors, (&mut offsets, Some(&mut plenty)), &watch)?;
     }
     let base = Given {
         offsets: nowhere,
@@ -511,21 +513,21 @@ fn make(
         chamfers,
         apart: None,
         deep,
-        plenty,
+        plenty: unknown,
         threads,
     };
-    let asked = &Given { offsets: &offsets, ..base };
-    let mut room = evenness(asked, room(asked, &watch)?, options.evenness.into(), &watch)?;
-    let narrowed = (&mut offsets, &mut room.plenty);
+    let asked = &Given { offsets: &offsets, plenty: &plenty, ..base };
+    let room = evenness(asked, room(asked, &watch)?, options.evenness.into(), &watch)?;
+    let narrowed = (&mut offsets, &mut plenty);
     narrow_all(surface, chamfers.sectors, narrowed, &room.fronts, &watch)?;
-    let asked = &Given { offsets: &offsets, ..base };
+    let asked = &Given { offsets: &offsets, plenty: &plenty, ..base };
     let shares = room.shares(asked, &watch)?;
     // The stages to come take far more memory than these, so what they do not read is given back.
-    let Room { plenty, .. } = room;
+    drop(room);
     watch.worked(view.corner_count())?;
     let most = Most { offsets: &offsets, shares: &shares };
     let rests = &rests(surface, chamfers, contacts, most, (threads, &watch))?;
-    let given = &Given { rests, plenty: &plenty, ..*asked };
+    let given = &Given { rests, ..*asked };
     let mut limits = self::limits(given, &shares, options.verify, &watch)?;
     let apart = apart(surface, chamfers.sectors, &limits.placement, options.segments, &watch)?;
     if apart.is_some() {

@@ -46,7 +46,12 @@ impl<'a> Placement<'a> {
         let count = placement.share.len();
         placement.point =
             threads.map(count, watch, |s| placement.point_at(s, placement.share[s]))?;
-        placement.normals = threads.map(count, watch, |sector| placement.normals_of(sector))?;
+        placement.normals = threads.map(
+            count,
+            watch,
+            #[inline(always)]
+            |sector| placement.normals_of(sector),
+        )?;
         Ok(placement)
     }
 
@@ -132,14 +137,14 @@ impl<'a> Placement<'a> {
         if sector.is_none() { self.surface.view.position_at(corner) } else { self.point[sector] }
     }
 
-    /// The normal at a corner that is the first (0) or the last (1) one of its sector.
-    #[inline]
-    pub fn normal_at_end(&self, corner: Corner, end: usize) -> DVec3 {
-        let sector = self.sectors.sector_of[corner];
+    /// The point and the normal at a corner that is the first (0) or the last (1) one of its sector.
+    #[inline(always)]
+    pub fn at_end(&self, corner: Corner, end: usize) -> (DVec3, DVec3) {
+        let (view, sector) = (self.surface.view, self.sectors.sector_of[corner]);
         if sector.is_none() {
-            return self.surface.view.normal_at(corner);
+            return (view.position_at(corner), view.normal_at(corner));
         }
-        self.normals[sector][end]
+        (self.point[sector], self.normals[sector][end])
     }
 
     /// The normal at a corner; between the first and the last corner of a sector, the last one's.
@@ -176,16 +181,22 @@ impl<'a> Placement<'a> {
     }
 
     /// The normals where a sector stands, at its first and at its last corner.
+    #[inline(always)]
     fn normals_of(&self, sector: Sector) -> [DVec3; 2] {
+        let offset = &self.offsets[sector];
+        if offset.is_plain && self.has_moved(sector) {
+            return [self.normal_on(&offset.foot, sector); 2];
+        }
+        self.normals_of_parts(sector)
+    }
+
+    /// The same where they may be of several parts, or stay.
+    #[inline(never)]
+    fn normals_of_parts(&self, sector: Sector) -> [DVec3; 2] {
         let (view, fan) = (self.surface.view, &self.sectors.fans[sector]);
-        let ends = [fan.first, fan.last];
         // A move that rounding swallows leaves the vertex, and so its normal, as it was.
         if !self.has_moved(sector) {
-            return ends.map(|corner| view.normal_at(corner));
-        }
-        let offset = &self.offsets[sector];
-        if offset.is_plain {
-            return [self.normal_on(&offset.foot, sector); 2];
+            return [fan.first, fan.last].map(|corner| view.normal_at(corner));
         }
         let at = |corner: Corner| self.normal_on(&self.surface_foot(sector, corner), sector);
         let first = at(fan.first);
@@ -197,10 +208,10 @@ impl<'a> Placement<'a> {
     #[inline(always)]
     fn normal_on(&self, foot: &Foot, sector: Sector) -> DVec3 {
         let view = self.surface.view;
-        let normals = foot.corner.triangle().corners().map(|corner| view.normal_at(corner));
+        let [a, b, c] = foot.corner.triangle().corners().map(|corner| view.vertex_at(corner));
         // Most faces are flat: nothing is to be blended.
-        if normals[0] == normals[1] && normals[0] == normals[2] {
-            return normals[0];
+        if view.has_one_normal(a, b) && view.has_one_normal(a, c) {
+            return view.normal(a);
         }
         blended_normal(view, &foot.blend(view, self.share[sector]))
     }

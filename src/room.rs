@@ -16,8 +16,11 @@ use crate::error::Error;
 use crate::given::Given;
 use crate::ids::{Corner, Few, IdVec, Sector, Triangle};
 use crate::math::area_vector;
-use crate::offsets::parts;
+use crate::offsets::{Offset, parts};
 use crate::resample::told_share;
+use crate::sectors::Sectors;
+use crate::surface::Surface;
+use crate::threads::Threads;
 use crate::watch::{Watch, sort};
 
 /// A triangle may give away all but this share of its area. Somewhat more than what validity asks
@@ -33,9 +36,6 @@ pub struct Room {
     /// all triangles of the sector.
     pub fronts: IdVec<Sector, [f64; 2]>,
     pub parts: KnownParts,
-    /// `#triangles`: whether it is so large for how far its corners can go that it keeps its way and most
-    /// of its area and breadth wherever they stand.
-    pub plenty: IdVec<Triangle, bool>,
 }
 
 impl Room {
@@ -47,12 +47,17 @@ impl Room {
     pub fn shares(&self, given: &Given, watch: &dyn Watch) -> Result<IdVec<Sector, f64>, Error> {
         let Given { surface, chamfers, offsets, .. } = *given;
         let is_painted = surface.view.is_painted();
-        given.threads.map(self.fronts.len(), watch, |sector| {
-            let [first, last] = self.fronts[sector];
-            let share = first.max(last);
-            let told = || told_share(surface, chamfers.sectors, &offsets[sector], sector);
-            if is_painted && share > 0.0 { share.min(told()) } else { share }
-        })
+        given.threads.map(
+            self.fronts.len(),
+            watch,
+            #[inline(always)]
+            |sector| {
+                let [first, last] = self.fronts[sector];
+                let share = larger(first, last);
+                let told = || told_share(surface, chamfers.sectors, &offsets[sector], sector);
+                if is_painted && share > 0.0 { smaller(share, told()) } else { share }
+            },
+        )
     }
 }
 
@@ -91,6 +96,49 @@ impl KnownParts {
     }
 }
 
+/// `#triangles`: whether it is so large for how far its corners can go that it keeps its way and most of
+/// its area and breadth wherever they stand, and half of each side. They take at most their way
+/// along its sides of twice its area, and what two of them span; a breadth is that over the length of a
+/// side. Half of its area is left then, within thirty degrees of its old plane, and no side turns around;
+/// and as rounding counts, it is so where the corners are stored.
+///
+/// # Errors
+/// [`Error::Cancelled`] where the watch stops it.
+pub fn plenty(
+    Surface { view, faces, .. }: Surface,
+    sectors: &Sectors,
+    offsets: &IdVec<Sector, Offset>,
+    (threads, watch): (&Threads, &dyn Watch),
+) -> Result<IdVec<Triangle, bool>, Error> {
+    let stays = (1.0 - PLENTY) / view.least_breadth.max(LEAST_SHARE);
+    let most_of_side = (stays / SAFETY - 1.0) / 2.0;
+    let way_of = |sector: Sector| {
+        if sector.is_some() { offsets[sector].vector.length_squared() } else { 0.0 }
+    };
+    threads.map(faces.normal.len(), watch, |triangle: Triangle| {
+        let ways = triangle.corners().map(|corner| way_of(sectors.sector_of[corner]));
+        let way = larger(larger(ways[0], ways[1]), ways[2]).sqrt() + view.resolution;
+        let [a, b, c] = view.triangle(triangle);
+        let sides = [b - a, c - b, a - c].map(DVec3::length_squared);
+        // Three numbers are at most as much together as if all were their root mean square.
+        let sum = (3.0 * (sides[0] + sides[1] + sides[2])).sqrt();
+        let shortest = smaller(smaller(sides[0], sides[1]), sides[2]);
+        way * (sum + 3.0 * way) < PLENTY * area_vector([a, b, c]).length()
+            && way < most_of_side * shortest.sqrt()
+            && !faces.is_line(triangle)
+    })
+}
+
+/// Of two numbers; of what is none it does not matter which.
+fn larger(one: f64, other: f64) -> f64 {
+    if one > other { one } else { other }
+}
+
+/// The same.
+fn smaller(one: f64, other: f64) -> f64 {
+    if one < other { one } else { other }
+}
+
 /// The room that there is.
 ///
 /// # Errors
@@ -102,9 +150,8 @@ pub fn room(given: &Given, watch: &dyn Watch) -> Result<Room, Error> {
     let (first, later, due) = (Vec::new(), BinaryHeap::new(), IdVec::default());
     let mut filling = Filling { given, fronts, parts, first, later, due };
     let triangles = given.surface.faces.normal.len();
-    let plenty = given.threads.map(triangles, watch, |triangle| filling.has_plenty(triangle))?;
     filling.due = given.threads.map(triangles, watch, |triangle| {
-        let event = if plenty[triangle] { None } else { filling.event(triangle, 0.0) };
+        let event = if given.plenty[triangle] { None } else { filling.event(triangle, 0.0) };
         event.map_or(GROWING, |event| event.share)
     })?;
     let pressed = filling.due.ids().filter(|&triangle| filling.due[triangle] != GROWING);
@@ -117,7 +164,7 @@ pub fn room(given: &Given, watch: &dyn Watch) -> Result<Room, Error> {
     }
     let Filling { mut fronts, parts, .. } = filling;
     fronts.iter_mut().for_each(|fronts| *fronts = fronts.map(|share| share.min(1.0)));
-    Ok(Room { fronts, parts, plenty })
+    Ok(Room { fronts, parts })
 }
 
 /// A triangle that has given away all it can when everything has grown to a share.
@@ -164,8 +211,7 @@ struct Filling<'a> {
 /// The share of a front that has not stopped.
 const GROWING: f64 = f64::INFINITY;
 
-/// A triangle whose corners go so little of its area, as [`Filling::has_plenty`] counts it, keeps all
-/// that it has to.
+/// A triangle whose corners go so little of its area, as [`plenty`] counts it, keeps all that it has to.
 const PLENTY: f64 = 0.5;
 
 /// What of a sector grows by itself.
@@ -227,27 +273,6 @@ impl Filling<'_> {
             }
         }
         moving
-    }
-
-    /// Whether a triangle is so large for how far its corners can go that it cannot run out of
-    /// anything. They take at most their way along its sides of twice its area, and what two of them
-    /// span; a breadth is that over the length of a side. Half of its area is left then, within thirty
-    /// degrees of its old plane, and no side turns around; and as rounding counts, it is so where the
-    /// corners are stored.
-    fn has_plenty(&self, triangle: Triangle) -> bool {
-        let view = self.given.surface.view;
-        let way = |sector: Sector| {
-            if sector.is_some() { self.given.offsets[sector].vector.length_squared() } else { 0.0 }
-        };
-        let way = self.sectors(triangle).into_iter().map(way).fold(0.0, f64::max).sqrt();
-        let (way, old) = (way + view.resolution, view.triangle(triangle));
-        let sides = [0, 1, 2].map(|k| old[k].distance(old[(k + 1) % 3]));
-        let taken = way * (sides[0] + sides[1] + sides[2] + 3.0 * way);
-        let stays = (1.0 - PLENTY) / view.least_breadth.max(LEAST_SHARE);
-        let shortest = sides[0].min(sides[1]).min(sides[2]);
-        taken < PLENTY * area_vector(old).length()
-            && (1.0 + 2.0 * way / shortest) * SAFETY < stays
-            && !self.given.surface.faces.is_line(triangle)
     }
 
     /// A triangle that does not move, with what has to be left of it.

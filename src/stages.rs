@@ -16,7 +16,7 @@ use crate::options::{Options, Verify, Width};
 use crate::patches::{Patches, patches};
 use crate::placement::Placement;
 use crate::rests::{Most, Rests, rests};
-use crate::room::room;
+use crate::room::{plenty, room};
 use crate::scale::Space;
 use crate::sectors::{Sectors, sectors};
 use crate::selection::selection;
@@ -74,22 +74,31 @@ pub fn stages_of_mesh<'a>(mesh: Mesh<'a>, options: &Options) -> Stages<'a> {
     let surface = Surface { view: &view, topology: &topology, faces: &faces };
     let chamfers = Chamfers { edges: &edges, sectors: &sectors };
     let mut offsets = offsets(surface, chamfers, None, (&threads, &Unwatched)).unwrap();
-    let vanishing = vanishing(surface, chamfers, &mut offsets, (&threads, &Unwatched)).unwrap();
-    go_along(surface, &sectors, &mut offsets, &Unwatched).unwrap();
+    let mut plenty = plenty(surface, &sectors, &offsets, work).unwrap();
+    let vanishing = vanishing(surface, chamfers, (&mut offsets, &mut plenty), work).unwrap();
+    go_along(surface, &sectors, (&mut offsets, Some(&mut plenty)), &Unwatched).unwrap();
     let deep = deep(&topology, &sectors, &Unwatched).unwrap();
-    let (narrowed, shares, plenty) = {
+    let (narrowed, shares) = {
         let (offsets, rests, deep, threads) = (&offsets, &Rests::default(), &deep, &threads);
-        let plenty = &IdVec::default();
-        let (vanishing, apart) = (&vanishing, None);
-        let given =
-            &Given { surface, chamfers, offsets, vanishing, apart, rests, deep, plenty, threads };
+        let (vanishing, apart, known) = (&vanishing, None, &plenty.clone());
+        let given = &Given {
+            surface,
+            chamfers,
+            offsets,
+            vanishing,
+            apart,
+            rests,
+            deep,
+            plenty: known,
+            threads,
+        };
         let room = room(given, &Unwatched).unwrap();
-        let mut room = evenness(given, room, options.evenness.into(), &Unwatched).unwrap();
+        let room = evenness(given, room, options.evenness.into(), &Unwatched).unwrap();
         let mut narrowed = offsets.clone();
-        let all = (&mut narrowed, &mut room.plenty);
+        let all = (&mut narrowed, &mut plenty);
         narrow_all(surface, &sectors, all, &room.fronts, &Unwatched).unwrap();
         let shares = room.shares(&Given { offsets: &narrowed, ..*given }, &Unwatched).unwrap();
-        (narrowed, shares, room.plenty)
+        (narrowed, shares)
     };
     let most = Most { offsets: &narrowed, shares: &shares };
     let rests = rests(surface, chamfers, &contacts, most, (&threads, &Unwatched)).unwrap();

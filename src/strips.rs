@@ -59,14 +59,13 @@ impl Cut {
 }
 
 /// The strip of an edge where the sectors stand now.
+#[inline]
 pub fn quad(placement: &Placement, edge: &HardEdge) -> Quad {
-    let corners = corners(edge);
+    let [b1, a1, a2, b2] = corners(edge);
     // A side starts at the first corner of a sector, and ends at the last one of another.
-    let ends = [1, 0, 1, 0];
-    Quad {
-        points: corners.map(|corner| placement.position_at(corner)),
-        normals: [0, 1, 2, 3].map(|k| placement.normal_at_end(corners[k], ends[k])),
-    }
+    let (b1, a1) = (placement.at_end(b1, 1), placement.at_end(a1, 0));
+    let (a2, b2) = (placement.at_end(a2, 1), placement.at_end(b2, 0));
+    Quad { points: [b1.0, a1.0, a2.0, b2.0], normals: [b1.1, a1.1, a2.1, b2.1] }
 }
 
 /// Cuts the strip by the diagonal that folds less.
@@ -98,11 +97,13 @@ fn folds_more_from_b1([b1, a1, a2, b2]: [DVec3; 4]) -> f64 {
 }
 
 /// Whether all triangles of the cut strip face outwards, and neither pulled edge runs backwards.
+#[inline]
 pub fn is_valid(quad: &Quad, cut: Cut, edge: DVec3, resolution: f64) -> bool {
     let [b1, a1, a2, b2] = quad.points;
     let runs_along = |from: DVec3, to: DVec3| (to - from).dot(edge) > 0.0;
-    let faces = |triangle: &[usize; 3]| {
-        faces_out(triangle.map(|k| quad.points[k]), triangle.map(|k| quad.normals[k]), resolution)
+    let faces = |&[a, b, c]: &[usize; 3]| {
+        let (at, normals) = (&quad.points, &quad.normals);
+        faces_out([at[a], at[b], at[c]], [normals[a], normals[b], normals[c]], resolution)
     };
     runs_along(a1, b1) && runs_along(a2, b2) && cut.triangles().iter().all(faces)
 }

@@ -2,6 +2,8 @@
 //!
 //! Every value is computed by itself and put at its own place, so the result is the same for any
 //! number of threads.
+//! What is done for each id is called in two places, by one thread and by many, so it is put inline in
+//! neither, unless asked to be: where it is little, the call takes as long.
 
 #[cfg(feature = "parallel")]
 use std::sync::mpsc::{RecvTimeoutError, channel};
@@ -80,7 +82,13 @@ impl Threads {
         watch: &dyn Watch,
         value: impl Fn(I) -> T + Sync + Send,
     ) -> Result<IdVec<I, T>, Error> {
-        self.map_with(count, watch, || (), |(), id| value(id))
+        self.map_with(
+            count,
+            watch,
+            || (),
+            #[inline(always)]
+            |(), id| value(id),
+        )
     }
 
     /// As [`Threads::map`], with a scratch value that each thread makes once.
@@ -108,10 +116,10 @@ impl Threads {
         scratch: impl Fn() -> S + Sync + Send,
         value: impl Fn(&mut S, I) -> T + Sync + Send,
     ) -> Result<(), Error> {
-        let value = |scratch: &mut S, index| value(scratch, I::new(index));
         #[cfg(feature = "parallel")]
         if let Some(pool) = self.pool.as_ref().filter(|_| count >= LEAST_WORK) {
             use rayon::prelude::*;
+            let value = |scratch: &mut S, index| value(scratch, I::new(index));
             for start in (0..count).step_by(STEPS) {
                 let some = start..count.min(start + STEPS);
                 let of_some = some.clone().into_par_iter().map_init(&scratch, &value);
@@ -122,7 +130,7 @@ impl Threads {
         }
         let mut scratch = scratch();
         for stretch in stretches(count, watch) {
-            values.extend(stretch?.map(|index| value(&mut scratch, index)));
+            values.extend(stretch?.map(|index| value(&mut scratch, I::new(index))));
         }
         Ok(())
     }
@@ -302,13 +310,13 @@ impl Threads {
         count: usize,
         is_such: impl Fn(I) -> bool + Sync + Send,
     ) -> Vec<I> {
-        let such = |index| Some(I::new(index)).filter(|&id| is_such(id));
         #[cfg(feature = "parallel")]
         if let Some(pool) = self.pool.as_ref().filter(|_| count >= LEAST_WORK) {
             use rayon::prelude::*;
-            return pool.install(|| (0..count).into_par_iter().filter_map(such).collect());
+            let all = (0..count).into_par_iter().map(I::new);
+            return pool.install(|| all.filter(|&id| is_such(id)).collect());
         }
-        (0..count).filter_map(such).collect()
+        (0..count).map(I::new).filter(|&id| is_such(id)).collect()
     }
 
     /// As [`Threads::filter`], telling a watch again and again.
@@ -325,7 +333,11 @@ impl Threads {
         for start in (0..count).step_by(STEPS) {
             let some = STEPS.min(count - start);
             let id = |within: I| I::new(start + within.index());
-            let found = self.filter(some, |within: I| is_such(id(within)));
+            let found = self.filter(
+                some,
+                #[inline(always)]
+                |within: I| is_such(id(within)),
+            );
             such.extend(found.into_iter().map(id));
             watch.worked(some)?;
         }

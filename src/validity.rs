@@ -51,8 +51,9 @@ pub fn survives(old: [DVec3; 3], new: [DVec3; 3]) -> bool {
 /// A triangle whose corners all passed each other has its old normal again, but its sides are
 /// reversed.
 fn keeps_direction(old: [DVec3; 3], new: [DVec3; 3]) -> bool {
-    let side = |points: [DVec3; 3], k: usize| points[(k + 1) % 3] - points[k];
-    (0..3).map(|k| side(old, k).dot(side(new, k))).sum::<f64>() > 0.0
+    let sides = |[a, b, c]: [DVec3; 3]| [b - a, c - b, a - c];
+    let ([a, b, c], after) = (sides(old), sides(new));
+    a.dot(after[0]) + b.dot(after[1]) + c.dot(after[2]) > 0.0
 }
 
 /// Whether a new triangle has area and faces the way its vertex normals point. `resolution` is

@@ -19,7 +19,7 @@ use glam::DVec3;
 use crate::chamfers::Chamfers;
 use crate::edges::HardEdge;
 use crate::error::Error;
-use crate::ids::{Corner, Edge, IdVec, Sector};
+use crate::ids::{Corner, Edge, IdVec, Sector, Triangle};
 use crate::math::unit;
 use crate::offsets::{MITER_LIMIT, Offset, is_one_face, turned};
 use crate::surface::Surface;
@@ -60,17 +60,20 @@ pub struct Run {
     pub share: f64,
 }
 
-/// Where short edges would hold the others back, their sectors get other offsets.
+/// Where short edges would hold the others back, their sectors get other offsets. The sides of triangles
+/// that have plenty of room do not vanish (`plenty: #triangles`); of those around what goes elsewhere then it
+/// is not known any more.
 ///
 /// # Errors
 /// [`Error::Cancelled`] where the watch stops it.
 pub fn vanishing(
     surface: Surface,
     chamfers: Chamfers,
-    offsets: &mut IdVec<Sector, Offset>,
+    (offsets, plenty): (&mut IdVec<Sector, Offset>, &mut IdVec<Triangle, bool>),
     (threads, watch): (&Threads, &dyn Watch),
 ) -> Result<Vanishing, Error> {
-    let mut sides = Rims { surface, chamfers, offsets }.vanishing_sides((threads, watch))?;
+    let mut sides =
+        Rims { surface, chamfers, offsets }.vanishing_sides(plenty, (threads, watch))?;
     let mut plain = BTreeMap::new();
     let mut runs: Vec<Gathering> = Vec::new();
     for _ in 0..MOST_PASSES {
@@ -85,6 +88,8 @@ pub fn vanishing(
             let before = std::mem::replace(&mut offsets[sector], offset);
             plain.entry(sector).or_insert(before);
             gathered.insert(sector);
+            let corners = chamfers.sectors.corners(surface.topology, sector);
+            corners.for_each(|corner| plenty[corner.triangle()] = false);
             let fan = &chamfers.sectors.fans[sector];
             sides.extend([fan.first, fan.last.prev()]);
         }
@@ -132,13 +137,15 @@ impl Rims<'_> {
     /// The sides that vanish, in the order of their edges.
     fn vanishing_sides(
         &self,
+        plenty: &IdVec<Triangle, bool>,
         (threads, watch): (&Threads, &dyn Watch),
     ) -> Result<Vec<Corner>, Error> {
         let (hard, mut sides) = (&self.chamfers.edges.hard, Vec::new());
         let note = |_: &Vec<Corner>, edge: Edge, notes: &mut Vec<Corner>| {
-            let edge = &hard[edge];
-            let is_open = edge.skipped.is_none();
-            notes.extend(edge.sides.into_iter().filter(|&side| is_open && self.vanishes(side)));
+            let HardEdge { sides, skipped, .. } = hard[edge];
+            let may_vanish = |side: &Corner| skipped.is_none() && !plenty[side.triangle()];
+            let vanishes = |side: &Corner| may_vanish(side) && self.vanishes(*side);
+            notes.extend(sides.into_iter().filter(vanishes));
         };
         threads
             .blocks_then((hard.len(), watch), &mut sides, note, |all, notes| all.append(notes))?;
@@ -216,7 +223,7 @@ impl Rims<'_> {
             && !fan.is_broken
             && is_chamfered(fan.first)
             && is_chamfered(fan.last.prev())
-            && is_one_face(self.surface, self.chamfers.sectors, sector)
+            && is_one_face(self.surface, self.chamfers.sectors, (sector, &self.offsets[sector]))
     }
 
     /// The run that begins at a side which vanishes; none where the whole rim does, or the edges beside the
@@ -291,8 +298,10 @@ mod tests {
     use crate::mesh::{EdgeFactor, Factors, Mesh, MeshBuffers};
     use crate::options::{Options, Width};
     use crate::pipeline::chamfer;
+    use crate::room::plenty;
     use crate::shapes::{self, Builder};
     use crate::stages::{Stages, stages_of, stages_of_mesh};
+    use crate::watch::Unwatched;
 
     /// A plate over an outline that is seen whole from its first point.
     fn plate(outline: &[[f32; 2]]) -> MeshBuffers {
@@ -344,6 +353,29 @@ mod tests {
         let both = stages.shares.ids().filter(|&sector| stages.shares[sector] == 1.0).count();
         assert!(both >= 10, "all corners of the front and of the back have room");
         assert_chamfers_well(&mesh, 0.2);
+    }
+
+    #[test]
+    fn sides_of_what_has_plenty_of_room_do_not_vanish() {
+        let (mut with_plenty, mut vanished) = (0, 0);
+        let meshes = shapes::demo_models().into_iter().map(|(_, mesh)| mesh);
+        for mesh in meshes.chain([plate(&BEVELLED)]) {
+            for width in [0.01, 0.05, 0.2] {
+                let stages = stages_of(&mesh, width);
+                let (surface, chamfers) = (stages.surface(), stages.chamfers());
+                let offsets = &stages.narrowed;
+                let work: (&Threads, &dyn Watch) = (&stages.threads, &Unwatched);
+                let plenty = plenty(surface, &stages.sectors, offsets, work).unwrap();
+                let rims = Rims { surface, chamfers, offsets };
+                for side in stages.edges.hard.iter().flat_map(|edge| edge.sides) {
+                    let vanishes = rims.vanishes(side);
+                    assert!(!(plenty[side.triangle()] && vanishes));
+                    with_plenty += usize::from(plenty[side.triangle()]);
+                    vanished += usize::from(vanishes);
+                }
+            }
+        }
+        assert!(with_plenty > 100 && vanished > 0, "{with_plenty} {vanished}");
     }
 
     // .----.          the bevel of one corner is as long as the width asks for: nothing vanishes

@@ -187,6 +187,13 @@ impl<'a> View<'a> {
         wide(self.mesh.normals[vertex.index()])
     }
 
+    /// Whether two vertices have the very same normal.
+    #[inline]
+    pub fn has_one_normal(&self, one: Vertex, other: Vertex) -> bool {
+        let [one, other] = [one, other].map(|vertex| self.mesh.normals[vertex.index()]);
+        Vec3::from(one) == Vec3::from(other)
+    }
+
     /// Whether two normals are those of a hard edge. One without length differs from none.
     #[inline]
     pub fn normals_differ(&self, normals: [DVec3; 2]) -> bool {

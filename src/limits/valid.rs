@@ -34,15 +34,16 @@ pub fn bad_elements(
     let is_bad = |element| !is_valid(given, placement, element);
     let triangles = given.surface.faces.normal.len();
     let triangles = threads.filter_watched(triangles, watch, |triangle| {
-        is_touched(given, triangle)
-            && !is_surely_valid(given, placement, triangle)
+        !is_surely_valid(given, placement, triangle)
+            && is_touched(given, triangle)
             && is_bad(Element::Surface(triangle))
     })?;
     let edges = threads.filter_watched(given.chamfers.edges.hard.len(), watch, |edge| {
-        given.chamfers.edges.hard[edge].skipped.is_none() && is_bad(Element::Strip(edge))
+        given.chamfers.edges.hard[edge].skipped.is_none() && !strip_is_valid(given, placement, edge)
     })?;
     let rings = given.chamfers.sectors.rings.len();
-    let rings = threads.filter_watched(rings, watch, |ring| is_bad(Element::Fill(ring)))?;
+    let rings =
+        threads.filter_watched(rings, watch, |ring| !fill_is_valid(given, placement, ring))?;
     let surface = triangles.into_iter().map(Element::Surface);
     let strips = edges.into_iter().map(Element::Strip);
     let flaps =
@@ -58,9 +59,7 @@ fn is_touched(given: &Given, triangle: Triangle) -> bool {
 pub fn is_valid(given: &Given, placement: &Placement, element: Element) -> bool {
     match element {
         Element::Surface(triangle) => surface_is_valid(given, placement, triangle),
-        Element::Strip(edge) => {
-            strip_is_valid(given, placement, edge) && contacts_are_kept(given, placement, edge)
-        }
+        Element::Strip(edge) => strip_is_valid(given, placement, edge),
         Element::Fill(ring) => fill_is_valid(given, placement, ring),
         Element::Flap(place) => {
             let joints = flap_joints(given, place);
@@ -77,12 +76,14 @@ fn is_surely_valid(given: &Given, placement: &Placement, triangle: Triangle) -> 
     if given.apart.is_some() || !given.plenty[triangle] {
         return false;
     }
-    let corners = triangle.corners();
-    let normal = given.surface.view.normal_at(corners[0]);
+    let [a, b, c] = triangle.corners();
+    let normal = given.surface.view.normal_at(a);
     let upright = normal.dot(given.surface.faces.normal[triangle]);
     upright > 0.0
         && upright * upright >= LEAST_SURE_SQUARE * normal.length_squared()
-        && corners.iter().all(|&corner| placement.normal_at(corner) == normal)
+        && placement.normal_at(a) == normal
+        && placement.normal_at(b) == normal
+        && placement.normal_at(c) == normal
 }
 
 fn surface_is_valid(given: &Given, placement: &Placement, triangle: Triangle) -> bool {
@@ -142,20 +143,22 @@ fn facing_after(placement: &Placement, triangle: Triangle) -> DVec3 {
 }
 
 fn strip_is_valid(given: &Given, placement: &Placement, edge: Edge) -> bool {
-    let edge = &given.chamfers.edges.hard[edge];
-    let quad = strips::quad(placement, edge);
-    let [from, to] =
-        [edge.sides[0], edge.sides[0].next()].map(|c| given.surface.view.position_at(c));
-    let resolution = given.surface.view.resolution;
-    strips::is_valid(&quad, strips::cut(quad.points), to - from, resolution)
+    let (view, hard) = (given.surface.view, &given.chamfers.edges.hard[edge]);
+    let quad = strips::quad(placement, hard);
+    let [from, to] = [hard.sides[0], hard.sides[0].next()].map(|c| view.position_at(c));
+    strips::is_valid(&quad, strips::cut(quad.points), to - from, view.resolution)
+        && contacts_are_kept(given, placement, edge)
 }
 
 /// Whether a strip leaves everything covered that rests beside its edge.
+#[inline]
 pub fn contacts_are_kept(given: &Given, placement: &Placement, edge: Edge) -> bool {
     // Beside most edges nothing rests.
-    if given.rests.of(edge).is_empty() {
-        return true;
-    }
+    given.rests.of(edge).is_empty() || rests_are_kept(given, placement, edge)
+}
+
+#[inline(never)]
+fn rests_are_kept(given: &Given, placement: &Placement, edge: Edge) -> bool {
     let [b1, a1, a2, b2] = strips::corners(&given.chamfers.edges.hard[edge])
         .map(|corner| placement.position_at(corner));
     let wedge =

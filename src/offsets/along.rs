@@ -7,7 +7,7 @@ use super::{Offset, STEPS_OF_SECTOR};
 use crate::error::Error;
 use crate::faces::Faces;
 use crate::foot::locate;
-use crate::ids::{Corner, Few, IdVec, Sector};
+use crate::ids::{Corner, Few, IdVec, Sector, Triangle};
 use crate::math::{area_vector, unit};
 use crate::sectors::{Follower, Sectors};
 use crate::surface::Surface;
@@ -15,16 +15,21 @@ use crate::tolerance::{CREASE_COSINE, LEVEL_COSINE};
 use crate::view::View;
 use crate::watch::{Times, Watch};
 
-/// Hidden faces, and the lines along an edge, move as what they lie at does.
+/// Hidden faces, and the lines along an edge, move as what they lie at does. Where it was known of their
+/// triangles whether these have plenty of room (`plenty: #triangles`), it is not any more.
 ///
 /// # Errors
 /// [`Error::Cancelled`] where the watch stops it.
 pub fn go_along(
     Surface { view, topology, faces }: Surface,
     sectors: &Sectors,
-    offsets: &mut IdVec<Sector, Offset>,
+    (offsets, mut plenty): (&mut IdVec<Sector, Offset>, Option<&mut IdVec<Triangle, bool>>),
     watch: &dyn Watch,
 ) -> Result<(), Error> {
+    let mut forget = |corners: &[Corner]| {
+        let known = plenty.iter_mut();
+        known.for_each(|plenty| corners.iter().for_each(|c| plenty[c.triangle()] = false));
+    };
     let slow = &Times(STEPS_OF_SECTOR, watch);
     for followers in sectors.followers.chunk_by(|one, other| one.sector == other.sector) {
         slow.worked(followers.len())?;
@@ -33,6 +38,7 @@ pub fn go_along(
         watch.worked(corners.len())?;
         if let Some(offset) = follow(view, faces, offsets, &corners, followers) {
             offsets[sector] = offset;
+            forget(&corners);
         }
     }
     for &corner in &sectors.spanned {
@@ -41,6 +47,7 @@ pub fn go_along(
         watch.worked(fan.len())?;
         if let Some(offset) = span(view, faces, sectors, offsets, &fan) {
             offsets[sectors.sector_of[corner]] = offset;
+            forget(&fan);
         }
     }
     Ok(())

@@ -33,7 +33,7 @@ pub fn parts(
     if fan.starts_at_border || fan.ends_at_border() || topology.twin[fan.first] == fan.last.prev() {
         return None;
     }
-    if !is_one_face(surface, sectors, sector) {
+    if !is_one_face(surface, sectors, (sector, offset)) {
         return None;
     }
     let normal = faces.normal[fan.first.triangle()];
@@ -52,8 +52,11 @@ pub fn parts(
 pub fn is_one_face(
     Surface { view, topology, faces }: Surface,
     sectors: &Sectors,
-    sector: Sector,
+    (sector, offset): (Sector, &Offset),
 ) -> bool {
+    if offset.is_even {
+        return true;
+    }
     let normal = faces.normal[sectors.fans[sector].first.triangle()];
     let mut before: Option<Corner> = None;
     sectors.corners(topology, sector).all(|corner| {

@@ -1,7 +1,6 @@
 //! Large sectors: what takes long by itself is told of corner by corner.
 
-use super::place::place;
-use super::{Offset, blade, course, is_plain, told};
+use super::{Offset, blade, offset};
 use crate::chamfers::Chamfers;
 use crate::error::Error;
 use crate::ids::Sector;
@@ -26,9 +25,7 @@ pub fn offset_of_large(
             watch.worked(MANY_CORNERS)?;
         }
     }
-    let course = course(surface, chamfers.edges, fan, (&spread, false));
-    watch.worked(spread.len())?;
-    let way = course.as_ref().and_then(|course| place(surface, (&spread, false), course));
-    watch.worked(spread.len())?;
-    Ok(told(fan, course, way, is_plain(surface, fan, &spread)))
+    let offset = offset(surface, chamfers.edges, fan, (&spread, false));
+    watch.worked(2 * spread.len())?;
+    Ok(offset)
 }

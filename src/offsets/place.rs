@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::{Blade, Course};
 use crate::breaks::{is_hard, same_chart, seam_between, uv_at};
 use crate::faces::Faces;
-use crate::foot::{Arms, Foot, arms, locate, locate_by};
+use crate::foot::{Foot, arms, in_edges, locate, locate_by};
 use crate::ids::{Corner, Few, Id};
 use crate::math::{area_vector, unit};
 use crate::mesh::{UV_CHANNELS, Uv};
@@ -26,7 +26,7 @@ const ONE_MAP: f64 = 1e-4;
 const MOST_BEYOND: usize = 16;
 
 /// A vector, and where it ends.
-pub type Way = (DVec3, Foot);
+type Way = (DVec3, Foot);
 
 /// The way in space; none where the corner has no plane. Vector and foot lie in one plane, so that the
 /// foot blends to the very place.
@@ -36,40 +36,52 @@ pub fn place(
     (spread, is_even): (&[Blade], bool),
     course: &Course,
 ) -> Option<Way> {
+    let Blade { corner, arms, .. } = *course.blade;
+    if is_even {
+        // Of what is not finite the foot is not, either.
+        let vector = way(surface.faces, course, corner);
+        let along = in_edges(arms, vector);
+        if along.iter().all(|part| part.abs() <= FARTHEST) {
+            return Some((vector, Foot { along, ..Foot::at(corner) }));
+        }
+    }
+    place_by_planes(surface, (spread, is_even), course)
+}
+
+/// The same where other planes may tell more.
+#[inline(never)]
+fn place_by_planes(
+    surface: Surface,
+    (spread, is_even): (&[Blade], bool),
+    course: &Course,
+) -> Option<Way> {
     let Surface { view, faces, .. } = surface;
-    let blade = spread.iter().find(|blade| blade.corner == course.corner)?;
-    let own = on(surface, (course, blade.arms), course.corner)?;
+    let own = on(surface, course, course.blade.corner)?;
     if (is_even || is_flat(view, faces, spread, course)) && own.1.reach() <= FARTHEST {
         return Some(own).filter(|own| is_sound(faces, course, own));
     }
-    let way = by_others(surface, spread, (course, blade.arms), own)?;
+    let way = by_others(surface, spread, course, own)?;
     Some(way).filter(|way| is_sound(faces, course, way))
 }
 
 /// Where a course leads in the plane of a triangle at the fan's centre.
-#[inline(always)]
-fn on(surface: Surface, (course, arms): (&Course, Arms), plane: Corner) -> Option<Way> {
-    let Surface { view, faces, .. } = surface;
-    let vector = way(faces, (course, arms), plane);
+fn on(surface: Surface, course: &Course, plane: Corner) -> Option<Way> {
+    let (Surface { view, faces, .. }, blade) = (surface, course.blade);
+    let vector = way(faces, course, plane);
     let carrier = carrier(faces, plane);
-    let foot = if carrier == course.corner {
-        locate_by(arms, carrier, DVec3::ZERO, vector)
+    let foot = if carrier == blade.corner {
+        locate_by(blade.arms, carrier, DVec3::ZERO, vector)
     } else {
-        locate(view, carrier, view.position_at(course.corner), vector)
+        locate(view, carrier, view.position_at(blade.corner), vector)
     };
     Some((vector, foot?))
 }
 
 /// The same where larger triangles tell more of it, or the own one too little.
 #[inline(never)]
-fn by_others(
-    surface: Surface,
-    spread: &[Blade],
-    (course, arms): (&Course, Arms),
-    own: Way,
-) -> Option<Way> {
-    let (Surface { view, faces, .. }, within) = (surface, course.corner);
-    let on = |plane: Corner| on(surface, (course, arms), plane);
+fn by_others(surface: Surface, spread: &[Blade], course: &Course, own: Way) -> Option<Way> {
+    let (Surface { view, faces, .. }, within) = (surface, course.blade.corner);
+    let on = |plane: Corner| on(surface, course, plane);
     let steadiest = steadiest(view, faces, spread, within);
     let steady = if steadiest == within { own } else { on(steadiest)? };
     let is_level = |one: DVec3, other: DVec3| one.distance(other) <= view.resolution * LEVEL_HEIGHT;
@@ -83,12 +95,12 @@ fn by_others(
 }
 
 fn is_sound(faces: &Faces, course: &Course, (vector, _): &Way) -> bool {
-    faces.normal[course.corner.triangle()] != DVec3::ZERO && vector.is_finite()
+    faces.normal[course.blade.corner.triangle()] != DVec3::ZERO && vector.is_finite()
 }
 
 /// Whether all planes in a fan that could be the corner's own lead to the same place.
 fn is_flat(view: &View, faces: &Faces, spread: &[Blade], course: &Course) -> bool {
-    let own = faces.normal[course.corner.triangle()];
+    let own = faces.normal[course.blade.corner.triangle()];
     // A way in a plane turns with its normal, and is then put down onto it.
     let most = view.resolution * LEVEL_HEIGHT / (4.0 * course.distance);
     spread.iter().all(|blade| {
@@ -105,9 +117,9 @@ fn carrier(faces: &Faces, corner: Corner) -> Corner {
 
 /// The way of a course in the plane of a triangle at the fan's centre.
 #[inline(always)]
-fn way(faces: &Faces, (course, [ahead, _]): (&Course, Arms), plane: Corner) -> DVec3 {
+fn way(faces: &Faces, course: &Course, plane: Corner) -> DVec3 {
     let normal = faces.normal[plane.triangle()];
-    let ahead = unit(ahead);
+    let ahead = unit(course.blade.arms[0]);
     let aside = normal.cross(ahead);
     let way = (ahead * course.angle.cos() + aside * course.angle.sin()) * course.distance;
     way - normal * way.dot(normal)

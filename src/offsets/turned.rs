@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::place::place;
-use super::{Blade, Course, Offset, blade, is_even};
+use super::{Course, Offset, unfold};
 use crate::ids::Sector;
 use crate::math::{Turn, unit};
 use crate::sectors::Sectors;
@@ -18,21 +18,17 @@ pub fn turned(
     offset: &Offset,
     vector: DVec3,
 ) -> Option<Offset> {
-    let Surface { view, topology, faces } = surface;
     let fan = &sectors.fans[sector];
-    let mut spread: Vec<Blade> = Vec::new();
-    for corner in sectors.corners(topology, sector) {
-        spread.push(blade(view, corner, spread.last()));
-    }
+    let mut spread = Vec::new();
+    let is_even = unfold(surface, fan, (&mut spread, usize::MAX))?;
     let ahead = unit(spread[0].arms[0]);
-    let aside = faces.normal[fan.first.triangle()].cross(ahead);
+    let aside = surface.faces.normal[fan.first.triangle()].cross(ahead);
     let angle = direction(vector.dot(ahead), vector.dot(aside));
     let blade = spread.iter().find(|blade| angle <= blade.end)?;
     let (angle, distance) = (angle.minus(blade.start), vector.length());
-    let course = Course { corner: blade.corner, angle, distance, is_capped: false };
-    let spread = (&spread[..], is_even(view, faces, fan, &spread));
-    let (vector, foot) = place(surface, spread, &course)?;
-    Some(Offset { vector, foot, within: course.corner, is_capped: false, ..*offset })
+    let course = Course { blade, angle, distance, is_capped: false };
+    let (vector, foot) = place(surface, (&spread, is_even), &course)?;
+    Some(Offset { vector, foot, within: blade.corner, is_capped: false, ..*offset })
 }
 
 /// The angle (0 to two pi) of a direction in the plane.

@@ -34,13 +34,14 @@ pub fn is_kept(given: &Given, triangle: Triangle, [old, new]: [[DVec3; 3]; 2]) -
     let whole = area_vector(old);
     let area = whole.dot(area_vector(new));
     let least = given.surface.view.least_breadth * whole.length_squared();
-    let side = |points: [DVec3; 3], k: usize| points[(k + 1) % 3] - points[k];
+    let sides = |[a, b, c]: [DVec3; 3]| [b - a, c - b, a - c];
+    let (all_before, all_after) = (sides(old), sides(new));
     let rounding = || {
-        let longest = (0..3).map(|k| side(new, k).length_squared()).fold(0.0, f64::max).sqrt();
+        let longest = all_after.iter().map(|side| side.length_squared()).fold(0.0, f64::max).sqrt();
         whole.length() * longest * given.surface.view.resolution
     };
     (0..3).all(|k| {
-        let (before, after) = (side(old, k), side(new, k));
+        let (before, after) = (all_before[k], all_after[k]);
         let (square, asked) = (before.length_squared(), least * before.dot(after));
         area * square >= asked
             || !ends_face(given, triangle.corners()[k])
