@@ -196,12 +196,17 @@ fn together(
     let tree = Tree::watched(&boxes, &[], watch)?;
     let mut near = Groups::singles(boxes.len());
     let all = tree.open_leaves(|_| true, watch)?;
-    for (count, (one, other)) in tree.pairs(&all).enumerate() {
-        if count > MOST_PAIRS * boxes.len() {
-            return Ok(None);
-        }
-        watch.worked(1)?;
+    let mut left = MOST_PAIRS * boxes.len();
+    let pair = |one, other| {
+        left = left.checked_sub(1).ok_or(None)?;
         near.join(tree.number(one), tree.number(other));
+        Ok(())
+    };
+    // None where there are too many pairs.
+    match tree.each_pair(&all, |looks| watch.worked(looks).map_err(Some), pair) {
+        Err(None) => return Ok(None),
+        Err(Some(error)) => return Err(error),
+        Ok(()) => {}
     }
     let near = near.labels();
     let together = |&part: &u32| Cluster(first[near[number_of[part as usize]] as usize]);

@@ -22,6 +22,9 @@ use turned::TurnedBox;
 /// How many boxes a leaf holds: testing so few one by one costs less than another node.
 const LEAF_SIZE: usize = 4;
 
+/// So many nodes and places are looked at before that is told.
+const MOST_LOOKS: usize = 1024;
+
 /// Where something lies as seen from what it has in common with others (see `intersect::crowds`).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Kin {
@@ -346,54 +349,83 @@ impl Tree {
         collect(self.nodes.len(), watch, holds_open)
     }
 
-    /// The pairs of places that are not apart, each once: those in open leaves (`open: #nodes`) with
-    /// all others.
-    pub fn pairs<'a>(&'a self, open: &'a [bool]) -> impl Iterator<Item = (usize, usize)> + 'a {
-        self.pairs_counted(open, &|| ())
-    }
-
-    /// As [`Tree::pairs`], calling `step` whenever it looks at a node or at two places.
-    pub fn pairs_counted<'a, Step: Fn()>(
-        &'a self,
-        open: &'a [bool],
-        step: &'a Step,
-    ) -> impl Iterator<Item = (usize, usize)> + 'a {
+    /// Calls `pair` for each two places that are not apart, once: those in open leaves (`open: #nodes`)
+    /// with all others; and `step` again and again, with how many nodes and places it has looked at.
+    ///
+    /// # Errors
+    /// What either gives, and no more is called.
+    pub fn each_pair<E>(
+        &self,
+        open: &[bool],
+        mut step: impl FnMut(usize) -> Result<(), E>,
+        mut pair: impl FnMut(usize, usize) -> Result<(), E>,
+    ) -> Result<(), E> {
         // Where all are open, those before a leaf have met it already.
         let are_all = self.leaves().all(|leaf| open[leaf]);
-        let leaves = self.leaves().filter(|&leaf| open[leaf]);
-        leaves
-            .flat_map(move |leaf| {
-                let from = if are_all { leaf } else { 0 };
-                let near = self.leaves_near(from, move |node| {
-                    step();
-                    self.nodes_are_apart(leaf, node)
-                });
-                near.filter(move |&other| other >= leaf || !open[other]).flat_map(move |other| {
-                    let pair = move |a| {
-                        let from = if other == leaf { a + 1 } else { self.places(other).start };
-                        (from..self.places(other).end).map(move |b| (a, b))
-                    };
-                    self.places(leaf).flat_map(pair)
-                })
-            })
-            .filter(move |&(a, b)| {
-                step();
-                !self.are_apart(a, b)
-            })
+        let tells_more = self.tells_more();
+        for leaf in self.leaves().filter(|&leaf| open[leaf]) {
+            let bounds = self.nodes[leaf].bounds;
+            let (mut node, mut looks) = (if are_all { leaf } else { 0 }, 0);
+            while let Some(Node { bounds: near, next, count, .. }) = self.nodes.get(node) {
+                looks += 1;
+                if looks >= MOST_LOOKS {
+                    step(std::mem::take(&mut looks))?;
+                }
+                if !near.overlaps(&bounds) || (tells_more && self.nodes_are_told_apart(leaf, node))
+                {
+                    node = *next as usize;
+                    continue;
+                }
+                if *count > 0 && (node >= leaf || !open[node]) {
+                    looks += self.pairs_between([leaf, node], tells_more, &mut pair)?;
+                }
+                node += 1;
+            }
+            step(looks)?;
+        }
+        Ok(())
     }
 
-    /// Whether two boxes have no point in common, or are told apart by their kin.
+    /// The same for the places of two leaves, which may be one; tells how many were looked at.
     #[inline]
-    fn are_apart(&self, a: usize, b: usize) -> bool {
-        !self.boxes[a].overlaps(&self.boxes[b])
-            || (!self.kin.is_empty() && self.kin[a].is_apart(&self.kin[b]))
+    fn pairs_between<E>(
+        &self,
+        [leaf, other]: [usize; 2],
+        tells_more: bool,
+        pair: &mut impl FnMut(usize, usize) -> Result<(), E>,
+    ) -> Result<usize, E> {
+        let (near, others) = (self.nodes[other].bounds, self.places(other));
+        let mut looks = 0;
+        for a in self.places(leaf) {
+            let own = self.boxes[a];
+            if !own.overlaps(&near) {
+                continue;
+            }
+            let from = if other == leaf { a + 1 } else { others.start };
+            for (bounds, b) in self.boxes[from..others.end].iter().zip(from..) {
+                looks += 1;
+                if bounds.overlaps(&own) && !(tells_more && self.are_told_apart(a, b)) {
+                    pair(a, b)?;
+                }
+            }
+        }
+        Ok(looks)
+    }
+
+    /// Whether more than boxes along the axes tells what is apart: of most meshes nothing does.
+    fn tells_more(&self) -> bool {
+        !(self.kin.is_empty() && self.views.is_empty() && self.turned.is_empty())
+    }
+
+    /// Whether two places whose boxes overlap are told apart by their kin or an eye.
+    fn are_told_apart(&self, a: usize, b: usize) -> bool {
+        (!self.kin.is_empty() && self.kin[a].is_apart(&self.kin[b]))
             || self.views.iter().any(|view| !view.places[a].overlaps(&view.places[b]))
     }
 
-    #[inline]
-    fn nodes_are_apart(&self, a: usize, b: usize) -> bool {
-        !self.nodes[a].bounds.overlaps(&self.nodes[b].bounds)
-            || (!self.node_kin.is_empty() && self.node_kin[a].is_apart(&self.node_kin[b]))
+    /// The same for nodes, and by their turned boxes.
+    fn nodes_are_told_apart(&self, a: usize, b: usize) -> bool {
+        (!self.node_kin.is_empty() && self.node_kin[a].is_apart(&self.node_kin[b]))
             || self.views.iter().any(|view| !view.nodes[a].overlaps(&view.nodes[b]))
             || (!self.turned.is_empty() && (self.keeps_off(a, b) || self.keeps_off(b, a)))
     }
@@ -412,15 +444,26 @@ mod tests {
     use crate::watch::tests::Count;
 
     fn pairs(boxes: &[Aabb]) -> Vec<(u32, u32)> {
-        let tree = Tree::new(boxes, &[]);
-        let named = |(a, b): (usize, usize)| (tree.number(a), tree.number(b));
-        let mut pairs: Vec<(u32, u32)> = tree
-            .pairs(&tree.open_leaves(|_| true, &Unwatched).unwrap())
-            .map(named)
-            .map(|(a, b)| (a.min(b), a.max(b)))
-            .collect();
-        pairs.sort_unstable();
-        pairs
+        all_pairs(&Tree::new(boxes, &[]))
+    }
+
+    /// The numbers of all pairs of a tree, the lower one first, sorted.
+    fn all_pairs(tree: &Tree) -> Vec<(u32, u32)> {
+        open_pairs(tree, |_| true)
+    }
+
+    /// The same of those in leaves in which something is open.
+    fn open_pairs(tree: &Tree, is_open: impl Fn(u32) -> bool) -> Vec<(u32, u32)> {
+        let open = tree.open_leaves(is_open, &Unwatched).unwrap();
+        let mut found = Vec::new();
+        let pair = |a, b| {
+            let (a, b) = (tree.number(a), tree.number(b));
+            found.push((a.min(b), a.max(b)));
+            Ok::<(), Error>(())
+        };
+        tree.each_pair(&open, |_| Ok(()), pair).unwrap();
+        found.sort_unstable();
+        found
     }
 
     fn scattered(size: f32) -> Vec<Aabb> {
@@ -488,17 +531,6 @@ mod tests {
         let boxes =
             [[[-most; 3], [most; 3]], [[0.0; 3]; 2]].map(|ends| Aabb::around(&ends)).repeat(4);
         assert_eq!(pairs(&boxes).len(), 8 * 7 / 2);
-    }
-
-    /// The numbers of all pairs of a tree, the lower one first, sorted.
-    fn all_pairs(tree: &Tree) -> Vec<(u32, u32)> {
-        let mut found: Vec<(u32, u32)> = tree
-            .pairs(&tree.open_leaves(|_| true, &Unwatched).unwrap())
-            .map(|(a, b)| (tree.number(a), tree.number(b)))
-            .map(|(a, b)| (a.min(b), a.max(b)))
-            .collect();
-        found.sort_unstable();
-        found
     }
 
     #[test]
@@ -574,13 +606,8 @@ mod tests {
         let boxes = scattered(20.0);
         let tree = Tree::new(&boxes, &[]);
         let is_open = |number: u32| number % 23 == 5;
-        let mut found: Vec<(u32, u32)> = tree
-            .pairs(&tree.open_leaves(is_open, &Unwatched).unwrap())
-            .map(|(a, b)| (tree.number(a), tree.number(b)))
-            .filter(|&(a, b)| is_open(a) || is_open(b))
-            .map(|(a, b)| (a.min(b), a.max(b)))
-            .collect();
-        found.sort_unstable();
+        let mut found = open_pairs(&tree, is_open);
+        found.retain(|&(a, b)| is_open(a) || is_open(b));
         let mut expected = overlapping(&boxes);
         expected.retain(|&(a, b)| is_open(a) || is_open(b));
         assert_eq!(found, expected);

@@ -10,9 +10,7 @@
 mod crowds;
 mod eyes;
 
-use std::cell::Cell;
-
-use glam::DVec3;
+use glam::{DVec3, Vec3A};
 use robust::{Coord, Coord3D, orient2d, orient3d};
 
 use crate::bvh::{Aabb, Kin, Tree};
@@ -32,9 +30,6 @@ pub(crate) type Triangle = [[f32; 3]; 3];
 /// With more boxes that overlap for each triangle, directions and turned boxes are asked too. Of a
 /// common mesh it is a dozen.
 const CROWDED: usize = 15;
-
-/// So many are told at a time.
-const MOST_STEPS: usize = 1024;
 
 /// The pairs of triangles that cut each other, the smaller number first, in ascending order.
 ///
@@ -119,21 +114,21 @@ fn cutting_within<Open: Fn(u32) -> bool, Pair: Fn(u32, u32) -> bool>(
 ) -> Result<Option<Vec<(u32, u32)>>, Error> {
     let corners = |t: u32| &triangles[t as usize];
     let (mut pairs, open) = (Vec::new(), tree.open_leaves(&asked.open, watch)?);
-    let steps = Cell::new(0);
-    let step = || steps.set(steps.get() + 1);
-    for (looked_at, (a, b)) in tree.pairs_counted(&open, &step).enumerate() {
-        if looked_at == most {
-            return Ok(None);
-        }
-        if steps.get() >= MOST_STEPS {
-            watch.worked(steps.take())?;
-        }
+    let mut left = most;
+    let look = |a, b| {
+        left = left.checked_sub(1).ok_or(None)?;
         let (a, b) = (tree.number(a), tree.number(b));
         if (asked.pair)(a, b) && cut_each_other(corners(a), corners(b)) {
             pairs.push((a.min(b), a.max(b)));
         }
+        Ok(())
+    };
+    // None where there are too many.
+    match tree.each_pair(&open, |looks| watch.worked(looks).map_err(Some), look) {
+        Err(None) => Ok(None),
+        Err(Some(error)) => Err(error),
+        Ok(()) => Ok(Some(pairs)),
     }
-    Ok(Some(pairs))
 }
 
 /// A triangle with two corners at one place cuts nothing, so it meets nothing: otherwise many at
@@ -185,12 +180,9 @@ enum Common {
 
 impl Common {
     fn of(a: &Triangle, b: &Triangle) -> Common {
-        let is_same = |i: usize, j: usize| {
-            let ([ax, ay, az], [bx, by, bz]) = (a[i], b[j]);
-            (ax == bx) & (ay == by) & (az == bz)
-        };
+        let [a_corners, b_corners] = [a, b].map(|triangle| triangle.map(Vec3A::from_array));
         // Bit `3 i + j` where corner i of one is corner j of the other.
-        let bit = |k: usize| u32::from(is_same(k / 3, k % 3)) << k;
+        let bit = |k: usize| u32::from(a_corners[k / 3].cmpeq(b_corners[k % 3]).all()) << k;
         let same = (0..9).fold(0, |same, k| same | bit(k));
         match same.count_ones() {
             0 => Common::None,

@@ -13,7 +13,8 @@ const SPHERE: (u32, u32) = (61, 100);
 
 fn main() {
     let model = std::env::args().nth(1).expect("field, sphere or a file");
-    let usual = Options::default().with_verify(Verify::Fast);
+    let verify = if std::env::args().any(|a| a == "--full") { Verify::Full } else { Verify::Fast };
+    let usual = Options::default().with_verify(verify);
     let (meshes, options) = match model.as_str() {
         "field" => (vec![shapes::cube_field(CUBES)], usual.with_width(Width::Units(0.05))),
         "sphere" => (vec![shapes::sphere(SPHERE.0, SPHERE.1)], usual),
