@@ -80,6 +80,11 @@ const BYTES_PER_PIECE: u64 = 320;
 /// For each source vertex and each corner of a mesh in blocks: its part, its block and its place there.
 const BYTES_PER_SHARED: u64 = 24;
 
+/// The C library of Linux keeps what is given back for what is asked next, up to twice the largest piece
+/// so far, if that was no larger than this and some bytes of its own. Beyond, each array is taken from
+/// the system and given back to it, and touching new pages takes longer than all arithmetic here.
+const LARGEST_KEPT: usize = (32 << 20) - (1 << 16);
+
 /// What even an empty mesh may take, error messages included.
 const BYTES_PER_CALL: u64 = 1 << 20;
 
@@ -221,7 +226,9 @@ fn bytes_per_vertex(mesh: &Mesh) -> u64 {
 pub fn ask(bytes: u64) -> Result<(), Error> {
     let bytes =
         usize::try_from(bytes.saturating_add(BYTES_PER_CALL)).map_err(|_| Error::OutOfMemory)?;
-    Vec::<u8>::new().try_reserve_exact(bytes).map_err(|_| Error::OutOfMemory)
+    let have = |bytes| Vec::<u8>::new().try_reserve_exact(bytes).map_err(|_| Error::OutOfMemory);
+    have(bytes)?;
+    have(bytes.min(LARGEST_KEPT))
 }
 
 /// Room for so many more values in a list that had so many before any of a kind were put there; where
