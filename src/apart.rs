@@ -109,8 +109,9 @@ fn sharing_cells(
     near: f32,
     watch: &dyn Watch,
 ) -> Result<Vec<[Ring; 2]>, Error> {
-    let (mut places, mut rings) = (Vec::with_capacity(sectors.rings.len()), Vec::new());
-    each(sectors.rings.len(), watch, |ring: Ring| {
+    let count = sectors.rings.len();
+    let (mut places, mut rings) = (Vec::with_capacity(count), Vec::with_capacity(count));
+    each(count, watch, |ring: Ring| {
         let ends = ends(base(placement, sectors.ring(ring)[0]), near);
         if is_same(ends[0], ends[1]) {
             places.push(ends[0]);

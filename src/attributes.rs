@@ -63,7 +63,12 @@ pub fn attributes(
     watch.worked(vertex_at.len())?;
     let sectors = chamfers.sectors;
     let count = sectors.fans.len();
-    let has_moved = threads.map(count, watch, |sector| placement.has_moved(sector))?;
+    let has_moved = threads.map(
+        count,
+        watch,
+        #[inline(always)]
+        |sector| placement.has_moved(sector),
+    )?;
     let vertices = surface.view.mesh.positions.len();
     // At a seam both far vertices of a strip are copied.
     let copies = 2 * chamfers.edges.hard.iter().filter(|edge| edge.seams != 0).count();
@@ -75,25 +80,35 @@ pub fn attributes(
     };
     watch.worked(vertices)?;
     let layout = Layout::new(space.source);
-    let note = |_: &Moving, sector: Sector, notes: &mut Notes| {
-        if has_moved[sector] {
-            notes.add((space, surface), (sectors, sector), placement, &layout);
-        }
-    };
     let take = |moving: &mut Moving, notes: &mut Notes| moving.take(surface, sectors, notes);
-    threads.blocks_then((count, watch), &mut moving, note, take)?;
+    threads.blocks_then(
+        (count, watch),
+        &mut moving,
+        #[inline(always)]
+        |_: &Moving, sector: Sector, notes: &mut Notes| {
+            if has_moved[sector] {
+                notes.add((space, surface), (sectors, sector), placement, &layout);
+            }
+        },
+        take,
+    )?;
     let Moving { movers, parted, mut vertex_at, .. } = moving;
-    let add = |vertex: Vertex, columns: &mut Columns| {
-        let (source, mover) = ((space.source, &layout), movers[vertex]);
-        match mover.is_none() {
-            true => columns.push_kept(source, vertex),
-            false => add_moved(source, (surface.view, sectors), (placement, mover), columns),
-        }
-    };
     let mut all = Columns::with_room(&space.source.mesh, count, copies);
-    threads.gather((vertices, watch), &mut all, add, Columns::append)?;
+    threads.gather(
+        (vertices, watch),
+        &mut all,
+        #[inline(always)]
+        |vertex: Vertex, columns: &mut Columns| {
+            let (source, mover) = ((space.source, &layout), movers[vertex]);
+            match mover.is_none() {
+                true => columns.push_kept(source, vertex),
+                false => add_moved(source, (surface.view, sectors), (placement, mover), columns),
+            }
+        },
+        Columns::append,
+    )?;
     let mut streams = Streams::new(all, layout);
-    streams.look_up(weld);
+    streams.look_up(weld, copies);
     add_parted((space, surface), placement, &parted, (&mut streams, &mut vertex_at), watch)?;
     if surface.topology.has_collapsed && has_moved.iter().any(|&has_moved| has_moved) {
         close_collapsed(surface.view, surface.topology, &mut vertex_at);
@@ -424,12 +439,13 @@ pub struct Index {
 }
 
 impl Index {
-    /// Lists the source vertices, where they stand now.
-    pub fn of_source(weld: &Weld, positions: &[[f32; 3]]) -> Index {
+    /// Lists the source vertices, where they stand now, with room for some more.
+    pub fn of_source(weld: &Weld, positions: &[[f32; 3]], room: usize) -> Index {
         let lists_of = lists_of(weld);
         let lists = lists_of.iter().last().map_or(weld.first_vertex.len(), |&end| end as usize);
-        let mut index = Index { lists_of, first: vec![NONE; lists], next: Vec::new() };
-        index.next.resize(weld.cluster_of.len(), NONE);
+        let mut next = Vec::with_capacity(weld.cluster_of.len() + room);
+        next.resize(weld.cluster_of.len(), NONE);
+        let mut index = Index { lists_of, first: vec![NONE; lists], next };
         // From the last to the first: each list begins with its first vertex.
         for vertex in weld.cluster_of.ids().rev() {
             let list = index.list_at(weld.cluster_of[vertex], positions[vertex.index()]);

@@ -119,15 +119,20 @@ pub fn edges(
     (threads, watch): (&Threads, &dyn Watch),
 ) -> Result<Edges, Error> {
     let may_be_noise = AtomicBool::new(false);
-    let mut sides = threads.filter_watched(view.corner_count(), watch, |corner: Corner| {
-        let twin = topology.twin[corner];
-        let ends = (twin.is_some() && corner < twin).then(|| noise::ends(view, [corner, twin]));
-        // Most meshes have no such end at all.
-        if ends == Some(Ends::MayBeNoise) {
-            may_be_noise.store(true, Ordering::Relaxed);
-        }
-        ends.is_some_and(|ends| ends != Ends::Soft)
-    })?;
+    let mut sides = threads.filter_watched(
+        view.corner_count(),
+        watch,
+        #[inline(always)]
+        |corner: Corner| {
+            let twin = topology.twin[corner];
+            let ends = (twin.is_some() && corner < twin).then(|| noise::ends(view, [corner, twin]));
+            // Most meshes have no such end at all.
+            if ends == Some(Ends::MayBeNoise) {
+                may_be_noise.store(true, Ordering::Relaxed);
+            }
+            ends.is_some_and(|ends| ends != Ends::Soft)
+        },
+    )?;
     if may_be_noise.into_inner() {
         let noise = noise::noise(view, topology, &sides);
         watch.worked(sides.len())?;
@@ -251,7 +256,7 @@ pub fn seam_channels(view: &View, side: Corner, other: Corner) -> u8 {
 }
 
 /// The same of some channels.
-#[inline]
+#[inline(always)]
 fn seams_in(channels: impl Iterator<Item = usize>, view: &View, [side, other]: [Corner; 2]) -> u8 {
     let pairs = [[side, other.next()], [side.next(), other]]
         .map(|pair| pair.map(|corner| view.vertex_at(corner)));

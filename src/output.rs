@@ -220,9 +220,9 @@ impl Part {
 
     /// Adds triangles over some vertices, by their places among these.
     fn add_patch(&mut self, triangles: &[[u32; 3]], vertices: &[u32], source: TriangleSource) {
-        let places = triangles.as_flattened().iter();
-        self.indices.extend(places.map(|&place| vertices[place as usize]));
-        self.sources.extend(std::iter::repeat_n(source, triangles.len()));
+        for triangle in triangles {
+            self.add(triangle.map(|place| vertices[place as usize]), source);
+        }
     }
 }
 

@@ -269,6 +269,7 @@ fn mark_soft_breaks(
 
 fn join_rings(topology: &Topology, sectors: &mut Sectors, watch: &dyn Watch) -> Result<(), Error> {
     let count = sectors.fans.len();
+    sectors.members.reserve_exact(count);
     let mut has_borders = false;
     each(count, watch, |sector: Sector| {
         let fan = &mut sectors.fans[sector];

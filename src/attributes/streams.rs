@@ -44,9 +44,9 @@ impl Streams {
         DVec2::new(f64::from(uv.values[first]), f64::from(uv.values[first + 1]))
     }
 
-    /// From here on, what is appended is looked up first. No vertex moves any more.
-    pub fn look_up(&mut self, weld: &Weld) {
-        self.index = Index::of_source(weld, &self.vertices.positions);
+    /// From here on, what is appended is looked up first: about so many. No vertex moves any more.
+    pub fn look_up(&mut self, weld: &Weld, room: usize) {
+        self.index = Index::of_source(weld, &self.vertices.positions, room);
     }
 
     /// A vertex of a cluster that has moved away from others of its source vertex.
@@ -302,7 +302,7 @@ impl Columns {
     }
 
     /// Appends a vertex that has moved, all of whose values are those of one blend, just as in a [`Row`].
-    #[inline]
+    #[inline(always)]
     pub fn push_moved(&mut self, source: (&View, &Layout), position: [f32; 3], blend: Blend) {
         self.push_blended(source, position, [&blend; 2]);
         self.sources.push_moved(blend, None);

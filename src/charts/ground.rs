@@ -244,10 +244,12 @@ impl<'a> Ground<'a> {
         side: Corner,
         (points, near): (&[DVec2], &impl Fn() -> f64),
     ) -> bool {
-        if !self.runs_on(side) {
+        let twin = self.surface.topology.twin[side];
+        // With two coordinates there is no seam where the sides are the same, as they are to be.
+        let is_flat = self.surface.view.mesh.uvs[self.channel].components == 2;
+        if twin.is_none() || !is_flat && !self.runs_on(side) {
             return false;
         }
-        let twin = self.surface.topology.twin[side];
         let beyond = self.face(twin.triangle());
         let ([from, to, apex], [end, start, far]) = (own.from(side), beyond.from(twin));
         let sign = 1.0_f64.copysign(own.area);

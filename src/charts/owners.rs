@@ -12,7 +12,7 @@ use crate::patches::Patches;
 use crate::report::Blend;
 use crate::surface::Surface;
 use crate::threads::Threads;
-use crate::watch::Watch;
+use crate::watch::{STEPS, Watch};
 
 /// Who owns the chamfers.
 pub struct Owners {
@@ -213,7 +213,7 @@ fn regions(
     watch: &dyn Watch,
 ) -> Result<IdVec<Triangle, Triangle>, Error> {
     let mut region = IdVec::filled(Triangle::NONE, surface.view.corner_count() / 3);
-    let mut front = Vec::new();
+    let (mut front, mut reached) = (Vec::new(), 0_usize);
     for seed in surface.view.triangles() {
         if region[seed].is_some() {
             continue;
@@ -221,7 +221,10 @@ fn regions(
         region[seed] = seed;
         front.push(seed);
         while let Some(triangle) = front.pop() {
-            watch.worked(1)?;
+            reached += 1;
+            if reached.is_multiple_of(STEPS) {
+                watch.worked(STEPS)?;
+            }
             for side in triangle.corners() {
                 let twin = surface.topology.twin[side];
                 let is_crossed = edges.chamfered_at[side].is_none() && twin.is_some();

@@ -57,21 +57,24 @@ pub enum Ends {
 }
 
 /// The same of two half-edges that are twins.
-#[inline]
+#[inline(always)]
 pub fn ends(view: &View, [side, twin]: [Corner; 2]) -> Ends {
-    let end = |one: Corner, other: Corner| {
-        let vertices = [one, other].map(|corner| view.vertex_at(corner));
-        if vertices[0] == vertices[1] {
-            return Ends::Soft;
-        }
-        let [one, other] = vertices.map(|vertex| view.normal(vertex));
-        match view.normals_differ([one, other]) {
-            false => Ends::Soft,
-            true if are_nearly_alike([one, other]) => Ends::MayBeNoise,
-            true => Ends::Hard,
-        }
-    };
-    end(side, twin.next()).max(end(side.next(), twin))
+    at_end(view, [side, twin.next()]).max(at_end(view, [side.next(), twin]))
+}
+
+/// The same at one end, of the corners of both sides.
+#[inline(always)]
+fn at_end(view: &View, corners: [Corner; 2]) -> Ends {
+    let vertices = corners.map(|corner| view.vertex_at(corner));
+    if vertices[0] == vertices[1] {
+        return Ends::Soft;
+    }
+    let normals = vertices.map(|vertex| view.normal(vertex));
+    match view.normals_differ(normals) {
+        false => Ends::Soft,
+        true if are_nearly_alike(normals) => Ends::MayBeNoise,
+        true => Ends::Hard,
+    }
 }
 
 /// Whether two normals are as near to each other as noise leaves them, or nearly so: most are not, and this
