@@ -115,3 +115,38 @@ impl Meeting {
         (is_second, along.map(rounded))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::offsets::{offset, unfold};
+    use crate::shapes;
+    use crate::stages::stages_of;
+
+    /// How many fans of a shape are simple, all of which go where unfolding takes them.
+    fn simple_fans(mesh: &crate::mesh::MeshBuffers) -> usize {
+        let stages = stages_of(mesh, 0.1);
+        let mut count = 0;
+        for fan in stages.sectors.fans.iter() {
+            let surface = stages.surface();
+            let Some(simple) = offset_of_simple(surface, &stages.edges, fan) else { continue };
+            let mut spread = Vec::new();
+            let is_even = unfold(surface, fan, (&mut spread, usize::MAX)).unwrap();
+            let unfolded = offset(surface, &stages.edges, fan, (&spread, is_even));
+            assert!(simple.vector.distance(unfolded.vector) < 1e-9, "{simple:?}, {unfolded:?}");
+            assert_eq!(
+                (simple.is_even, simple.is_plain, simple.is_capped),
+                (unfolded.is_even, unfolded.is_plain, unfolded.is_capped)
+            );
+            count += 1;
+        }
+        count
+    }
+
+    #[test]
+    fn a_simple_fan_leads_where_it_would_unfolded() {
+        assert_eq!(simple_fans(&shapes::plain_cube(2.0)), 24);
+        assert!(simple_fans(&shapes::l_shape()) > 0);
+        assert!(simple_fans(&shapes::pyramid(16)) > 0);
+    }
+}
