@@ -12,6 +12,7 @@ mod along;
 mod fronts;
 mod large;
 mod place;
+mod simple;
 mod turned;
 
 use std::sync::{Mutex, PoisonError};
@@ -38,6 +39,7 @@ pub use along::go_along;
 pub use fronts::{is_one_face, narrow, narrow_all, parts};
 use large::{MANY_CORNERS, offset_of_large};
 use place::place;
+use simple::offset_of_simple;
 pub use turned::turned;
 
 /// No vertex moves farther than this many widths: between edges that meet at less than 39 degrees
@@ -142,6 +144,9 @@ pub fn offsets(
                 return offset;
             }
             let fan = &sectors.fans[sector];
+            if let Some(offset) = offset_of_simple(surface, chamfers.edges, fan) {
+                return offset;
+            }
             let Some(is_even) = unfold(surface, fan, (spread, MANY_CORNERS)) else {
                 large.lock().unwrap_or_else(PoisonError::into_inner).push(sector);
                 return Offset::none(fan.first);
@@ -273,6 +278,16 @@ fn widths(edges: &Edges, fan: &Fan) -> [f64; 2] {
     }
 }
 
+/// Whether a fan lies between two chamfered edges, in a mesh where nothing else matters at its ends.
+#[inline(always)]
+fn is_between_edges(Surface { topology, .. }: Surface, edges: &Edges, fan: &Fan) -> bool {
+    !fan.starts_at_border
+        && !fan.ends_at_border()
+        && topology.twin[fan.first] != fan.last.prev()
+        && topology.contacts.is_empty()
+        && edges.parted.is_empty()
+}
+
 #[inline(always)]
 fn course<'a>(
     surface: Surface,
@@ -280,12 +295,8 @@ fn course<'a>(
     fan: &Fan,
     (spread, is_even): (&'a [Blade], bool),
 ) -> Option<Course<'a>> {
-    let topology = surface.topology;
-    let is_between_edges = !fan.starts_at_border
-        && !fan.ends_at_border()
-        && topology.twin[fan.first] != fan.last.prev();
     // So nearly all are.
-    if is_even && is_between_edges && topology.contacts.is_empty() && edges.parted.is_empty() {
+    if is_even && is_between_edges(surface, edges, fan) {
         return meet(spread.last()?.end, spread, widths(edges, fan));
     }
     course_beside_others(surface, edges, fan, (spread, is_even))

@@ -16,7 +16,7 @@ use crate::view::View;
 
 /// Past this many times a triangle's sides, rounding of its streams shows in what it tells of a
 /// place: then a larger triangle in its plane is asked.
-const FARTHEST: f64 = 16.0;
+pub const FARTHEST: f64 = 16.0;
 
 /// Values are one map over two triangles where that of the one is off that of the other by this share of
 /// their size: less than a texel shows.
@@ -98,11 +98,16 @@ fn is_sound(faces: &Faces, course: &Course, (vector, _): &Way) -> bool {
     faces.normal[course.blade.corner.triangle()] != DVec3::ZERO && vector.is_finite()
 }
 
+/// By so much normals may be off each other where a way of some length leads to the same place: in a plane
+/// it turns with the normal, and is then put down onto it.
+pub fn most_lean(view: &View, distance: f64) -> f64 {
+    view.resolution * LEVEL_HEIGHT / (4.0 * distance)
+}
+
 /// Whether all planes in a fan that could be the corner's own lead to the same place.
 fn is_flat(view: &View, faces: &Faces, spread: &[Blade], course: &Course) -> bool {
     let own = faces.normal[course.blade.corner.triangle()];
-    // A way in a plane turns with its normal, and is then put down onto it.
-    let most = view.resolution * LEVEL_HEIGHT / (4.0 * course.distance);
+    let most = most_lean(view, course.distance);
     spread.iter().all(|blade| {
         let normal = faces.normal[blade.corner.triangle()];
         normal.distance_squared(own) <= most * most || normal.dot(own) <= LEVEL_COSINE
