@@ -174,7 +174,7 @@ fn each_block(
     options: &Options,
     progress: &mut dyn FnMut(f32) -> ControlFlow<()>,
 ) -> Result<Chamfered, Error> {
-    let threads = &Threads::new(options.threads, view.corner_count());
+    let threads = &Threads::new(options.threads, work(view, options.verify));
     let alone = &Options { threads: 1, ..*options };
     let done = AtomicUsize::new(0);
     let chamfered = |watch: &dyn Watch, &block: &usize| {
@@ -201,6 +201,15 @@ fn each_block(
     told(progress(1.0))?;
     Ok(joined)
 }
+
+/// How much there is to do, in corners of a mesh that is chamfered by `fast`.
+fn work(view: &View, verify: Verify) -> usize {
+    let times = if verify == Verify::Fast { 1 } else { TIMES_OF_FULL };
+    view.corner_count().saturating_mul(times)
+}
+
+/// So many times as long as `fast` the search for what cuts takes, and more on most meshes that are large.
+const TIMES_OF_FULL: usize = 2;
 
 /// What so many blocks for each thread have made is put together while the next are done: by then that
 /// no thread waits long for the others counts for little.
@@ -293,7 +302,7 @@ fn chamfer_hard(
     done: &mut Done,
 ) -> Result<Chamfered, Error> {
     let view = space.measured;
-    let threads = &Threads::new(options.threads, view.corner_count());
+    let threads = &Threads::new(options.threads, work(view, options.verify));
     let shape = shape(view, weld, &[], options, (threads, done))?;
     let closers = closers(view, &shape, &Caller::new(&mut || done(None)))?;
     if closers.is_empty() {
@@ -430,7 +439,7 @@ fn chamfer_refined(
 ) -> Result<Chamfered, Error> {
     let view = space.measured;
     let fine = &View { mesh: refined.as_mesh(&view.mesh), ..*view };
-    let threads = &Threads::new(options.threads, fine.corner_count());
+    let threads = &Threads::new(options.threads, work(fine, options.verify));
     let ask = &mut || done(None);
     let Some(finer) = finer_shape(fine, refined, &shape, &Caller::new(ask))? else {
         done(Some(Stage::Offsets))?;

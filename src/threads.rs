@@ -20,6 +20,10 @@ use crate::watch::{STEPS, Watch, stretches};
 #[cfg(feature = "parallel")]
 const LEAST_WORK: usize = 4096;
 
+/// A call for fewer corners takes longer with more threads: their memory is touched for the first time.
+#[cfg(feature = "parallel")]
+const LEAST_CORNERS: usize = 1 << 16;
+
 /// So many steps it takes to make a patch or to lay it out, as a watch counts them.
 const STEPS_OF_PATCH: usize = 4;
 
@@ -46,13 +50,14 @@ pub struct Threads {
 }
 
 impl Threads {
-    /// So many threads, or one for each core if that is 0, for a mesh of so many corners. Where
+    /// So many threads, or one for each core if that is 0, for a mesh of so many corners, or what takes as
+    /// long. Where
     /// the system has none to give, the calling thread does all.
     #[cfg(feature = "parallel")]
     pub fn new(wanted: u32, corners: usize) -> Threads {
         let cores = || std::thread::available_parallelism().map_or(1, usize::from);
         let count = if wanted == 0 { cores() } else { wanted as usize };
-        let pays = count > 1 && corners >= LEAST_WORK;
+        let pays = count > 1 && corners >= LEAST_CORNERS;
         let pool = || rayon::ThreadPoolBuilder::new().num_threads(count.min(MOST_THREADS)).build();
         Threads { pool: if pays { pool().ok() } else { None } }
     }
