@@ -31,9 +31,9 @@ fn the_demonstration_models_come_out_as_on_every_machine() {
     assert_eq!(found, known, "CHAMFER_UPDATE_HASHES=1 accepts what was found");
 }
 
-/// Large enough that threads share the work.
+/// Large enough that threads share the work of `full`, and too small for blocks.
 fn field() -> MeshBuffers {
-    shapes::cube_field(500)
+    shapes::cube_field(1000)
 }
 
 #[test]

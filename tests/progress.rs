@@ -12,7 +12,7 @@ use std::ops::ControlFlow;
 use chamfer::{Chamfered, Error, MeshBuffers, Options, Verify, chamfer_with_progress, shapes};
 
 /// All sides in one part, and so within one long stage of `full`.
-const SIDES: u32 = 4_000;
+const SIDES: u32 = 6_000;
 
 /// What is told of a pyramid of many sides, if the caller breaks when it is told so often.
 fn told(verify: Verify, threads: u32, last: usize) -> (Result<Chamfered, Error>, Vec<f32>) {

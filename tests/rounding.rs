@@ -98,7 +98,8 @@ fn points_of_a_rounded_chamfer_say_that_they_lie_on_no_face() {
 
 #[test]
 fn rounding_is_the_same_whatever_is_verified_and_on_threads() {
-    let field = shapes::cube_field(64);
+    // Large enough that threads share the work.
+    let field = shapes::cube_field(1000);
     let options = Options::default().with_segments(3);
     let of = |options: &Options| chamfer(&field.as_mesh(), options).unwrap().mesh;
     let full = of(&options);
