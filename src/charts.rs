@@ -18,7 +18,8 @@ mod fit;
 mod ground;
 mod owners;
 mod strip_map;
-mod sure;
+mod sure_fill;
+mod sure_strip;
 
 use glam::DVec2;
 
@@ -39,7 +40,8 @@ use fill_map::lay_fill;
 use ground::uv_point;
 use owners::owners;
 use strip_map::lay_strip;
-use sure::{OneChannel, lay_sure_fill};
+use sure_fill::lay_sure_fill;
+use sure_strip::OneChannel;
 
 /// The charts that all patches lie in.
 #[derive(Default)]

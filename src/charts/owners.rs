@@ -2,7 +2,7 @@
 
 use super::feet::is_pair;
 use super::strip_map::{Band, StripMap};
-use super::sure::sure_band;
+use super::sure_strip::sure_band;
 use super::{Given, Spread};
 use crate::chamfers::Chamfers;
 use crate::edges::Edges;
