@@ -2,6 +2,7 @@
 //!
 //! Every value is computed by itself and put at its own place, so the result is the same for any
 //! number of threads.
+//!
 //! What is done for each id is called in two places, by one thread and by many, so it is put inline in
 //! neither, unless asked to be: where it is little, the call takes as long.
 
@@ -51,8 +52,7 @@ pub struct Threads {
 
 impl Threads {
     /// So many threads, or one for each core if that is 0, for a mesh of so many corners, or what takes as
-    /// long. Where
-    /// the system has none to give, the calling thread does all.
+    /// long. Where the system has none to give, the calling thread does all.
     #[cfg(feature = "parallel")]
     pub fn new(wanted: u32, corners: usize) -> Threads {
         let cores = || std::thread::available_parallelism().map_or(1, usize::from);
