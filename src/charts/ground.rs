@@ -244,12 +244,10 @@ impl<'a> Ground<'a> {
         side: Corner,
         (points, near): (&[DVec2], &impl Fn() -> f64),
     ) -> bool {
-        let twin = self.surface.topology.twin[side];
-        // With two coordinates there is no seam where the sides are the same, as they are to be.
-        let is_flat = self.surface.view.mesh.uvs[self.channel].components == 2;
-        if twin.is_none() || !is_flat && !self.runs_on(side) {
+        if !self.may_run_on(side) {
             return false;
         }
+        let twin = self.surface.topology.twin[side];
         let beyond = self.face(twin.triangle());
         let ([from, to, apex], [end, start, far]) = (own.from(side), beyond.from(twin));
         let sign = 1.0_f64.copysign(own.area);
@@ -270,7 +268,6 @@ impl<'a> Ground<'a> {
         let at = self.corners[0];
         let [center, first, _] = self.face(at.triangle()).from(at);
         let far = points.iter().map(|point| point.distance_squared(center)).fold(0.0, f64::max);
-        let is_flat = self.surface.view.mesh.uvs[self.channel].components == 2;
         let (mut corner, mut spoke, mut turn) = (at, first, 0.0);
         for _ in 0..MOST_FACES {
             let face = self.face(corner.triangle());
@@ -281,10 +278,10 @@ impl<'a> Ground<'a> {
                 return false;
             }
             let side = corner.prev();
-            (corner, spoke, turn) = (self.surface.topology.twin[side], to, face.area);
-            if corner.is_none() || !is_flat && !self.runs_on(side) {
+            if !self.may_run_on(side) {
                 return false;
             }
+            (corner, spoke, turn) = (self.surface.topology.twin[side], to, face.area);
             if corner == at {
                 return spoke == first;
             }
@@ -412,6 +409,14 @@ impl<'a> Ground<'a> {
             }
         }
         false
+    }
+
+    /// Whether the chart may go on beyond a half-edge, whose ends are still to be compared on the texture: with
+    /// two coordinates there is no seam where these are the same.
+    #[inline]
+    fn may_run_on(&self, side: Corner) -> bool {
+        let is_flat = self.surface.view.mesh.uvs[self.channel].components == 2;
+        self.surface.topology.twin[side].is_some() && (is_flat || self.runs_on(side))
     }
 
     /// Whether the chart goes on beyond a half-edge.
